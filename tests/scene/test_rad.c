@@ -171,6 +171,8 @@ static void glass_by_its_series(void **state) {
     aur_scene_destroy(scene);
 }
 
+#define SPHERE(material) material " sphere s 0 0 4 0 0 0 1\n"
+
 static void bad_input(void **state) {
     (void)state;
     static const struct {
@@ -178,9 +180,11 @@ static void bad_input(void **state) {
         size_t line;
         const char *message;
     } rows[] = {
-        {"\nvoid brightfunc b\n2 a b\n0\n0\n", 2, "'brightfunc' is not read"},
+        {"\nvoid brightfunc b\n2 a b\n0\n0\n" SPHERE("b"), 2, "'brightfunc' is not read"},
         {"void plasic p 0 0 5 1 1 1 0 0", 1, "plastic"},
-        {"void plastic p\n0\n0\n5 1 1 1 .1 0", 1, "specularity of 0.1"},
+        {"void plastic p\n0\n0\n5 1 1 1 .1 0\n" SPHERE("p"), 1, "specularity of 0.1"},
+        {"void trans p 0 0 7 1 1 1 0 0 .5 .5\nvoid alias q p\n" SPHERE("q"), 1, "'trans' is not read"},
+        {"m poligon p 0 0 9 0 0 0 1 0 0 0 1 0", 1, "'poligon' is not read"},
         {"void plastic p\n0\n0\n4 1 1 1 .1", 1, "plastic takes 5 numbers, not 4"},
         {"void plastic p\n0\n0\n5 1 1 1 .1 x", 4, "a number must stand here, not 'x'"},
         {"void plastic p\n0\n0\n5 1 1 nan 0 0", 4, "a number must stand here, not 'nan'"},
@@ -202,7 +206,8 @@ static void bad_input(void **state) {
         {"nix sphere s 0 0 4 0 0 0 1", 1, "no material 'nix'"},
         {"void sphere s 0 0 4 0 0 0 1", 1, "a surface needs a material"},
         {"void alias a b", 1, "no material 'b'"},
-        {MATERIALS "white plastic p 0 0 5 1 1 1 0 0", 9, "its modifier must be 'void', not 'white'"},
+        {MATERIALS "white plastic p 0 0 5 1 1 1 0 0\n" SPHERE("p"), 9,
+         "its modifier must be 'void', not 'white'"},
         {MATERIALS "white polygon p 0 0 10 0 0 0 1 0 0 0 1 0 0", 9, "no corners of three"},
         {MATERIALS "white ring p 0 0 8 0 0 0 0 0 1 1 1", 9, "two different radii"},
         {MATERIALS "white ring p 0 0 8 0 0 0 0 0 0 1 2", 9, "two different radii"},
@@ -213,7 +218,7 @@ static void bad_input(void **state) {
         {MATERIALS "white mesh p 3 a.obj -rx 9 0 0", 9, "the transform '-rx ...'"},
         {MATERIALS "white mesh p 1 a&\"<$b.obj 0 0", 9, "a&\"<$b.obj"},
         {MATERIALS "white sphere p 1 a 0 4 0 0 0 1", 9, "sphere takes no strings"},
-        {"void glow g 0 0 4 1 1 1 -1", 1, "a radius below 0"},
+        {"void glow g 0 0 4 1 1 1 -1\n" SPHERE("g"), 1, "a radius below 0"},
         {"void light g 0 0 3 1 -1 1", 1, "must not be below 0"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
@@ -244,17 +249,15 @@ static void says_all_that_is_left_out(void **state) {
     } rows[] = {
         {"void brightfunc b\n2 dirt dirt.cal\n0\n1 .5\nb plastic p 0 0 5 1 1 1 0 0\np mesh m 1 none.obj 0 0\n"
          "void plastic q 0 0 5 1 1 1 .5 0\n!genbox q box 1 1 1 | xform\nq cone c 0 0 8 0 0 0 0 0 1 1 .5\n"
-         "q sphere s 0 0 4 0 0 0 1\n",
-         "room.rad:1: 'brightfunc' is not read\n"
+         "q sphere s 0 0 4 0 0 0 1\nq sphere s 0 0 4 0 0 0 1\n",
          "room.rad:5: plastic: patterns, textures and mixtures are not read: its modifier must be 'void', "
          "not 'b'\n"
-         "room.rad:7: plastic: a specularity of 0.5 is not read: Radiance's model of it is none of ours; 0 "
-         "is "
-         "exact\n"
          "room.rad:8: the command 'genbox' is not run, only cat and xform that include files: write what it "
-         "makes into the file, or into one of its own beside this one\n",
-         AUR_ERROR_UNSUPPORTED, "'cone' is not read"},
-        {"void dielectric d 0 0 5 1 1 1 1.5 0\nvoid plastic q 0 0 4 1 1 1 0\n",
+         "makes into the file, or into one of its own beside this one\n"
+         "room.rad:9: 'cone' is not read\n",
+         AUR_ERROR_UNSUPPORTED, "a specularity of 0.5 is not read"},
+        {"void dielectric d 0 0 5 1 1 1 1.5 0\nvoid mirror unused 0 0 3 1 1 1\n" SPHERE(
+             "d") "void plastic q 0 0 4 1 1 1 0\n",
          "room.rad:1: 'dielectric' is not read\n", AUR_ERROR_FORMAT, "plastic takes 5 numbers, not 4"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
@@ -272,6 +275,22 @@ static void says_all_that_is_left_out(void **state) {
             aur_scene_load_memory("room.rad", strlen(rows[i].text), rows[i].text, NULL, &scene, NULL),
             rows[i].result);
     }
+}
+
+/* Materials of any kind that no surface uses change nothing. */
+static void materials_may_be_unused(void **state) {
+    (void)state;
+    static const char unused[] =
+        "void trans t 0 0 7 1 1 1 0 0 .5 .5\nvoid plastic shiny 0 0 5 .2 .2 .2 .1 .2\n"
+        "void brightfunc f 2 skybr skybright.cal 0 2 1 .5\nf glow g 0 0 4 1 1 1 0\n"
+        "void BSDF b 6 0 a.xml 0 0 1 . 0 0\nvoid mixfunc m 4 a b c d.cal 0 0\nvoid alias other t\n"
+        "void glow behind 0 0 4 1 1 1 -1\n" MATERIALS "white sphere s 0 0 4 0 0 0 1\n";
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    if (load(unused, &scene, &error) != AUR_OK)
+        fail_msg("%zu: %s", error.line, error.message);
+    assert_int_equal(scene->shape_count, 1);
+    aur_scene_destroy(scene);
 }
 
 /* Faces that are no surface are counted and refuse nothing, lights of them too; bent ones become triangles.
@@ -311,6 +330,7 @@ int main(void) {
         cmocka_unit_test(reads_sources),
         cmocka_unit_test(glass_by_its_series),
         cmocka_unit_test(bad_input),
+        cmocka_unit_test(materials_may_be_unused),
         cmocka_unit_test(says_all_that_is_left_out),
         cmocka_unit_test(leaves_out_what_is_no_surface),
     };

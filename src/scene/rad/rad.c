@@ -62,8 +62,8 @@ static aur_result read_arguments(aur_rad *self, aur_rad_primitive *item) {
     return AUR_OK;
 }
 
-static const aur_rad_material *find_material(const aur_rad *self, aur_rad_word name) {
-    const aur_rad_material *const materials = self->scene->materials;
+static aur_rad_material *find_material(const aur_rad *self, aur_rad_word name) {
+    aur_rad_material *const materials = self->scene->materials;
     for (size_t i = self->scene->material_count; i-- > 0;)
         if (materials[i].name.length == name.length &&
             memcmp(materials[i].name.text, name.text, name.length) == 0)
@@ -71,15 +71,27 @@ static const aur_rad_material *find_material(const aur_rad *self, aur_rad_word n
     return NULL;
 }
 
-static aur_result find_modifier(const aur_rad *self, aur_rad_word name, const aur_rad_material **found) {
-    *found = find_material(self, name);
-    if (*found != NULL)
-        return AUR_OK;
+static aur_result fail_modifier(const aur_rad *self, aur_rad_word name) {
     return aur_rad_is_word(name, "void")
                ? aur_rad_fail(self, name.line, AUR_ERROR_UNSUPPORTED,
                               "a surface needs a material, not 'void'")
                : aur_rad_fail(self, name.line, AUR_ERROR_NAME, "there is no material '%.*s' above",
                               (int)name.length, name.text);
+}
+
+/* What a surface is made of. An unsupported material is reported once, at its own place. */
+static aur_result find_modifier(const aur_rad *self, aur_rad_word name, const aur_rad_material **found) {
+    aur_rad_material *const material = find_material(self, name);
+    if (material == NULL)
+        return fail_modifier(self, name);
+    *found = material;
+    if (material->unsupported == NULL)
+        return AUR_OK;
+    if (self->error != NULL)
+        *self->error = *material->unsupported;
+    const bool again = material->reported;
+    material->reported = true;
+    return again ? AUR_ERROR_NAME : AUR_ERROR_UNSUPPORTED;
 }
 
 static aur_result need_void(const aur_rad *self, const aur_rad_primitive *item) {
@@ -103,17 +115,26 @@ static aur_result add_material(aur_rad *self, aur_rad_material material) {
     return AUR_OK;
 }
 
+/* A modifier that is not supported, as the error says: only a surface that uses it makes that matter. */
+static aur_result add_unsupported(aur_rad *self, const aur_rad_primitive *item) {
+    aur_error *const copy = aur_arena_allocate(self->scene->arena, sizeof *copy);
+    if (copy == NULL)
+        return aur_fail_memory(self->error);
+    *copy = *self->error;
+    return add_material(self, (aur_rad_material){.name = item->name, .row = item->row, .unsupported = copy});
+}
+
 /* `void alias NAME KNOWN`: another name. */
 static aur_result read_alias(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_word known;
-    const aur_rad_material *material;
     aur_result result = need_void(self, item);
     if (result == AUR_OK && !aur_rad_next_word(self, &known))
         result = aur_rad_fail_end(self, "the name of a material", known);
-    if (result == AUR_OK)
-        result = find_modifier(self, known, &material);
     if (result != AUR_OK)
         return result;
+    const aur_rad_material *const material = find_material(self, known);
+    if (material == NULL)
+        return fail_modifier(self, known);
     aur_rad_material copy = *material;
     copy.name = item->name;
     return add_material(self, copy);
@@ -160,23 +181,45 @@ static aur_result leave_out(aur_rad *self, aur_result result) {
     return AUR_OK;
 }
 
+/* Radiance's materials, patterns, textures and mixtures (its manual page "rad"), but for those of
+ * aur_rad_rows. */
+static bool is_modifier(aur_rad_word type) {
+    static const char *const names[] = {
+        "illum",     "spotlight",  "mirror",    "prism1",     "prism2",     "trans",     "plastic2",
+        "metal2",    "trans2",     "ashik2",    "dielectric", "interface",  "plasfunc",  "metfunc",
+        "transfunc", "BRTDfunc",   "plasdata",  "metdata",    "transdata",  "BSDF",      "aBSDF",
+        "WGMDfunc",  "antimatter", "mist",      "texfunc",    "texdata",    "colorfunc", "brightfunc",
+        "colordata", "brightdata", "colorpict", "colortext",  "brighttext", "mixfunc",   "mixdata",
+        "mixpict",   "mixtext",    "spectrum",  "specfile",   "specfunc",   "specdata",  "specpict"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        if (aur_rad_is_word(type, names[i]))
+            return true;
+    return false;
+}
+
 /* What a primitive becomes whose arguments have been read. */
 static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
-    if (item->row == NULL)
-        return fail_type(self, item->type);
+    if (item->row == NULL) {
+        const aur_result result = fail_type(self, item->type);
+        return is_modifier(item->type) ? add_unsupported(self, item) : result;
+    }
     if (item->number_count < item->row->least || item->number_count > item->row->most)
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT, "%s takes %zu numbers%s, not %zu",
                             item->row->name, item->row->least,
                             item->row->most > item->row->least ? " or more" : "", item->number_count);
+    aur_result result = AUR_OK;
     if (item->string_count > 0 && !item->row->names_file)
-        return aur_rad_fail(self, item->strings[0].line, AUR_ERROR_UNSUPPORTED, "%s takes no strings",
-                            item->row->name);
-    aur_result result = put_lines(self, item->modifier.line);
+        result = aur_rad_fail(self, item->strings[0].line, AUR_ERROR_UNSUPPORTED, "%s takes no strings",
+                              item->row->name);
+    if (result == AUR_OK)
+        result = put_lines(self, item->modifier.line);
+    if (result == AUR_OK && item->row->material)
+        result = read_material(self, item);
+    if (item->row->material)
+        return result == AUR_ERROR_UNSUPPORTED ? add_unsupported(self, item) : result;
     if (result != AUR_OK)
         return result;
-    if (item->row->material)
-        return read_material(self, item);
-    const aur_rad_material *material;
+    const aur_rad_material *material = NULL;
     result = find_modifier(self, item->modifier, &material);
     return result == AUR_OK ? item->row->write(self, item, material) : result;
 }

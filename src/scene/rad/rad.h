@@ -34,6 +34,7 @@ aur_result aur_rad_open(aur_rad_scene *scene, const char *path, size_t size, con
  * materials plastic and metal without specularity, glass, light and glow, aliases, and the commands cat and
  * xform where they do nothing but include. Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong;
  * NAME for a modifier that is not defined above; MEMORY. What is well-formed and not known is noted in the
- * scene's `left_out` instead, so that all of it can be said at once. */
+ * scene's `left_out` instead, so that all of it can be said at once; a material that no surface uses may be
+ * of any kind. */
 aur_result aur_rad_next(aur_rad *rad, const char **xml, size_t *size);
 void aur_rad_close(aur_rad *rad); /* NULL is allowed */

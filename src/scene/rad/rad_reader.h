@@ -27,6 +27,10 @@ struct aur_rad_material {
     const aur_rad_row *row;
     size_t id; /* m0, m1, ... of the XML */
     double radiance[3];
+    /* In the scene's arena, where the material is not supported: the error of the first surface that uses it.
+     */
+    const aur_error *unsupported;
+    bool reported;
 };
 
 struct aur_rad {
