@@ -15,7 +15,8 @@ trap 'rm -rf "$folder"' EXIT
 # A parser, its harnesses, and its files.
 parsers=(
   'scenes (XML)|scene|src/scene/xml/*.c src/scene/load/*.c'
-  'OBJ, PLY, serialized|mesh|src/scene/shapes/mesh_file.c src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/ply_header.c src/scene/shapes/serialized.c'
+  'OBJ, PLY, STL, OFF|mesh_file mesh|src/scene/meshes/*.c'
+  'mesh files of shapes, serialized|mesh|src/scene/shapes/mesh_file.c src/scene/shapes/mesh_formats.c src/scene/shapes/serialized.c'
   'curves|scene mesh|src/scene/shapes/curves.c'
   'models by assimp|model|src/scene/model/import.c src/scene/model/child.c'
   'Radiance scenes|rad scene|src/scene/rad/*.c'
@@ -27,7 +28,7 @@ parsers=(
   'radiosity solutions|radiosity|src/transport/radiosity/file.c'
   'photon maps of the cache|photons|src/transport/photons/irradiance_file.c'
   'weight tables|weight_table|src/quadrature/tables/weight_table_file.c'
-  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/obj_groups.c'
+  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/mesh_places.c'
   'weather (EPW)|weather|src/lighting/daylight/weather.c'
   'names of sets and keys|set scene options|src/core/parameters.c src/core/names.c'
   'requests of a browser|request|src/watch/http.c'

@@ -56,10 +56,10 @@ static inline aur_sensors_options aur_sensors_options_default(void) {
 }
 
 /* Reads six numbers a line, x y z nx ny nz, with blanks or commas between them (Radiance's .pts, and CSV with
- * or without a header), an NPY array of six columns, or a mesh (.obj, .ply). `options` may be NULL. Errors:
- * OPEN, MEMORY, ARGUMENT (a lift that is not finite), and FORMAT with the line: numbers that are not finite,
- * other than six columns, a normal of length 0, places beyond 1e18, a file without sensors, a facet without
- * area. */
+ * or without a header), an NPY array of six columns, or a mesh (.obj, .ply, .stl, .off). `options` may be
+ * NULL. Errors: OPEN, MEMORY, ARGUMENT (a lift that is not finite), and FORMAT with the line: numbers that
+ * are not finite, other than six columns, a normal of length 0, places beyond 1e18, a file without sensors, a
+ * facet without area. */
 AUR_EXPERIMENTAL aur_result aur_sensors_read(const char *path, const aur_sensors_options *options,
                                              aur_sensors **sensors, aur_error *error) AUR_NONNULL(1, 3);
 AUR_EXPERIMENTAL void aur_sensors_destroy(aur_sensors *sensors);

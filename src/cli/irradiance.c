@@ -45,7 +45,7 @@ static aur_result choose_json(const char *text, void *field, aur_error *error) {
 static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, sensors, "sensors", "POINTS", NULL,
               "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
-              "mesh, .obj or .ply"),
+              "mesh: .obj, .ply, .stl or .off"),
      .content = "file"},
     {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
               "a line or row a sensor, in the format that the name ends in; '-' is standard output"),

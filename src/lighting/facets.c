@@ -11,22 +11,17 @@
 #include "core/text.h"
 #include "scene/scene_data.h"
 
-typedef enum source { SOURCE_OBJ, SOURCE_PLY, SOURCE_SCENE, SOURCE_RAD } source;
+typedef enum source { SOURCE_MESH, SOURCE_SCENE } source;
 
 static aur_result find_source(const char *path, source *kind, aur_error *error) {
-    static const char *const endings[] = {".obj", ".ply", ".xml", ".rad"};
     const char *const dot = strrchr(path, '.');
-    for (size_t i = 0; dot != NULL && i < 4; ++i)
-        if (strcasecmp(dot, endings[i]) == 0) {
-            *kind = (source)i;
-            return AUR_OK;
-        }
-    *kind = SOURCE_SCENE;
-    return aur_model_is_name(path)
-               ? AUR_OK
-               : aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
-                             "facets are read from files whose names end in .obj, .ply, .xml or .rad, and "
-                             "from models such as .glb");
+    *kind = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT ? SOURCE_MESH : SOURCE_SCENE;
+    if (*kind == SOURCE_MESH || aur_scene_is_name(path) || (dot != NULL && strcasecmp(dot, ".xml") == 0))
+        return AUR_OK;
+    return aur_fail_at(
+        error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+        "facets are read from files whose names end in .obj, .ply, .stl, .off, .xml or .rad, and from "
+        "models such as .glb");
 }
 
 /* The text as the value of an attribute of XML, in which scenes replace $names; a buffer of 6 bytes for each
@@ -45,8 +40,9 @@ static void escape(const char *text, char *escaped) {
 }
 
 /* A mesh is the one shape of a scene, so that it is read, checked and traced as the meshes of scenes are. */
-static aur_result load_mesh(const char *path, source kind, aur_overlap_rule rule,
-                            const aur_scene_options *options, aur_scene **scene, aur_error *error) {
+static aur_result load_mesh(const char *path, aur_overlap_rule rule, const aur_scene_options *options,
+                            aur_scene **scene, aur_error *error) {
+    static const char *const shapes[AUR_MESH_FORMAT_COUNT] = {"obj", "ply", "stl", "off"};
     char *const absolute = realpath(path, NULL);
     if (absolute == NULL)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN, "cannot be opened");
@@ -62,7 +58,7 @@ static aur_result load_mesh(const char *path, source kind, aur_overlap_rule rule
                                     "<scene version=\"3.0.0\"><shape type=\"%s\">"
                                     "<boolean name=\"face_normals\" value=\"true\"/>"
                                     "<string name=\"filename\" value=\"%s\"/></shape></scene>",
-                                    kind == SOURCE_OBJ ? "obj" : "ply", escaped);
+                                    shapes[aur_mesh_format_of_name(path)], escaped);
         result = aur_scene_load_with_points(path, (size_t)length, text, rule, options, scene, error);
     }
     if (result != AUR_OK && error != NULL && strcmp(error->file, absolute) == 0)
@@ -174,17 +170,6 @@ static aur_result name_shapes(aur_facets *facets, aur_error *error) {
     return AUR_OK;
 }
 
-/* The lines and groups of an OBJ, which has them of its own triangles. */
-static aur_result read_groups(const char *path, aur_facets *facets, aur_error *error) {
-    facets->lines = calloc(facets->source_count + 1, sizeof *facets->lines);
-    const aur_result result = facets->lines != NULL
-                                  ? aur_obj_groups(path, facets, facets->lines, facets->source_groups, error)
-                                  : aur_fail_memory(error);
-    for (size_t i = 0; i < facets->count && result == AUR_OK; ++i)
-        facets->groups[i] = facets->source_groups[facets->sources[i]];
-    return result;
-}
-
 static aur_result make_rows(aur_facets *facets, const aur_facets_options *options, aur_error *error) {
     const size_t sides = options->both_sides ? 2 : 1;
     facets->grouped = options->group;
@@ -210,10 +195,10 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
     const aur_overlap_rule rule = uncut                ? AUR_OVERLAPS_STAY
                                   : options.both_sides ? AUR_OVERLAPS_CUT
                                                        : AUR_OVERLAPS_OF_FRONTS;
-    source kind = SOURCE_OBJ;
+    source kind = SOURCE_MESH;
     if (result == AUR_OK)
         result = find_source(path, &kind, error);
-    if (result == AUR_OK && kind < SOURCE_SCENE && options.further_count > 0)
+    if (result == AUR_OK && kind == SOURCE_MESH && options.further_count > 0)
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
                              "a mesh is one file: only scenes go on in '%s'", options.further[0]);
     if (result != AUR_OK)
@@ -230,17 +215,19 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
     scene.definitions = options.definitions;
     scene.further_count = options.further_count;
     scene.further = options.further;
-    result = kind >= SOURCE_SCENE
+    result = kind == SOURCE_SCENE
                  ? aur_scene_load_with_points(path, 0, NULL, rule, &scene, &facets->scene, error)
-                 : load_mesh(path, kind, rule, &scene, &facets->scene, error);
+                 : load_mesh(path, rule, &scene, &facets->scene, error);
     if (result == AUR_OK)
         result = check_shapes(facets->scene, error);
     if (result == AUR_OK)
         result = copy_triangles(facets, error);
     if (result == AUR_OK)
         leave_out_slivers(facets);
-    if (result == AUR_OK)
-        result = kind == SOURCE_OBJ ? read_groups(path, facets, error) : name_shapes(facets, error);
+    if (result == AUR_OK && kind == SOURCE_MESH)
+        result = aur_facets_read_places(facets, error);
+    if (result == AUR_OK && facets->names == NULL)
+        result = name_shapes(facets, error);
     if (result == AUR_OK)
         result = make_rows(facets, &options, error);
     if (result == AUR_OK && rule == AUR_OVERLAPS_OF_FRONTS)

@@ -19,7 +19,7 @@ struct aur_facets {
     bool open;               /* some edge belongs to one facet only */
     uint32_t *first;         /* shape -> its first facet */
     size_t source_count;     /* triangles of the file */
-    size_t *lines;           /* of these, in an OBJ; else NULL */
+    size_t *lines;           /* of these, in a mesh file of text; else NULL */
     uint32_t *source_groups; /* of these */
     uint32_t *sources;       /* of facets: the triangle of the file that each is, or is a part of */
     /* Where facets see with their fronts alone: of each facet, those of others that look the opposite way and
@@ -71,11 +71,9 @@ size_t aur_facets_other_side(const aur_facets *facets, size_t facet, const doubl
 aur_result aur_facets_load_uncut(const char *path, const aur_facets_options *options, aur_facets **facets,
                                  aur_error *error);
 
-/* Reads the groups of an OBJ file that has been loaded, so that nothing in it is wrong: the line and the
- * group of each of the source_count triangles. Groups are named by `g`, or `o` where there is no `g` after
- * it. */
-aur_result aur_obj_groups(const char *path, aur_facets *facets, size_t *lines, uint32_t *groups,
-                          aur_error *error);
+/* The lines of a mesh file's triangles, and the groups of an OBJ's. The file has been loaded, so that nothing
+ * in it is wrong. */
+aur_result aur_facets_read_places(aur_facets *facets, aur_error *error);
 
 /* Looks for what makes factors wrong or odd (facets without area, in one plane, open or inconsistent
  * surfaces) and sends one counted warning for each kind. Errors: MEMORY. */

@@ -26,7 +26,15 @@ typedef struct aur_bsdf_point {
 } aur_bsdf_point;
 
 /* What of that a material or texture asks for, a bit each. */
-enum { AUR_ATTRIBUTE_VERTEX_COLOR = 1, AUR_ATTRIBUTE_FACE_COLOR = 2 };
+/* The attributes of meshes that a material reads: one of vertices and one of faces are what a shape can have.
+ */
+typedef struct aur_attributes {
+    const char *vertex, *face; /* with their beginnings, "vertex_color"; NULL: none */
+    bool too_many;
+} aur_attributes;
+
+/* Adds what another material or texture reads. */
+void aur_attributes_add(aur_attributes *attributes, const aur_attributes *others);
 
 typedef struct aur_bsdf_sample {
     aur_vector light;
@@ -126,7 +134,7 @@ struct aur_bsdf {
     bool transmits;            /* light may leave on the other side */
     bool textured;             /* something varies over the surface, here or in a nested BSDF */
     bool bumpy;                /* asks for a point's tangents, here or in a nested BSDF */
-    unsigned attributes;       /* of meshes, that it asks for, here or in a nested BSDF */
+    aur_attributes attributes; /* of meshes, that it reads, here or in a nested BSDF */
     bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
     bool passes;               /* may let light straight through */
 };

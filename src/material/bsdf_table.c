@@ -66,8 +66,9 @@ static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
         const aur_bsdf *const nested = strcmp(item->object_kind, "bsdf") == 0 ? item->object : NULL;
         bsdf->textured = bsdf->textured || nested == NULL || nested->textured;
         if (nested == NULL && strcmp(item->object_kind, "texture") == 0)
-            bsdf->attributes |= ((const aur_texture *)item->object)->attributes;
-        bsdf->attributes |= nested != NULL ? nested->attributes : 0;
+            aur_attributes_add(&bsdf->attributes, &((const aur_texture *)item->object)->attributes);
+        if (nested != NULL)
+            aur_attributes_add(&bsdf->attributes, &nested->attributes);
         bsdf->bumpy = bsdf->bumpy || (nested != NULL && nested->bumpy);
         bsdf->anisotropic = bsdf->anisotropic || (nested != NULL && nested->anisotropic);
     }

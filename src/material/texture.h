@@ -21,10 +21,10 @@ typedef struct aur_texture_descriptor {
 struct aur_texture {
     const aur_texture_descriptor *descriptor;
     void *data;
-    aur_vector mean;     /* over the unit square */
-    float maximum;       /* of any channel anywhere; 0: not known */
-    float aspect;        /* width over height of a picture; 0: not one */
-    unsigned attributes; /* of meshes, that it asks for, here or in a nested texture */
+    aur_vector mean;           /* over the unit square */
+    float maximum;             /* of any channel anywhere; 0: not known */
+    float aspect;              /* width over height of a picture; 0: not one */
+    aur_attributes attributes; /* of meshes, that it reads, here or in a nested texture */
 };
 
 extern const aur_table aur_texture_table;

@@ -1,4 +1,4 @@
-/* The colours that a mesh has at its vertices or faces. */
+/* What a mesh has at its vertices or faces, as colours. */
 #include "material/texture.h"
 
 #include <string.h>
@@ -6,11 +6,14 @@
 typedef struct attribute {
     aur_vector scale;
     bool of_faces;
-    const char *name; /* read, and of no use afterwards */
+    const char *given; /* read, and of no use afterwards */
+    char name[64];
 } attribute;
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_TEXT(attribute, "name", name, NULL, "vertex_color or face_color; must be given")},
+    {AUR_KEY_OF_TEXT(
+        attribute, "name", given, NULL,
+        "vertex_color, face_color, or another vertex_... or face_... that the file has; must be given")},
     {AUR_KEY_OF_VECTOR(attribute, "scale", scale, 0.0, 1e30, "1", "factor")},
 };
 
@@ -19,12 +22,15 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     const aur_result result = aur_row_read(&texture->descriptor->row, parameters, self, error);
     if (result != AUR_OK)
         return result;
-    self->of_faces = self->name != NULL && strcmp(self->name, "face_color") == 0;
-    if (!self->of_faces && (self->name == NULL || strcmp(self->name, "vertex_color") != 0))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "texture 'mesh_attribute': 'name' must be vertex_color or face_color, not '%s'",
-                           self->name != NULL ? self->name : "");
-    texture->attributes = self->of_faces ? AUR_ATTRIBUTE_FACE_COLOR : AUR_ATTRIBUTE_VERTEX_COLOR;
+    const char *const name = self->given != NULL ? self->given : "";
+    self->of_faces = strncmp(name, "face_", 5) == 0;
+    if ((!self->of_faces && strncmp(name, "vertex_", 7) != 0) || strlen(name) >= sizeof self->name)
+        return aur_fail_at(
+            error, parameters->location, AUR_ERROR_UNSUPPORTED,
+            "texture 'mesh_attribute': 'name' must begin with vertex_ or face_, as vertex_color, not '%s'",
+            name);
+    memcpy(self->name, name, strlen(name));
+    *(self->of_faces ? &texture->attributes.face : &texture->attributes.vertex) = self->name;
     texture->mean = aur_vector_scale(self->scale, 0.5f); /* a guess, that lights are chosen by */
     return AUR_OK;
 }

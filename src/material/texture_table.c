@@ -22,6 +22,17 @@ static const aur_row *const rows[] = {TEXTURES(ADDRESS)};
 const aur_table aur_texture_table = {
     .kind = "texture", .summary = "colours that vary over a surface", AUR_TABLE_ROWS(rows)};
 
+static void add_attribute(const char **name, const char *other, bool *too_many) {
+    *too_many = *too_many || (*name != NULL && other != NULL && strcmp(*name, other) != 0);
+    *name = *name != NULL ? *name : other;
+}
+
+void aur_attributes_add(aur_attributes *attributes, const aur_attributes *others) {
+    attributes->too_many = attributes->too_many || others->too_many;
+    add_attribute(&attributes->vertex, others->vertex, &attributes->too_many);
+    add_attribute(&attributes->face, others->face, &attributes->too_many);
+}
+
 aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
     *texture = NULL;
     const aur_row *row;
@@ -42,7 +53,8 @@ aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture,
     for (size_t i = 0; i < parameters->count; ++i)
         if (parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
             strcmp(parameters->items[i].object_kind, "texture") == 0)
-            made->attributes |= ((const aur_texture *)parameters->items[i].object)->attributes;
+            aur_attributes_add(&made->attributes,
+                               &((const aur_texture *)parameters->items[i].object)->attributes);
     *texture = made;
     return AUR_OK;
 }

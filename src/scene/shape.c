@@ -70,3 +70,31 @@ aur_result aur_shape_similarity(const aur_shape_input *input, double *scale, aur
                    : aur_parameters_fail(input->parameters, error, AUR_ERROR_UNSUPPORTED,
                                          "'to_world' may turn, move and scale it evenly, but not stretch it");
 }
+
+aur_result aur_shape_use_attribute(aur_shape *shape, const char *name, bool *found, aur_error *error) {
+    *found = false;
+    for (size_t k = 0; k < shape->attribute_count; ++k) {
+        const aur_mesh_attribute *const a = &shape->attributes[k];
+        if (strcmp(a->name, name) != 0 || (a->width != 1 && a->width < 3))
+            continue;
+        const size_t count = a->of_faces ? shape->mesh.triangle_count : shape->mesh.vertex_count;
+        float **const colors = a->of_faces ? &shape->mesh.face_colors : &shape->mesh.vertex_colors;
+        free(*colors);
+        *colors = malloc((3 * count + 1) * sizeof **colors);
+        if (*colors == NULL)
+            return aur_fail_memory_at(error, shape->location);
+        for (size_t i = 0; i < 3 * count; ++i)
+            (*colors)[i] = a->values[a->width * (i / 3) + (a->width == 1 ? 0 : i % 3)];
+        *found = true;
+        return AUR_OK;
+    }
+    return AUR_OK;
+}
+
+void aur_shape_release_attributes(aur_shape *shape) {
+    for (size_t i = 0; i < shape->attribute_count; ++i)
+        free(shape->attributes[i].values);
+    free(shape->attributes);
+    shape->attributes = NULL;
+    shape->attribute_count = 0;
+}

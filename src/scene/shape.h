@@ -3,7 +3,7 @@
 
 #include "scene/distribution.h"
 #include "scene/mesh.h"
-#include "scene/meshes/triangulate.h"
+#include "scene/meshes/mesh_data.h"
 #include "scene/scene.h"
 #include "scene/xml/xml.h"
 
@@ -70,6 +70,10 @@ struct aur_shape {
     float radius, length;
     float inner; /* radius of the hole in a disk of radius 1 */
     aur_curves curves;
+    /* What a file has of vertices and triangles besides, until the shape has taken what its material reads.
+     */
+    size_t attribute_count;
+    aur_mesh_attribute *attributes;
     aur_face_flaws flaws; /* of the faces that the mesh was made from */
     char *file;           /* that has them; NULL: the scene's */
     bool extreme;         /* a mesh with a triangle that is not aur_is_usual_square */
@@ -107,7 +111,7 @@ struct aur_shape_descriptor {
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
     /* For meshes from files, whose `create` is aur_mesh_file_create: it makes normals at vertices where the
      * file has none. */
-    aur_result (*read_file)(aur_mesh_file *file, aur_mesh *mesh);
+    aur_result (*read_file)(aur_mesh_file *file, aur_shape *shape);
 };
 
 /* What a ray can hit of it, by number. */
@@ -132,6 +136,10 @@ aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *docume
  * the shape afterwards. A mesh keeps its points where that is wanted. Errors: MEMORY. */
 aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool keep_points, aur_error *error);
 void aur_shape_destroy(aur_shape *shape);
+/* Makes the attribute of this name the mesh's colours of vertices or triangles; one value becomes three.
+ * *found is false where there is none of 1, 3 or more values. Errors: MEMORY. */
+aur_result aur_shape_use_attribute(aur_shape *shape, const char *name, bool *found, aur_error *error);
+void aur_shape_release_attributes(aur_shape *shape);
 
 /* For shapes made in local coordinates: moves the mesh into the world and flips it where asked. */
 void aur_shape_place(const aur_shape_input *input, aur_shape *shape);

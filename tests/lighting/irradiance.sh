@@ -141,7 +141,7 @@ fi
 
 # Bad input.
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >thin.obj
-refused "thin.obj:4: facet 0 has no area" lamp.xml --sensors thin.obj
+refused "thin.obj: no facet has an area" lamp.xml --sensors thin.obj
 printf '0 0 0 0 0 1\n1 2 3 0 0 0\n' >zero.pts
 printf '0 0 0 0 0 1\n1 nan 3 0 0 1\n' >nan.pts
 printf '0 0 0 0 0 1\n0 -1e19 0 0 0 1\n' >far.pts

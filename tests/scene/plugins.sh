@@ -91,9 +91,9 @@ refuses() { # refuses WORDS BODY
   [ $status = 2 ] && grep -q "$1" out || { echo "'$1' is not said with status 2 of: $2"; cat out; exit 1; }
 }
 colors="<bsdf type='diffuse'><texture type='mesh_attribute' name='reflectance'><string name='name' value='"
-refuses "no colours at its vertices" "<shape type='cube'>${colors}vertex_color'/></texture></bsdf></shape>"
-refuses "no colours of faces" "<shape type='sphere'>${colors}face_color'/></texture></bsdf></shape>"
-refuses "must be vertex_color or face_color" "<shape type='cube'>${colors}vertex_ao'/></texture></bsdf></shape>"
+refuses "no attribute 'vertex_color'" "<shape type='cube'>${colors}vertex_color'/></texture></bsdf></shape>"
+refuses "no attribute 'face_color'" "<shape type='sphere'>${colors}face_color'/></texture></bsdf></shape>"
+refuses "must begin with vertex_ or face_" "<shape type='cube'>${colors}ao'/></texture></bsdf></shape>"
 refuses "needs a texture" "<bsdf type='bumpmap'><bsdf type='diffuse'/></bsdf>"
 refuses "needs two nested" "<bsdf type='blendbsdf'><bsdf type='diffuse'/></bsdf>"
 refuses "only a rectangle or a disk" "<shape type='sphere'><emitter type='directionalarea'/></shape>"

@@ -303,10 +303,15 @@ static void reads_colors_of_meshes(void **state) {
                         "255 51 0 4 0 1 2 3\n0 0 255 3 0 1 4\n"
                         "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n0 1 0 0.5 0.5 0.5\n0 0 1 1 1 1\n");
     write_text("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 2\nf 1 2 3\n");
-    aur_scene *const scene =
-        must_load_body("<shape type='ply'><string name='filename' value='c.ply'/></shape>"
-                       "<shape type='obj'><string name='filename' value='c.obj'/><transform name='to_world'>"
-                       "<translate z='2'/></transform></shape>");
+    aur_scene *const scene = must_load_body(
+        "<shape type='ply'><string name='filename' value='c.ply'/>"
+        "<bsdf type='roughplastic'><texture type='mesh_attribute' name='diffuse_reflectance'>"
+        "<string name='name' value='face_color'/></texture><texture type='mesh_attribute' "
+        "name='specular_reflectance'><string name='name' value='vertex_color'/></texture></bsdf></shape>"
+        "<shape type='obj'><string name='filename' value='c.obj'/><transform name='to_world'>"
+        "<translate z='2'/></transform><bsdf type='diffuse'>"
+        "<texture type='mesh_attribute' name='reflectance'><string name='name' value='vertex_color'/>"
+        "</texture></bsdf></shape>");
     static const double faces[3][3] = {{1.0, 0.2, 0.0}, {1.0, 0.2, 0.0}, {0.0, 0.0, 1.0}};
     assert_int_equal(aur_scene_shape_triangles(scene, 0), 3);
     aur_triangle triangle;
@@ -317,7 +322,7 @@ static void reads_colors_of_meshes(void **state) {
         assert_near(color.y, faces[i][1], 1e-7);
         assert_near(color.z, faces[i][2], 1e-7);
     }
-    aur_scene_triangle(scene, 0, 1, &triangle); /* corners 0, 2, 3 */
+    aur_scene_triangle(scene, 0, 0, &triangle); /* corners 0, 2, 3 */
     assert_near(triangle.texture[0].vertex_color.x, 1.0, 0.0);
     assert_near(triangle.texture[1].vertex_color.z, 1.0, 0.0);
     assert_near(triangle.texture[2].vertex_color.y, 0.5, 0.0);

@@ -74,13 +74,14 @@ static void density_is_one(void **state) {
 }
 
 /* Draws are points of bright texels: a ray from just above one back to it meets the triangle, at these
- * coordinates, from the side that shines. So the rays that gather see what is drawn. */
+ * coordinates, from the side that shines. So the rays that gather see what is drawn. No draw is in the middle
+ * of a texel, where its halves meet. */
 static void draws_are_seen(void **state) {
     (void)state;
     box b = open_box(20000);
     for (size_t i = 0; i < 2000; ++i) {
-        const float position[2] = {(float)fmod(0.5 + 0.7548776662 * (double)i, 1.0),
-                                   (float)fmod(0.5 + 0.5698402910 * (double)i, 1.0)};
+        const float position[2] = {(float)fmod(0.5 + 0.7548776662 * ((double)i + 1.0), 1.0),
+                                   (float)fmod(0.5 + 0.5698402910 * ((double)i + 1.0), 1.0)};
         const aur_bright_point point =
             aur_bright_texels_sample(&b.bright, b.scene, b.map, ((double)i + 0.5) / 2000.0, position);
         assert_true(point.u >= 0.0f && point.v >= 0.0f && point.u + point.v <= 1.0f + 1e-6f);
@@ -111,8 +112,8 @@ static void draws_follow_the_density(void **state) {
     double *const counts = calloc(2 * b.map->texels.count, sizeof *counts);
     assert_non_null(counts);
     for (size_t i = 0; i < DRAWS; ++i) {
-        const float position[2] = {(float)fmod(0.5 + 0.7548776662 * (double)i, 1.0),
-                                   (float)fmod(0.5 + 0.5698402910 * (double)i, 1.0)};
+        const float position[2] = {(float)fmod(0.5 + 0.7548776662 * ((double)i + 1.0), 1.0),
+                                   (float)fmod(0.5 + 0.5698402910 * ((double)i + 1.0), 1.0)};
         const aur_bright_point point =
             aur_bright_texels_sample(&b.bright, b.scene, b.map, ((double)i + 0.5) / DRAWS, position);
         counts[aur_irradiance_on_triangle(b.map, point.element, point.u, point.v, point.behind) -

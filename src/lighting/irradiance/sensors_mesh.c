@@ -6,36 +6,38 @@
 #include "lighting/irradiance/sensors.h"
 #include "scene/scene_data.h"
 
+/* Facets without area have no sensor: a warning has told of them. */
 static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur_sensors *sensors,
                                  aur_error *error) {
-    const size_t count = facets->count;
+    const double *const origin = aur_scene_origin(facets->scene);
+    size_t count = 0;
+    for (size_t i = 0; i < facets->count; ++i)
+        count += facets->areas[i] > 0.0;
+    if (count == 0)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                           "no facet has an area, so that there is no sensor");
     const aur_result result = aur_sensors_allocate(path, count, sensors, error);
     if (result != AUR_OK)
         return result;
     sensors->corners = malloc(9 * count * sizeof *sensors->corners);
-    if (sensors->corners == NULL)
+    sensors->lines = facets->lines != NULL ? malloc(count * sizeof *sensors->lines) : NULL;
+    if (sensors->corners == NULL || (sensors->lines == NULL && facets->lines != NULL))
         return aur_fail_memory(error);
-    for (size_t k = 0; k < 9 * count; ++k)
-        sensors->corners[k] =
-            facets->corners[k / 9][k / 3 % 3][k % 3] + aur_scene_origin(facets->scene)[k % 3];
-    for (size_t i = 0; i < count; ++i) {
-        if (facets->areas[i] == 0.0)
-            return aur_fail_at(
-                error, (aur_location){.file = path, .line = facets->lines != NULL ? facets->lines[i] : 0},
-                AUR_ERROR_FORMAT, "facet %zu has no area, so that a sensor on it looks nowhere", i);
+    for (size_t i = 0, k = 0; i < facets->count; ++i) {
+        if (!(facets->areas[i] > 0.0))
+            continue;
         for (size_t d = 0; d < 3; ++d) {
             const double sum = facets->corners[i][0][d] + facets->corners[i][1][d] + facets->corners[i][2][d];
-            sensors->numbers[3 * i + d] = sum / 3.0 + aur_scene_origin(facets->scene)[d];
-            sensors->numbers[3 * (count + i) + d] = facets->planes[i].normal[d];
+            for (size_t c = 0; c < 3; ++c)
+                sensors->corners[9 * k + 3 * c + d] = facets->corners[i][c][d] + origin[d];
+            sensors->numbers[3 * k + d] = sum / 3.0 + origin[d];
+            sensors->numbers[3 * (count + k) + d] = facets->planes[i].normal[d];
         }
+        if (facets->lines != NULL)
+            sensors->lines[k] = facets->lines[facets->sources[i]];
+        ++k;
     }
     sensors->view.corners = sensors->corners;
-    if (facets->lines == NULL)
-        return AUR_OK;
-    sensors->lines = malloc(count * sizeof *sensors->lines);
-    if (sensors->lines == NULL)
-        return aur_fail_memory(error);
-    memcpy(sensors->lines, facets->lines, count * sizeof *sensors->lines);
     sensors->view.lines = sensors->lines;
     return AUR_OK;
 }

@@ -2,12 +2,12 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "core/file.h"
 #include "core/options.h"
 #include "lighting/irradiance/sensors.h"
 #include "pointset/files/points_file.h"
+#include "scene/meshes/mesh_data.h"
 
 static const size_t FILE_LIMIT = (size_t)1 << 34;
 
@@ -53,11 +53,6 @@ static aur_result read_table(const char *path, aur_sensors *sensors, aur_error *
     return result;
 }
 
-static bool is_mesh(const char *path) {
-    const char *const dot = strrchr(path, '.');
-    return dot != NULL && (strcasecmp(dot, ".obj") == 0 || strcasecmp(dot, ".ply") == 0);
-}
-
 static void lift(double distance, aur_sensors *sensors) {
     const size_t count = sensors->view.count;
     for (size_t i = 0; i < count; ++i) {
@@ -82,8 +77,9 @@ aur_result aur_sensors_read(const char *path, const aur_sensors_options *given, 
     aur_sensors *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
-    result =
-        is_mesh(path) ? aur_sensors_take_mesh(path, &options, made, error) : read_table(path, made, error);
+    result = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT
+                 ? aur_sensors_take_mesh(path, &options, made, error)
+                 : read_table(path, made, error);
     if (result == AUR_OK)
         result = aur_sensors_check(&made->view, AUR_ERROR_FORMAT, error);
     if (result != AUR_OK) {

@@ -110,18 +110,31 @@ static aur_result build_instance(aur_loader *self, aur_parameters *parameters, v
     return result == AUR_OK ? aur_parameters_finish(parameters, self->error) : result;
 }
 
-/* What the material or the light of a shape asks for and the shape does not have. */
-static aur_result check_attributes(aur_loader *self, const aur_shape *shape, const aur_emitter *emitter) {
+static aur_result use_attribute(aur_loader *self, aur_shape *shape, const char *name) {
+    bool found = true;
+    const aur_result result =
+        name != NULL ? aur_shape_use_attribute(shape, name, &found, self->error) : AUR_OK;
+    return found ? result
+                 : aur_xml_fail(self->node, self->error,
+                                "shape '%s' has no attribute '%s', which a texture reads",
+                                shape->descriptor->row.name, name);
+}
+
+/* What the material or the light of a shape reads of its mesh. */
+static aur_result take_attributes(aur_loader *self, aur_shape *shape, const aur_emitter *emitter) {
     const aur_texture *const radiance = emitter != NULL ? emitter->radiance.texture : NULL;
-    const unsigned asked = shape->bsdf->attributes | (radiance != NULL ? radiance->attributes : 0u);
-    const char *const plugin = shape->descriptor->row.name;
-    if ((asked & AUR_ATTRIBUTE_VERTEX_COLOR) != 0 && shape->mesh.vertex_colors == NULL)
-        return aur_xml_fail(self->node, self->error,
-                            "shape '%s' has no colours at its vertices, which a texture asks for", plugin);
-    if ((asked & AUR_ATTRIBUTE_FACE_COLOR) != 0 && shape->mesh.face_colors == NULL)
-        return aur_xml_fail(self->node, self->error,
-                            "shape '%s' has no colours of faces, which a texture asks for", plugin);
-    return AUR_OK;
+    aur_attributes read = shape->bsdf->attributes;
+    if (radiance != NULL)
+        aur_attributes_add(&read, &radiance->attributes);
+    if (read.too_many)
+        return aur_fail_at(self->error, shape->location, AUR_ERROR_UNSUPPORTED,
+                           "shape '%s': its textures read more than one attribute of vertices, or of faces",
+                           shape->descriptor->row.name);
+    aur_result result = use_attribute(self, shape, read.vertex);
+    if (result == AUR_OK)
+        result = use_attribute(self, shape, read.face);
+    aur_shape_release_attributes(shape);
+    return result;
 }
 
 aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **object) {
@@ -167,5 +180,5 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
         emitter->shape = (*made)->index;
         (*made)->emitter = emitter->index;
     }
-    return check_attributes(self, *made, emitter);
+    return take_attributes(self, *made, emitter);
 }

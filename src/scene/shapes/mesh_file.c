@@ -26,7 +26,7 @@ static aur_result read_mesh(const aur_shape_file *bytes, aur_mesh_file_keys *key
                           .flip_v = keys->flip_v,
                           .shape_index = keys->shape_index,
                           .error = error};
-    aur_result result = shape->descriptor->read_file(&file, &shape->mesh);
+    aur_result result = shape->descriptor->read_file(&file, shape);
     file.scanner.line = 0;
     keys->face_normals = file.face_normals;
     if (result == AUR_OK && shape->mesh.triangle_count == 0)

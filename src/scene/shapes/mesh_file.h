@@ -1,8 +1,8 @@
 /* What shapes that are read from files have in common, most of them meshes. */
 #pragma once
 
+#include "scene/meshes/text_scanner.h"
 #include "scene/shape.h"
-#include "scene/shapes/text_scanner.h"
 
 /* All of a file, closed by a zero byte. */
 typedef struct aur_shape_file {

@@ -110,7 +110,7 @@ static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) 
 }
 
 /* The table at the end of the file has the place of each mesh, and their count last. */
-static aur_result read_file(aur_mesh_file *file, aur_mesh *mesh) {
+static aur_result read_file(aur_mesh_file *file, aur_shape *shape) {
     const char *const data = file->scanner.at;
     const size_t size = (size_t)(file->scanner.end - data);
     if (size < 12 || little(data, 2) != MAGIC)
@@ -135,8 +135,10 @@ static aur_result read_file(aur_mesh_file *file, aur_mesh *mesh) {
     self.stream.next_in = (unsigned char *)(uintptr_t)data + first + 4;
     if (inflateInit(&self.stream) != Z_OK)
         return aur_fail_memory(file->error);
-    const aur_result result = read_mesh(&self, little(data + first + 2, 2), mesh);
+    const aur_result result = read_mesh(&self, little(data + first + 2, 2), &shape->mesh);
     inflateEnd(&self.stream);
+    if (result == AUR_OK && shape->mesh.triangle_count == 0)
+        return aur_mesh_file_fail(file, "no face in this file");
     return result;
 }
 

@@ -10,6 +10,8 @@
     ROW(cube)                                                                                                \
     ROW(obj)                                                                                                 \
     ROW(ply)                                                                                                 \
+    ROW(stl)                                                                                                 \
+    ROW(off)                                                                                                 \
     ROW(serialized)                                                                                          \
     ROW(sphere)                                                                                              \
     ROW(disk)                                                                                                \
@@ -121,6 +123,7 @@ void aur_shape_destroy(aur_shape *shape) {
     if (shape == NULL)
         return;
     aur_mesh_release(&shape->mesh);
+    aur_shape_release_attributes(shape);
     free(shape->file);
     free(shape->curves.places);
     free(shape->curves.points);

@@ -19,11 +19,18 @@ typedef struct aur_word {
 } aur_word;
 
 static inline bool aur_is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
+    return c == ' ' || c == '\t';
+}
+
+/* Lines end with a line feed, a carriage return, or the one after the other. */
+static inline bool aur_is_line_end(char c) {
+    return c == '\n' || c == '\r';
 }
 
 /* Skips blanks, and line ends that a backslash hides. */
 void aur_scan_blanks(aur_scanner *scanner);
+/* Skips the end of the line, at which the scanner is. */
+void aur_scan_line_end(aur_scanner *scanner);
 /* Skips the rest of the line and its end. */
 void aur_scan_next_line(aur_scanner *scanner);
 /* Whether nothing but a comment is left in the line. */

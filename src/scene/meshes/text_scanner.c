@@ -1,35 +1,43 @@
-#include "scene/shapes/text_scanner.h"
+#include "scene/meshes/text_scanner.h"
 
 #include <string.h>
 
 #include "core/text.h"
 
+void aur_scan_line_end(aur_scanner *scanner) {
+    scanner->at += scanner->at[0] == '\r' && scanner->at[1] == '\n' ? 2 : 1;
+    ++scanner->line;
+}
+
 void aur_scan_blanks(aur_scanner *scanner) {
     for (;;) {
         while (aur_is_blank(*scanner->at))
             ++scanner->at;
-        if (scanner->at[0] != '\\' || (scanner->at[1] != '\n' && scanner->at[1] != '\r'))
+        if (scanner->at[0] != '\\' || !aur_is_line_end(scanner->at[1]))
             return;
-        scanner->at += scanner->at[1] == '\r' && scanner->at[2] == '\n' ? 3 : 2;
-        ++scanner->line;
+        ++scanner->at;
+        aur_scan_line_end(scanner);
     }
 }
 
 void aur_scan_next_line(aur_scanner *scanner) {
-    const char *const newline = memchr(scanner->at, '\n', (size_t)(scanner->end - scanner->at));
-    scanner->at = newline != NULL ? newline + 1 : scanner->end;
-    ++scanner->line;
+    while (scanner->at < scanner->end && !aur_is_line_end(*scanner->at))
+        ++scanner->at;
+    if (scanner->at < scanner->end)
+        aur_scan_line_end(scanner);
+    else
+        ++scanner->line;
 }
 
 bool aur_scan_line_done(aur_scanner *scanner) {
     aur_scan_blanks(scanner);
-    return *scanner->at == '\n' || *scanner->at == '\0' || *scanner->at == '#';
+    return aur_is_line_end(*scanner->at) || *scanner->at == '\0' || *scanner->at == '#';
 }
 
 aur_word aur_scan_word(aur_scanner *scanner) {
     aur_scan_blanks(scanner);
     const char *const start = scanner->at;
-    while (!aur_is_blank(*scanner->at) && *scanner->at != '\n' && *scanner->at != '\0')
+    while (!aur_is_blank(*scanner->at) && !aur_is_line_end(*scanner->at) && *scanner->at != '\0')
         ++scanner->at;
     return (aur_word){(size_t)(scanner->at - start), start};
 }

@@ -1,7 +1,7 @@
 /* What stands in the header of a PLY file. */
 #pragma once
 
-#include "scene/shapes/mesh_file.h"
+#include "scene/meshes/mesh_reader.h"
 
 enum { AUR_PLY_MOST_ELEMENTS = 32, AUR_PLY_MOST_PROPERTIES = 64 };
 
@@ -17,7 +17,7 @@ typedef enum aur_ply_type {
     AUR_PLY_TYPE_COUNT
 } aur_ply_type;
 
-/* What a property is for: those of vertices come first, then those of faces. */
+/* What a property is for; all but INDICES are of vertices. */
 typedef enum aur_ply_role {
     AUR_PLY_X,
     AUR_PLY_Y,
@@ -27,22 +27,17 @@ typedef enum aur_ply_role {
     AUR_PLY_NZ,
     AUR_PLY_U,
     AUR_PLY_V,
-    AUR_PLY_RED,
-    AUR_PLY_GREEN,
-    AUR_PLY_BLUE,
-    AUR_PLY_FACE_RED,
-    AUR_PLY_FACE_GREEN,
-    AUR_PLY_FACE_BLUE,
     AUR_PLY_INDICES,
-    AUR_PLY_LEFT_OUT,
+    AUR_PLY_OTHER, /* of an attribute, or left out */
     AUR_PLY_ROLE_COUNT
 } aur_ply_role;
 
 typedef struct aur_ply_property {
+    char name[64];
     bool list;
     aur_ply_type count_type, type;
     aur_ply_role role;
-    /* The value of vertex i goes to one of them, [stride * i]; both NULL: it is left out. */
+    /* The value of row i goes to one of them, [stride * i]; both NULL: it is left out. */
     double *doubles;
     float *values;
     size_t stride;
@@ -57,19 +52,16 @@ typedef struct aur_ply_element {
 typedef enum aur_ply_format { AUR_PLY_ASCII, AUR_PLY_LITTLE, AUR_PLY_BIG } aur_ply_format;
 
 typedef struct aur_ply {
-    aur_mesh_file *file; /* ascii: at the next value; binary: `at` is the next byte */
+    aur_mesh_reader *reader; /* ascii: at the next value; binary: at the next byte */
     aur_ply_format format;
     size_t element_count;
     aur_ply_element elements[AUR_PLY_MOST_ELEMENTS];
-    const aur_ply_element *vertices; /* the first element of that name, or NULL */
+    aur_ply_element *vertices, *faces; /* the first `vertex`, and the first `face` with the list; or NULL */
     bool has[AUR_PLY_ROLE_COUNT];
-    size_t index_count, index_capacity;
-    uint32_t *indices;
-    /* Where faces have colours: those, 3 a face, and the face of each triangle. */
-    float *colors;
-    size_t face_count, face_capacity;
-    uint32_t *faces;
 } aur_ply;
 
-/* Reads the header of self->file, up to the first value. */
+/* Reads the header, up to the first value. */
 aur_result aur_ply_read_header(aur_ply *self);
+/* Makes attributes of what properties are left: "r", "g" and "b" are the colour, and names that end in _0 _1
+ * _2, _1 _2 _3, _x _y _z or _r _g _b have their beginning as name, as in Mitsuba. Errors: MEMORY. */
+aur_result aur_ply_find_attributes(aur_ply *self);

@@ -1,4 +1,4 @@
-#include "scene/shapes/ply.h"
+#include "scene/meshes/ply.h"
 
 #include <string.h>
 
@@ -22,18 +22,6 @@ static const struct {
              {"t", AUR_PLY_V},
              {"texture_u", AUR_PLY_U},
              {"texture_v", AUR_PLY_V},
-             {"r", AUR_PLY_RED},
-             {"g", AUR_PLY_GREEN},
-             {"b", AUR_PLY_BLUE},
-             {"red", AUR_PLY_RED},
-             {"green", AUR_PLY_GREEN},
-             {"blue", AUR_PLY_BLUE},
-             {"r", AUR_PLY_FACE_RED},
-             {"g", AUR_PLY_FACE_GREEN},
-             {"b", AUR_PLY_FACE_BLUE},
-             {"red", AUR_PLY_FACE_RED},
-             {"green", AUR_PLY_FACE_GREEN},
-             {"blue", AUR_PLY_FACE_BLUE},
              {"vertex_indices", AUR_PLY_INDICES},
              {"vertex_index", AUR_PLY_INDICES}};
 
@@ -43,16 +31,16 @@ static bool find_type(aur_word word, aur_ply_type *type) {
 }
 
 static aur_result fail_header(const aur_ply *self, const char *what) {
-    return aur_mesh_file_fail(self->file, "PLY header: %s", what);
+    return aur_mesh_reader_fail(self->reader, "PLY header: %s", what);
 }
 
 static aur_result read_format(aur_ply *self) {
     static const char *const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
-    const size_t format = aur_word_find(aur_scan_word(&self->file->scanner), 3, formats);
+    const size_t format = aur_word_find(aur_scan_word(&self->reader->scanner), 3, formats);
     if (format == 3)
         return fail_header(self, "the format must be ascii, binary_little_endian or binary_big_endian");
     self->format = (aur_ply_format)format;
-    return aur_word_is(aur_scan_word(&self->file->scanner), "1.0")
+    return aur_word_is(aur_scan_word(&self->reader->scanner), "1.0")
                ? AUR_OK
                : fail_header(self, "the version must be 1.0");
 }
@@ -61,7 +49,7 @@ static aur_result read_element(aur_ply *self) {
     if (self->element_count == AUR_PLY_MOST_ELEMENTS)
         return fail_header(self, "too many elements");
     aur_ply_element *const element = &self->elements[self->element_count++];
-    aur_scanner *const scanner = &self->file->scanner;
+    aur_scanner *const scanner = &self->reader->scanner;
     const aur_word word = aur_scan_word(scanner);
     int64_t count;
     if (word.length == 0 || word.length >= sizeof element->name || !aur_scan_integer(scanner, &count) ||
@@ -81,7 +69,7 @@ static aur_result read_property(aur_ply *self) {
     if (element->property_count == AUR_PLY_MOST_PROPERTIES)
         return fail_header(self, "too many properties");
     aur_ply_property *const property = &element->properties[element->property_count++];
-    aur_scanner *const scanner = &self->file->scanner;
+    aur_scanner *const scanner = &self->reader->scanner;
     aur_word word = aur_scan_word(scanner);
     property->list = aur_word_is(word, "list");
     if (property->list) {
@@ -95,40 +83,70 @@ static aur_result read_property(aur_ply *self) {
     word = aur_scan_word(scanner);
     if (word.length == 0)
         return fail_header(self, "a property needs a name");
-    property->role = AUR_PLY_LEFT_OUT;
+    memcpy(property->name, word.text, word.length < sizeof property->name ? word.length : 0);
+    property->role = AUR_PLY_OTHER;
     for (size_t i = 0; i < sizeof roles / sizeof roles[0]; ++i) {
-        const bool of_face = roles[i].role >= AUR_PLY_FACE_RED;
-        const bool fits = (roles[i].role == AUR_PLY_INDICES ? property->list && property->type < AUR_PLY_FLOAT
-                                                            : !property->list) &&
-                          (of_face ? strcmp(element->name, "face") == 0 : element == self->vertices);
-        if (fits && aur_word_is(word, roles[i].name))
+        const bool fits =
+            roles[i].role == AUR_PLY_INDICES
+                ? property->list && property->type < AUR_PLY_FLOAT && strcmp(element->name, "face") == 0
+                : !property->list && element == self->vertices;
+        if (fits && !self->has[roles[i].role] && aur_word_is(word, roles[i].name))
             property->role = roles[i].role;
     }
+    if (property->role == AUR_PLY_INDICES)
+        self->faces = element;
     self->has[property->role] = true;
     return AUR_OK;
 }
 
+/* The byte after the header's last line end: one that ends in a carriage return alone may have binary numbers
+ * that begin with a line feed after it. */
+static void end_header(aur_scanner *scanner, bool returns_alone) {
+    while (scanner->at < scanner->end && !aur_is_line_end(*scanner->at))
+        ++scanner->at;
+    if (returns_alone && scanner->at < scanner->end) {
+        ++scanner->at;
+        ++scanner->line;
+    } else {
+        aur_scan_next_line(scanner);
+    }
+}
+
+static aur_result read_line(aur_ply *self, bool *has_format, bool *done) {
+    static const char *const words[] = {"end_header", "format",   "element", "property",
+                                        "comment",    "obj_info", ""};
+    switch (aur_word_find(aur_scan_word(&self->reader->scanner), sizeof words / sizeof words[0], words)) {
+    case 0:
+        *done = true;
+        return AUR_OK;
+    case 1:
+        *has_format = true;
+        return read_format(self);
+    case 2:
+        return read_element(self);
+    case 3:
+        return read_property(self);
+    case 4:
+    case 5:
+    case 6:
+        return AUR_OK;
+    default:
+        return fail_header(self, "a line must begin with format, element, property, comment or end_header");
+    }
+}
+
 aur_result aur_ply_read_header(aur_ply *self) {
-    aur_scanner *const scanner = &self->file->scanner;
+    aur_scanner *const scanner = &self->reader->scanner;
     if (!aur_word_is(aur_scan_word(scanner), "ply"))
         return fail_header(self, "the file must begin with 'ply'");
+    aur_scan_blanks(scanner);
+    const bool returns_alone = scanner->at[0] == '\r' && scanner->at[1] != '\n';
     bool has_format = false;
     for (bool done = false; !done;) {
-        static const char *const words[] = {"end_header", "format",   "element", "property",
-                                            "comment",    "obj_info", ""};
         aur_scan_next_line(scanner);
         if (scanner->at >= scanner->end)
             return fail_header(self, "'end_header' is missing");
-        const size_t which = aur_word_find(aur_scan_word(scanner), sizeof words / sizeof words[0], words);
-        done = which == 0;
-        has_format = has_format || which == 1;
-        const aur_result result = which == 1   ? read_format(self)
-                                  : which == 2 ? read_element(self)
-                                  : which == 3 ? read_property(self)
-                                  : which < 7
-                                      ? AUR_OK
-                                      : fail_header(self, "a line must begin with format, element, property, "
-                                                          "comment or end_header");
+        const aur_result result = read_line(self, &has_format, &done);
         if (result != AUR_OK)
             return result;
     }
@@ -138,6 +156,6 @@ aur_result aur_ply_read_header(aur_ply *self) {
         return fail_header(self, "element vertex needs the properties x, y and z");
     if (!self->has[AUR_PLY_INDICES])
         return fail_header(self, "element face needs the list vertex_indices");
-    aur_scan_next_line(scanner);
+    end_header(scanner, returns_alone);
     return AUR_OK;
 }
