@@ -22,7 +22,7 @@ if(TARGET aureole-mpi)
     install(TARGETS aureole-mpi DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib-render)
 endif()
 if(TARGET aureole-import) # nobody starts it by hand
-    set_target_properties(aureole-import PROPERTIES INSTALL_RPATH "$ORIGIN/..;$ORIGIN")
+    set_target_properties(aureole-import PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
     install(TARGETS aureole-import RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/aureole COMPONENT lib-render)
 endif()
 

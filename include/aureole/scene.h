@@ -52,8 +52,8 @@ typedef struct aur_scene_options {
      * one does. 0: all that there are. The tree does not depend on it. */
     size_t threads;
     aur_model_light model_light;
-    /* Asked, while a model is read, whether to stop. Models are read by a process of their own
-     * (AUR_ERROR_CANCELLED ends it), so that files which crash or hang their reader are errors. */
+    /* Asked, while a model is read, whether to stop. Those that assimp reads are read by a process of their
+     * own (AUR_ERROR_CANCELLED ends it), so that files which crash or hang their reader are errors. */
     aur_progress progress;
 } aur_scene_options;
 
@@ -65,7 +65,7 @@ static inline aur_scene_options aur_scene_options_default(void) {
 }
 
 /* Whether a file is a scene by the end of its name, and not by its content as XML is: Radiance's (.rad) and
- * models (.glb, .gltf, .obj, .fbx, .dae, .stl, .ply, .off, .3ds), which a build with assimp reads. */
+ * models: .obj, .ply, .stl, .off, and .glb, .gltf, .fbx, .dae and .3ds, which a build with assimp reads. */
 AUR_EXPERIMENTAL bool aur_scene_is_name(const char *path) AUR_NONNULL(1);
 
 /* Reads a scene and all files that it names: includes, meshes, pictures and point sets. Relative names are

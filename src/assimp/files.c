@@ -45,20 +45,43 @@ static void flush(struct aiFile *file) {
     (void)file;
 }
 
+void files_decode_address(char *text) {
+    char *out = text;
+    for (const char *c = text; *c != '\0'; ++c) {
+        char digits[3] = {0}, *end = digits;
+        if (c[0] == '%' && c[1] != '\0' && c[2] != '\0') {
+            memcpy(digits, c + 1, 2);
+            const long code = strtol(digits, &end, 16);
+            if (end == digits + 2 && code > 0) {
+                *out++ = (char)code;
+                c += 2;
+                continue;
+            }
+        }
+        *out++ = *c;
+    }
+    *out = '\0';
+}
+
 /* Names begin with what assimp takes for the model's folder. */
 struct aiFile *files_open(struct aiFileIO *io, const char *name, const char *mode) {
-    (void)io;
     struct aiFile *const file = calloc(1, sizeof *file);
     open_file *const self = calloc(1, sizeof *self);
     if (file == NULL || self == NULL)
         stream_fail_memory();
     while (strncmp(name, "./", 2) == 0 || strncmp(name, ".\\", 2) == 0)
         name += 2;
-    bool found = mode[0] == 'r' && name[0] != '\0';
+    char *const path = strdup(name);
+    if (path == NULL)
+        stream_fail_memory();
+    if (io->UserData != NULL && strcmp(path, io->UserData) != 0)
+        files_decode_address(path);
+    bool found = mode[0] == 'r' && path[0] != '\0';
     if (found) {
-        stream_send(AUR_IMPORT_OPEN, 0, strlen(name), name);
+        stream_send(AUR_IMPORT_OPEN, 0, strlen(path), path);
         found = stream_receive(AUR_IMPORT_ANSWER, &self->size, &self->data) != 0;
     }
+    free(path);
     if (!found) {
         free(self->data);
         free(file);

@@ -22,7 +22,7 @@ static bool ends_with(const char *name, const char *ending) {
 }
 
 static const struct aiScene *read_scene(const char *name, bool is_gltf) {
-    struct aiFileIO io = {files_open, files_close, NULL};
+    struct aiFileIO io = {files_open, files_close, is_gltf ? (char *)name : NULL};
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);

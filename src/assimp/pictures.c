@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "assimp/files.h"
 #include "assimp/stream.h"
 
 /* A picture that the model holds, as a file: packed as it is, or texels behind the header of a TGA. */
@@ -33,25 +34,6 @@ static unsigned file_of_image(writer *self, unsigned index) {
     return file;
 }
 
-/* %XX of an address. */
-static void decode_address(char *text) {
-    char *out = text;
-    for (const char *c = text; *c != '\0'; ++c) {
-        char digits[3] = {0}, *end = digits;
-        if (c[0] == '%' && c[1] != '\0' && c[2] != '\0') {
-            memcpy(digits, c + 1, 2);
-            const long code = strtol(digits, &end, 16);
-            if (end == digits + 2 && code > 0) {
-                *out++ = (char)code;
-                c += 2;
-                continue;
-            }
-        }
-        *out++ = *c;
-    }
-    *out = '\0';
-}
-
 /* Which of the pictures that the model holds a path means: "*i", or its name; their number: none. */
 static unsigned find_image(const writer *self, const char *path) {
     const struct aiScene *const scene = self->scene;
@@ -69,7 +51,7 @@ static unsigned find_image(const writer *self, const char *path) {
 static void path_of(const writer *self, const char *text, char path[MAXLEN]) {
     snprintf(path, MAXLEN, "%s", text);
     if (self->is_gltf)
-        decode_address(path);
+        files_decode_address(path);
     for (char *c = path; *c != '\0'; ++c) /* of Windows */
         if (*c == '\\')
             *c = '/';
@@ -86,6 +68,8 @@ typedef struct writer_picture {
 static const char *find_picture(writer *self, const char *text) {
     char path[MAXLEN];
     path_of(self, text, path);
+    if (path[0] == '\0')
+        return NULL;
     writer_picture *picture = self->pictures;
     while (picture != NULL && strcmp(picture->name, path) != 0)
         picture = picture->next;

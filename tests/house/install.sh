@@ -16,6 +16,18 @@ for page in man1/aureole.1 man1/aureole-render.1 man5/aureole-scene.5 man7/aureo
   grep -q '^\.TH' "$prefix/share/man/$page" || { echo "no manual page share/man/$page"; exit 1; }
 done
 
+# So may the program that reads models.
+cat >model.gltf <<'GLTF'
+{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+ "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+GLTF
+if [ -x "$build/aureole-import" ]; then
+  (cd / && "$prefix/bin/aureole" info -q "$OLDPWD/model.gltf") >said 2>&1 && grep -q '^triangles  *1$' said ||
+    { echo "the installed program does not read a model: $(cat said)"; exit 1; }
+fi
+
 mkdir consumer
 cat >consumer/consumer.c <<'C'
 #include <aureole/render.h>

@@ -7,9 +7,11 @@ aureole=$1
 fail() { echo "$1"; exit 1; }
 /usr/bin/python3 -c '' 2>/dev/null || { echo "skipped: there is no Python to write models with"; exit 77; }
 [ -e "$(dirname "$aureole")/aureole-import" ] || {
-  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >none.obj
-  "$aureole" info none.obj >said 2>&1
+  : >none.fbx
+  "$aureole" info none.fbx >said 2>&1
   [ $? = 2 ] && grep -q 'libassimp-dev' said || fail "without assimp a model is not refused with words: $(cat said)"
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >none.obj
+  "$aureole" info none.obj >said 2>&1 || fail "an OBJ is not read without assimp: $(cat said)"
   echo "skipped: this build has no assimp"
   exit 77
 }
@@ -248,6 +250,10 @@ done
 renders letters.gltf "1 file is found under another name: 'upper.Png' as 'UPPER.PNG'"
 renders elsewhere.gltf "1 file is found under another name: 'C:/artist/Textures/upper.png' as 'UPPER.PNG'"
 renders strong.gltf
+cp numbers.bin 'num bers.bin'
+sed 's/"numbers.bin"/"num%20bers.bin"/' beside.gltf >'50%25.gltf'
+renders '50%25.gltf'
+cmp -s model.gltf.exr '50%25.gltf.exr' || fail "a buffer whose name has a blank is not found"
 for model in letters.gltf elsewhere.gltf strong.gltf; do
   cmp -s model.gltf.exr $model.exr || fail "$model is not model.gltf"
 done
@@ -318,7 +324,7 @@ refused() {
 refused short.glb 'cannot be read'
 refused lacking.gltf 'lacking.bin'
 printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' >line.obj
-refused line.obj 'cannot be read'
+refused line.obj 'has no triangle'
 printf '{"asset": {"version": "2.0"}, "meshes": [}' >broken.gltf
 refused broken.gltf 'cannot be read'
 : >empty.glb
@@ -337,6 +343,95 @@ done
 mkdir -p inside && cp beside.gltf inside/ && sed -i 's/numbers.bin/..\/numbers.bin/' inside/beside.gltf
 "$aureole" render inside/beside.gltf -q --spp 1 --width 8 --confine -o confined.exr 2>said
 [ $? = 2 ] || fail "a model reads files outside of its folder where it is confined"
+
+# Materials of an OBJ are those of a scene that has them as XML; every second file has other line ends and letter case.
+cat >quad.obj <<'OBJ'
+mtllib materials of quads.MTL
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+v -1 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+vn 0 0 1
+usemtl Painted #1
+f 1/1/1 2/2/1 3/3/1 4/4/1
+OBJ
+cat >'Materials of Quads.mtl' <<'MTL'
+newmtl Painted #2
+Kd 0 0 0
+newmtl Painted #1
+Kd 0.5 1 0.25
+map_Kd -s 1 1 1 -bm 1 .\color.PNG
+map_Pr rough.png
+Pr 0.5
+Pm 0.25
+norm normal.png
+map_d rough.png
+d 0.5
+Ke 0.125 0.25 0.5
+map_Ke color.png
+MTL
+cat >surroundings.xml <<'XML'
+<scene version="3.0.0"><emitter type="constant"/><integrator type="path"/><sensor type="perspective"><transform name="to_world">
+<lookat origin="1, 1, 4" target="0, 0, 0" up="0, 1, 0"/></transform><film type="hdrfilm"><integer name="width" value="32"/>
+<integer name="height" value="24"/></film></sensor>
+XML
+{ cat surroundings.xml; echo '<include filename="quad.obj"/></scene>'; } >quad-model.xml
+texture() { echo "<texture type=\"bitmap\" name=\"$1\"><string name=\"filename\" value=\"$2\"/>$3</texture>"; }
+raw='<boolean name="raw" value="true"/><string name="channel"'
+{
+  cat surroundings.xml
+  echo '<shape type="obj"><string name="filename" value="quad.obj"/><emitter type="area">'
+  texture radiance color.png '<vector name="factor" value="0.125 0.25 0.5"/>'
+  echo '</emitter><bsdf type="mask">'
+  texture opacity rough.png "$raw value=\"rgb\"/><vector name=\"factor\" value=\"0.5 0.5 0.5\"/>"
+  echo '<bsdf type="twosided"><bsdf type="normalmap">'
+  texture normalmap normal.png '<boolean name="raw" value="true"/>'
+  echo '<bsdf type="principled">'
+  texture base_color color.png '<vector name="factor" value="0.5 1 0.25"/>'
+  texture roughness rough.png "$raw value=\"red\"/><vector name=\"factor\" value=\"0.5 0.5 0.5\"/>"
+  echo '<float name="metallic" value="0.25"/></bsdf></bsdf></bsdf></bsdf></shape></scene>'
+} >quad-scene.xml
+for side in scene model; do
+  "$aureole" render quad-$side.xml --spp 16 -o quad-$side.exr >said 2>&1 || fail "quad-$side.xml is not rendered: $(cat said)"
+done
+grep -q "2 files are found under other names: 'materials of quads.MTL' as 'Materials of Quads.mtl', './color.PNG' as './color.png'" said ||
+  fail "other names are not reported: $(cat said)"
+"$aureole" compare quad-scene.exr quad-model.exr --metric relative-rmse --tolerance 1e-6 >compared || fail "materials of an OBJ are not those of its scene: $(cat compared)"
+
+# A model at map coordinates is seen as the same one near 0, in every format that holds the digits: the coordinates are sums
+# of few powers of two, so that nothing is rounded in the files; what differs is the last digit of the camera's place.
+/usr/bin/python3 - <<'PYTHON' || fail "the models at map coordinates cannot be written"
+import base64, json, struct
+points = [(-1.25, 0, -1.5), (1.75, 0.125, -1), (1, 0.25, 1), (-1, 0, 1.5), (0.375, 2.125, 0.25)]
+faces = [(0, 1, 2), (0, 2, 3), (0, 4, 1), (1, 4, 2), (2, 4, 3), (3, 4, 0)]
+for name, offset in (("near", (0, 0, 0)), ("far", (500000.25, 5400000.5, 412.75))):
+    moved = [" ".join(repr(float(a + b)) for a, b in zip(point, offset)) for point in points]
+    open(name + ".obj", "w").write("".join(f"v {p}\n" for p in moved) + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in faces))
+    open(name + ".off", "w").write("OFF\n5 6 0\n" + "".join(p + "\n" for p in moved) + "".join("3 %d %d %d\n" % f for f in faces))
+    open(name + ".ply", "w").write("ply\nformat ascii 1.0\nelement vertex 5\n" + "".join(f"property double {c}\n" for c in "xyz") +
+                                   "element face 6\nproperty list uchar int vertex_indices\nend_header\n" +
+                                   "".join(p + "\n" for p in moved) + "".join("3 %d %d %d\n" % f for f in faces))
+    open(name + ".stl", "w").write("solid a\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {moved[i]}\n" for i in f) +
+                                                        "endloop\nendfacet\n" for f in faces) + "endsolid a\n")
+    data = struct.pack("<15f", *sum(points, ())) + struct.pack("<18H", *sum(faces, ()))
+    open(name + ".gltf", "w").write(json.dumps({
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": offset}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 5, "type": "VEC3", "min": [-1.25, 0, -1.5], "max": [1.75, 2.125, 1.5]},
+                      {"bufferView": 1, "componentType": 5123, "count": 18, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 60}, {"buffer": 0, "byteOffset": 60, "byteLength": 36}],
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}))
+PYTHON
+for form in obj off ply stl gltf; do
+  for place in near far; do
+    "$aureole" render $place.$form -q --width 32 --spp 4 -o $place.exr || fail "$place.$form is not rendered"
+  done
+  "$aureole" compare near.exr far.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "far.$form is not near.$form: $(cat compared)"
+done
 
 # The models that are compared with Mitsuba are the scenes that stand for them there.
 for kind in gltf obj; do

@@ -151,33 +151,20 @@ static aur_result find_name(obj *self, aur_mesh_names *names, aur_word word, uin
     return AUR_OK;
 }
 
-/* The rest of the line without its comment; names may have blanks. */
-static aur_word rest_of_line(obj *self) {
-    aur_scanner *const scanner = &self->reader->scanner;
-    aur_scan_blanks(scanner);
-    const char *const start = scanner->at;
-    const char *end = start;
-    while (!aur_is_line_end(*end) && *end != '\0' && *end != '#')
-        ++end;
-    scanner->at = end;
-    while (end > start && aur_is_blank(end[-1]))
-        --end;
-    return (aur_word){(size_t)(end - start), start};
-}
-
 static aur_result read_group(obj *self) {
     static const aur_word unnamed = {7, "default"};
-    const aur_word word = rest_of_line(self);
+    const aur_word word = aur_scan_rest(&self->reader->scanner);
     return find_name(self, &self->reader->data->groups, word.length > 0 ? word : unnamed, &self->span.group);
 }
 
 static aur_result read_material(obj *self) {
-    return find_name(self, &self->reader->data->materials, rest_of_line(self), &self->span.material);
+    return find_name(self, &self->reader->data->materials, aur_scan_rest(&self->reader->scanner),
+                     &self->span.material);
 }
 
 static aur_result read_library(obj *self) {
     uint32_t ignored;
-    return find_name(self, &self->reader->data->libraries, rest_of_line(self), &ignored);
+    return find_name(self, &self->reader->data->libraries, aur_scan_rest(&self->reader->scanner), &ignored);
 }
 
 static aur_result begin_face(obj *self) {

@@ -42,6 +42,23 @@ aur_word aur_scan_word(aur_scanner *scanner) {
     return (aur_word){(size_t)(scanner->at - start), start};
 }
 
+static bool is_end(const char *at) {
+    return *at == '\0' || aur_is_line_end(*at);
+}
+
+aur_word aur_scan_rest(aur_scanner *scanner) {
+    aur_scan_blanks(scanner);
+    const char *const start = scanner->at;
+    const char *end = start;
+    while (!is_end(end) && !(*end == '#' && (end == start || aur_is_blank(end[-1])) &&
+                             (aur_is_blank(end[1]) || is_end(end + 1))))
+        ++end;
+    scanner->at = end;
+    while (end > start && aur_is_blank(end[-1]))
+        --end;
+    return (aur_word){(size_t)(end - start), start};
+}
+
 size_t aur_word_find(aur_word word, size_t count, const char *const *names) {
     /* The first character tells most words apart without a call. */
     const char first = word.length > 0 ? *word.text : '\0';

@@ -37,6 +37,9 @@ void aur_scan_next_line(aur_scanner *scanner);
 bool aur_scan_line_done(aur_scanner *scanner);
 /* The next word of the line; its length is 0 at the end. */
 aur_word aur_scan_word(aur_scanner *scanner);
+/* A name to the end of the line; it may have blanks, and "#1" in it: a comment is a # with blanks around it.
+ */
+aur_word aur_scan_rest(aur_scanner *scanner);
 /* Which of `count` names the word is; `count` for none. */
 size_t aur_word_find(aur_word word, size_t count, const char *const *names);
 bool aur_word_is(aur_word word, const char *name);

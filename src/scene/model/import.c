@@ -1,20 +1,17 @@
 #include "scene/model/import.h"
 
-#include <aureole/image.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/array.h"
-#include "core/file.h"
 #include "core/module.h"
 #include "core/ranks.h"
+#include "scene/model/named_files.h"
 #include "scene/model/surroundings.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
-#define LARGEST_PART ((size_t)1 << 34)
 
 typedef struct message {
     aur_import_kind kind;
@@ -23,23 +20,14 @@ typedef struct message {
     char *data; /* malloc'ed, with a zero byte after it */
 } message;
 
-/* Names for one warning: the first ones, and how many there are. */
-typedef struct name_list {
-    size_t count;
-    char text[500];
-} name_list;
-
-enum { NAMES_SHOWN = 5 };
-
 typedef struct conversation {
     aur_child *child; /* of rank 0; NULL on others */
     const aur_model_source *source;
     aur_model_files *files;
     size_t first; /* file of this model */
     size_t requests, notes, pictures;
-    name_list renamed, missing;                   /* files */
-    name_list missing_pictures, unknown_pictures; /* of textures */
-    uint64_t received;                            /* bytes */
+    aur_named_files named;
+    uint64_t received; /* bytes */
     char **xml;
     size_t *xml_size;
     aur_error *error;
@@ -99,46 +87,14 @@ static aur_result send(conversation *self, aur_import_kind kind, uint32_t value,
 
 /* --- what the program asks for */
 
-/* Adds a name, once; it may hold what the file holds. */
-static void list(name_list *self, const char *format, ...) AUR_PRINTF(2, 3);
-static void list(name_list *self, const char *format, ...) {
-    char text[300];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    for (char *c = text; *c != '\0'; ++c)
-        if ((unsigned char)*c < 32 || *c == 127)
-            *c = '?';
-    const size_t used = strlen(self->text);
-    if (strstr(self->text, text) != NULL)
-        return;
-    if (self->count++ < NAMES_SHOWN)
-        snprintf(self->text + used, sizeof self->text - used, "%s%s", used > 0 ? ", " : "", text);
-}
-
-/* Files that are named are found, noted and confined as all that a scene names. */
-static aur_result read_named(conversation *self, const char *name, char **used, size_t *size, char **data) {
-    *used = *data = NULL;
-    char *path;
-    aur_result result = self->source->find(self->source->state, name, used, &path, self->error);
-    if (result == AUR_OK && path != NULL)
-        result = aur_file_read(path, LARGEST_PART, data, size, self->error);
-    if (result == AUR_OK && path != NULL && strcmp(*used, name) != 0)
-        list(&self->renamed, "'%s' as '%s'", name, *used);
-    free(path);
-    return result;
-}
-
 static aur_result answer_open(conversation *self, const message *got) {
     const aur_model_source *const source = self->source;
     char *data = NULL, *used = NULL;
     size_t size = source->size;
     const bool own = strcmp(got->data, source->name) == 0;
-    aur_result result = own ? AUR_OK : read_named(self, got->data, &used, &size, &data);
+    aur_result result =
+        own ? AUR_OK : aur_named_read_part(&self->named, got->data, &used, &size, &data, self->error);
     const bool found = own || data != NULL;
-    if (!found)
-        list(&self->missing, "'%s'", got->data);
     if (result == AUR_OK && found && self->child != NULL)
         aur_child_grant(self->child, size);
     if (result == AUR_OK)
@@ -148,21 +104,11 @@ static aur_result answer_open(conversation *self, const message *got) {
     return result;
 }
 
-/* The picture's bytes are those of a kind that can be read. */
-static bool is_picture(size_t size, const char *data) {
-    return aur_image_format_of(size, data) != NULL;
-}
-
 static aur_result answer_find(conversation *self, const message *got) {
-    char *data, *used;
-    size_t size = 0;
-    aur_result result = read_named(self, got->data, &used, &size, &data);
-    const bool good = data != NULL && is_picture(size, data);
-    if (result == AUR_OK && !good)
-        list(data != NULL ? &self->unknown_pictures : &self->missing_pictures, "'%s'", got->data);
+    char *used;
+    aur_result result = aur_named_find_picture(&self->named, got->data, &used, self->error);
     if (result == AUR_OK)
-        result = send(self, AUR_IMPORT_ANSWER, good, good ? strlen(used) : 0, used);
-    free(data);
+        result = send(self, AUR_IMPORT_ANSWER, used != NULL, used != NULL ? strlen(used) : 0, used);
     free(used);
     return result;
 }
@@ -186,36 +132,16 @@ static aur_result add_part(conversation *self, message *got) {
 }
 
 static aur_result take_picture(conversation *self, message *got) {
-    const bool good = is_picture(got->size, got->data);
     char name[32];
     snprintf(name, sizeof name, "picture %zu", ++self->pictures);
-    aur_result result = AUR_OK;
-    if (good)
-        result = add_part(self, got);
-    else
-        list(&self->unknown_pictures, "%s", name);
+    const bool good = aur_named_is_picture(&self->named, name, got->size, got->data);
+    const aur_result result = good ? add_part(self, got) : AUR_OK;
     return result == AUR_OK ? send(self, AUR_IMPORT_ANSWER, good, 0, NULL) : result;
 }
 
 static aur_result fail_damaged(const conversation *self) {
     return aur_fail_at(self->error, self->source->location, AUR_ERROR_FORMAT,
                        "this model cannot be read: what assimp makes of it is damaged");
-}
-
-static void warn_of(const conversation *self, const name_list *names, const char *one, const char *several) {
-    if (names->count > 0)
-        aur_warn_at(self->source->warnings, self->source->location, "%zu %s: %s%s", names->count,
-                    names->count == 1 ? one : several, names->text,
-                    names->count > NAMES_SHOWN ? ", ..." : "");
-}
-
-static void warn_of_files(const conversation *self) {
-    warn_of(self, &self->renamed, "file is found under another name", "files are found under other names");
-    warn_of(self, &self->missing, "file cannot be found", "files cannot be found");
-    warn_of(self, &self->missing_pictures, "texture is left out: its picture cannot be found",
-            "textures are left out: their pictures cannot be found");
-    warn_of(self, &self->unknown_pictures, "texture is left out: its picture is of an unknown format",
-            "textures are left out: their pictures are of unknown formats");
 }
 
 static aur_result take_scene(conversation *self, const message *got) {
@@ -230,7 +156,7 @@ static aur_result take_scene(conversation *self, const message *got) {
     if (self->source->alone)
         aur_model_surround(self->source, &scene, xml);
     fputs("</scene>\n", xml);
-    warn_of_files(self);
+    aur_named_warn(&self->named);
     const bool written = ferror(xml) == 0;
     if (fclose(xml) == 0 && written)
         return AUR_OK;
@@ -298,6 +224,7 @@ aur_result aur_model_converse(aur_child *child, const aur_model_source *source, 
                               char **xml, size_t *xml_size, aur_error *error) {
     conversation self = {.child = child,
                          .source = source,
+                         .named = {.source = source},
                          .files = files,
                          .first = files->count,
                          .xml = xml,

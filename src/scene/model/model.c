@@ -7,6 +7,7 @@
 #include "core/names.h"
 #include "core/text.h"
 #include "scene/model/import.h"
+#include "scene/model/mesh_model.h"
 
 /* Of what assimp reads, the forms that others than their own program write. */
 bool aur_model_is_name(const char *path) {
@@ -37,7 +38,9 @@ const char *aur_model_light_name(aur_model_light light) {
 aur_result aur_model_to_xml(const aur_model_source *source, aur_model_files *files, char **xml,
                             size_t *xml_size, aur_error *error) {
     *xml = NULL;
-    return aur_model_import(source, files, xml, xml_size, error);
+    const aur_mesh_format format = aur_mesh_format_of_name(source->name);
+    return format < AUR_MESH_FORMAT_COUNT ? aur_model_from_mesh(source, format, files, xml, xml_size, error)
+                                          : aur_model_import(source, files, xml, xml_size, error);
 }
 
 const aur_model_file *aur_model_find_file(const aur_model_files *files, const char *filename) {

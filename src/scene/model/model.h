@@ -1,6 +1,6 @@
-/* Models: scenes in other formats than XML, such as glTF and OBJ, which the library assimp reads. A program
- * (src/assimp), which is started when a scene is a model, translates one into XML and into files in memory:
- * its meshes as PLY and the pictures that it holds. */
+/* Models: scenes in other formats than XML. They are translated into XML and into files in memory: meshes as
+ * PLY and the pictures that a model holds. OBJ, PLY, STL and OFF are read here (mesh_model.c), others by the
+ * library assimp in a program (src/assimp) that is started for each. */
 #pragma once
 
 #include <stdbool.h>

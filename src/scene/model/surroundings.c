@@ -4,22 +4,11 @@
 #include <string.h>
 #include <strings.h>
 
-#include "core/text.h"
+#include "scene/model/xml_text.h"
 
 static const double pi = 3.14159265358979323846;
 
 enum { ANGLE = 35 }; /* of the camera that is added, in degrees */
-
-/* With decimal points under every locale. */
-static void put(FILE *xml, const char *format, ...) AUR_PRINTF(2, 3);
-static void put(FILE *xml, const char *format, ...) {
-    char text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    aur_format_list(text, sizeof text, format, arguments);
-    va_end(arguments);
-    fputs(text, xml);
-}
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -43,33 +32,37 @@ static void put_look(FILE *xml, const aur_import_camera *camera) {
     }
     /* At map coordinates a target one unit away would round the direction. */
     const double far = 1.0 + fabs(o[0]) + fabs(o[1]) + fabs(o[2]);
-    put(xml,
+    aur_model_put(
+        xml,
         "<lookat origin=\"%.17g, %.17g, %.17g\" target=\"%.17g, %.17g, %.17g\" up=\"%.17g, %.17g, %.17g\"/>",
         o[0], o[1], o[2], o[0] + far * d[0], o[1] + far * d[1], o[2] + far * d[2], up[0], up[1], up[2]);
 }
 
 static void put_sensor(FILE *xml, const aur_import_camera *camera) {
     const double width = 960.0, ratio = camera->aspect > 0.0 ? camera->aspect : 4.0 / 3.0;
-    put(xml,
+    aur_model_put(
+        xml,
         "<default name=\"integrator\" value=\"path\"/><default name=\"spp\" value=\"64\"/>"
         "<default name=\"resx\" value=\"%.0f\"/><default name=\"resy\" value=\"%.0f\"/>"
         "<default name=\"rfilter\" value=\"gaussian\"/><default name=\"max_depth\" value=\"-1\"/>\n"
         "<integrator type=\"$integrator\"><integer name=\"max_depth\" value=\"$max_depth\"/></integrator>\n",
         width, clamp(round(width / ratio), 1.0, 9600.0));
     if (camera->half_width > 0.0)
-        put(xml,
+        aur_model_put(
+            xml,
             "<sensor type=\"orthographic\"><transform name=\"to_world\"><scale x=\"%.17g\" y=\"%.17g\"/>",
             camera->half_width, camera->half_width);
     else
-        put(xml,
-            "<sensor type=\"perspective\"><string name=\"fov_axis\" value=\"%s\"/>"
-            "<float name=\"fov\" value=\"%.17g\"/><transform name=\"to_world\">",
-            camera->angle_is_vertical != 0 ? "y" : "x", clamp(camera->angle, 0.01, 179.0));
+        aur_model_put(xml,
+                      "<sensor type=\"perspective\"><string name=\"fov_axis\" value=\"%s\"/>"
+                      "<float name=\"fov\" value=\"%.17g\"/><transform name=\"to_world\">",
+                      camera->angle_is_vertical != 0 ? "y" : "x", clamp(camera->angle, 0.01, 179.0));
     put_look(xml, camera);
-    put(xml, "</transform>\n<sampler type=\"multijitter\"><integer name=\"sample_count\" "
-             "value=\"$spp\"/></sampler>"
-             "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$resx\"/>"
-             "<integer name=\"height\" value=\"$resy\"/><rfilter type=\"$rfilter\"/></film></sensor>\n");
+    aur_model_put(xml,
+                  "</transform>\n<sampler type=\"multijitter\"><integer name=\"sample_count\" "
+                  "value=\"$spp\"/></sampler>"
+                  "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$resx\"/>"
+                  "<integer name=\"height\" value=\"$resy\"/><rfilter type=\"$rfilter\"/></film></sensor>\n");
 }
 
 /* From the front, above and the right, so far away that all of a ball around the model is seen. */
@@ -92,11 +85,11 @@ static aur_import_camera place_camera(const aur_import_scene *scene, bool z_up) 
 
 /* Light from all sides, and more from above and the left: white is about 1 where that falls straight on. */
 static void put_lights(FILE *xml, bool z_up) {
-    put(xml,
-        "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.5\"/></emitter>\n"
-        "<emitter type=\"directional\"><vector name=\"direction\" value=\"%s\"/>"
-        "<rgb name=\"irradiance\" value=\"1.5\"/></emitter>\n",
-        z_up ? "0.5 0.5 -1" : "0.5 -1 -0.5");
+    aur_model_put(xml,
+                  "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.5\"/></emitter>\n"
+                  "<emitter type=\"directional\"><vector name=\"direction\" value=\"%s\"/>"
+                  "<rgb name=\"irradiance\" value=\"1.5\"/></emitter>\n",
+                  z_up ? "0.5 0.5 -1" : "0.5 -1 -0.5");
 }
 
 static void light(const aur_model_source *source, const aur_import_scene *scene, bool z_up, FILE *xml) {
