@@ -8,9 +8,10 @@
 #include "core/array.h"
 #include "core/parallel.h"
 #include "core/polygon.h"
+#include "scene/overlap_planes.h"
 
 /* Parts of the larger extent. */
-static const double IN_PLANE = 1e-6, EVENLY = 1.2e-7, NARROW = 3e-6, EXACT = 1e-12;
+static const double EVENLY = 1.2e-7, NARROW = 3e-6, EXACT = 1e-12;
 
 /* --- one pair */
 
@@ -35,8 +36,8 @@ static double extent_of(const double corners[3][3]) {
     return extent;
 }
 
-/* Counts both from a corner of the first, so that no digits are lost far from the origin. Returns how well
- * coordinates are known there. */
+/* Counts both from a corner of the first, so that no digits are lost far from the origin. Returns the
+ * largest coordinate. */
 static double localize(double first[3][3], double second[3][3]) {
     double largest = 0.0;
     const double corner[3] = {first[0][0], first[0][1], first[0][2]};
@@ -46,7 +47,7 @@ static double localize(double first[3][3], double second[3][3]) {
             first[c][d] -= corner[d];
             second[c][d] -= corner[d];
         }
-    return 4.0 * DBL_EPSILON * largest;
+    return largest;
 }
 
 /* The part of the second triangle over the first one: at most 6 corners. */
@@ -100,6 +101,10 @@ static bool is_apart(double low, double high, double extent, double known, bool 
     return facing || far > EVENLY * extent;
 }
 
+static inline bool is_same(const double a[3], const double b[3]) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /* Whether the plane that is upright on an edge of the first triangle has the second one beyond it. */
 static bool is_beyond_edge(const double first[3][3], const double second[3][3], const double normal[3]) {
     const double *const opposite[3] = {first[2], first[0], first[1]};
@@ -111,7 +116,8 @@ static bool is_beyond_edge(const double first[3][3], const double second[3][3], 
         aur_cross3(normal, along, across);
         const double start = aur_dot3(across, a);
         for (int c = 0; c < 3; ++c)
-            sides[c] = aur_dot3(across, second[c]) - start;
+            sides[c] =
+                is_same(second[c], a) || is_same(second[c], b) ? 0.0 : aur_dot3(across, second[c]) - start;
         sides[3] = aur_dot3(across, opposite[e]) - start;
         const double sign = sides[3] < 0.0 ? -1.0 : 1.0;
         if (sign * sides[0] <= 0.0 && sign * sides[1] <= 0.0 && sign * sides[2] <= 0.0)
@@ -138,21 +144,46 @@ static bool are_apart(const double larger[3][3], const double smaller[3][3], dou
            is_beyond_edge(smaller, larger, normal);
 }
 
+static double altitude_of(const double corners[3][3], double area) {
+    double longest = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        double edge[3];
+        for (int d = 0; d < 3; ++d)
+            edge[d] = corners[(c + 1) % 3][d] - corners[c][d];
+        longest = larger_of(longest, aur_dot3(edge, edge));
+    }
+    return 2.0 * area / sqrt(longest);
+}
+
+/* Whether one plane is more inclined to the other than by what coordinates are rounded. */
+static bool are_inclined(const aur_plane *plane, const aur_plane *other, bool opposite, double tilt) {
+    double between[3];
+    for (int d = 0; d < 3; ++d)
+        between[d] = opposite ? plane->normal[d] + other->normal[d] : plane->normal[d] - other->normal[d];
+    return aur_length3(between) > tilt;
+}
+
 /* The triangles are given with the larger one first. */
 static bool overlap(double larger[3][3], double smaller[3][3], double extent, bool *opposite) {
-    const double known = localize(larger, smaller);
-    if (are_apart((const double(*)[3])larger, (const double(*)[3])smaller, IN_PLANE * extent + known))
+    const double largest = localize(larger, smaller);
+    const double known = aur_overlap_slack(0.0, largest), slack = aur_overlap_slack(extent, largest);
+    if (are_apart((const double(*)[3])larger, (const double(*)[3])smaller, slack))
         return false;
     aur_plane plane, other;
-    if (!(aur_polygon_plane(3, (const double(*)[3])larger, &plane) > 1e-10 * extent * extent) ||
-        !(aur_polygon_plane(3, (const double(*)[3])smaller, &other) > 0.0))
+    const double areas[2] = {aur_polygon_plane(3, (const double(*)[3])larger, &plane),
+                             aur_polygon_plane(3, (const double(*)[3])smaller, &other)};
+    if (!(areas[0] > 1e-10 * extent * extent) || !(areas[1] > 0.0))
         return false;
-    const double cosine = aur_dot3(plane.normal, other.normal), slack = IN_PLANE * extent + known;
+    const double cosine = aur_dot3(plane.normal, other.normal);
     double low = INFINITY, high = -INFINITY, part[8][3];
     find_heights(&plane, 3, (const double(*)[3])smaller, 1.0, &low, &high);
     if (low > slack || high < -slack || fabs(cosine) < 0.99)
         return false;
     *opposite = cosine < 0.0;
+    const double tilt = aur_overlap_tilt(slack, altitude_of((const double(*)[3])larger, areas[0])) +
+                        aur_overlap_tilt(slack, altitude_of((const double(*)[3])smaller, areas[1]));
+    if (are_inclined(&plane, &other, *opposite, tilt))
+        return false;
     find_heights(&other, 3, (const double(*)[3])larger, *opposite ? 1.0 : -1.0, &low, &high);
     if (is_apart(low, high, extent, known, *opposite))
         return false;
@@ -189,7 +220,7 @@ typedef struct search {
 
 /* Wider than rounding and the distances across which triangles overlap. */
 static void include(const search *s, const double corners[3][3], float lower[3], float upper[3]) {
-    const double slack = IN_PLANE * extent_of(corners);
+    const double slack = aur_overlap_slack(extent_of(corners), 0.0);
     for (int d = 0; d < 3; ++d) {
         const double low = side(corners, d, false) - s->middle[d] - slack,
                      high = side(corners, d, true) - s->middle[d] + slack;
@@ -197,6 +228,14 @@ static void include(const search *s, const double corners[3][3], float lower[3],
         lower[d] = below < lower[d] ? below : lower[d];
         upper[d] = above > upper[d] ? above : upper[d];
     }
+}
+
+static bool boxes_meet(const float lower[3], const float upper[3], const float other_lower[3],
+                       const float other_upper[3]) {
+    bool meet = true;
+    for (int d = 0; d < 3; ++d)
+        meet &= lower[d] <= other_upper[d] && other_lower[d] <= upper[d];
+    return meet;
 }
 
 static void set_empty(float lower[3], float upper[3]) {
@@ -279,31 +318,80 @@ static void build(search *s, size_t first, size_t count) {
     n->skip = (uint32_t)s->node_count;
 }
 
-static bool begin(search *s) {
-    const size_t count = s->triangles->count;
-    s->centers = malloc(count * sizeof *s->centers);
-    s->order = malloc(count * sizeof *s->order);
-    s->nodes = malloc((2 * count / (LEAF / 2) + 2) * sizeof *s->nodes);
-    if (s->centers == NULL || s->order == NULL || s->nodes == NULL)
-        return false;
+/* Builds the tree of the `count` triangles of `order`. */
+static void build_tree(search *s, size_t count) {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double corners[3][3];
     for (size_t i = 0; i < count; ++i) {
-        s->triangles->corners(s->triangles->context, i, corners);
+        s->triangles->corners(s->triangles->context, s->order[i], corners);
         for (int d = 0; d < 3; ++d) {
-            low[d] = fmin(low[d], side((const double(*)[3])corners, d, false));
-            high[d] = fmax(high[d], side((const double(*)[3])corners, d, true));
+            low[d] = smaller_of(low[d], side((const double(*)[3])corners, d, false));
+            high[d] = larger_of(high[d], side((const double(*)[3])corners, d, true));
         }
     }
     for (int d = 0; d < 3; ++d)
         s->middle[d] = 0.5 * (low[d] + high[d]);
     for (size_t i = 0; i < count; ++i) {
-        s->triangles->corners(s->triangles->context, i, corners);
-        s->order[i] = (uint32_t)i;
+        s->triangles->corners(s->triangles->context, s->order[i], corners);
         for (int d = 0; d < 3; ++d)
-            s->centers[i][d] = (float)((corners[0][d] + corners[1][d] + corners[2][d]) / 3.0 - s->middle[d]);
+            s->centers[s->order[i]][d] =
+                (float)((corners[0][d] + corners[1][d] + corners[2][d]) / 3.0 - s->middle[d]);
     }
+    s->node_count = 0;
     build(s, 0, count);
+}
+
+static bool meets_leaf(const search *s, const double corners[3][3]) {
+    float lower[3], upper[3];
+    set_empty(lower, upper);
+    include(s, corners, lower, upper);
+    for (size_t k = 0; k < s->node_count;) {
+        const node *const n = &s->nodes[k];
+        const bool meet = boxes_meet(lower, upper, n->lower, n->upper);
+        if (meet && n->count <= LEAF)
+            return true;
+        k = meet ? k + 1 : n->skip;
+    }
+    return false;
+}
+
+static size_t list_marked(search *s, const uint8_t *marks, uint8_t least) {
+    size_t count = 0;
+    for (size_t i = 0; i < s->triangles->count; ++i)
+        if (marks[i] >= least)
+            s->order[count++] = (uint32_t)i;
+    return count;
+}
+
+/* Lists in `order` those triangles that may overlap others. */
+static bool choose(search *s, size_t *count) {
+    uint8_t *const marks = malloc(s->triangles->count);
+    const size_t unlike = marks != NULL ? aur_planes_mark(s->triangles, marks) : SIZE_MAX;
+    const bool good = unlike != SIZE_MAX, few = good && unlike < s->triangles->count / 4;
+    if (few && unlike > 0) {
+        build_tree(s, list_marked(s, marks, AUR_PLANE_UNLIKE));
+        for (size_t i = 0; i < s->triangles->count; ++i) {
+            double corners[3][3];
+            s->triangles->corners(s->triangles->context, i, corners);
+            if (marks[i] == AUR_PLANE_ALONE && meets_leaf(s, (const double(*)[3])corners))
+                marks[i] = AUR_PLANE_SHARED;
+        }
+    }
+    *count = good ? list_marked(s, marks, few ? AUR_PLANE_SHARED : AUR_PLANE_ALONE) : 0;
+    free(marks);
+    return good;
+}
+
+static bool begin(search *s) {
+    size_t count = s->triangles->count;
+    s->centers = malloc(count * sizeof *s->centers);
+    s->order = malloc(count * sizeof *s->order);
+    s->nodes = malloc((2 * count / (LEAF / 2) + 2) * sizeof *s->nodes);
+    if (s->centers == NULL || s->order == NULL || s->nodes == NULL || !choose(s, &count))
+        return false;
+    s->node_count = 0;
+    if (count > 0)
+        build_tree(s, count);
     s->found = calloc(s->node_count / BLOCK + 1, sizeof *s->found);
     return s->found != NULL;
 }
@@ -332,14 +420,6 @@ static void load_leaf(const search *s, const node *n, item items[LEAF]) {
         set_empty(it->lower, it->upper);
         include(s, (const double(*)[3])it->corners, it->lower, it->upper);
     }
-}
-
-static bool boxes_meet(const float lower[3], const float upper[3], const float other_lower[3],
-                       const float other_upper[3]) {
-    bool meet = true;
-    for (int d = 0; d < 3; ++d)
-        meet &= lower[d] <= other_upper[d] && other_lower[d] <= upper[d];
-    return meet;
 }
 
 static bool try_pair(const item *a, const item *b, aur_overlaps *found, size_t *capacity) {
