@@ -57,7 +57,8 @@ AUR_API aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *
 
 typedef struct aur_exact_report {
     size_t degree;
-    double residual;       /* the worst error among functions of mean square 1 to the degree */
+    double residual; /* the largest error among the orthonormal functions to the degree (harmonics on the
+                        sphere), whose mean square is 1 */
     double least, largest; /* weight times `points` */
     size_t points;         /* how many were weighed: without those below a GGX lobe's surface */
     size_t places;         /* of them at different places */

@@ -51,6 +51,8 @@ printf 'Pf\n2 1\n-1\n\x00\x00\x80\x3f\x00\x00\x40\x40' >picture.csv
 says picture.csv "PFM,2,1,Y,1,2,3,0"
 printf 'Pf\n2 1\n-1\n\x00\x00\xc0\x7f\x00\x00\x40\x40' >picture.csv
 says picture.csv "PFM,2,1,Y,3,3,3,1"
+printf 'Pf\n2 1\n-1\n\x00\x00\x40\xc0\x00\x00\x80\x3f' >picture.csv
+says picture.csv "PFM,2,1,Y,-3,-1,1,0"
 printf 'u,v\n0.25,0\n0.75,0.5\n' >points.xml
 says points.xml "square,2,u,0.25,0.5,0.75,0"
 says points.xml "square,2,v,0,0.25,0.5,0"

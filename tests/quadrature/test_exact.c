@@ -339,6 +339,64 @@ static void bad_input(void **state) {
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
 }
 
+/* The largest error among the harmonics to a degree, whose mean square is 1, by the recurrence in the degree
+ * of Holmes and Featherstone 2002, eq. 11. */
+static double worst_harmonic(size_t count, const double *xyz, const double *weights, size_t degree) {
+    double worst = 0.0;
+    for (size_t m = 0; m <= degree; ++m) {
+        double sums[2 * 64] = {0.0};
+        assert_in_range(degree, 0, 63);
+        for (size_t i = 0; i < count; ++i) {
+            const double z = xyz[3 * i + 2], phi = atan2(xyz[3 * i + 1], xyz[3 * i]);
+            double here = 1.0, before = 0.0;
+            for (size_t k = 1; k <= m; ++k)
+                here *= sqrt(1.0 - z * z) * (k == 1 ? sqrt(3.0) : sqrt(1.0 + 0.5 / (double)k));
+            for (size_t l = m; l <= degree; ++l) {
+                sums[2 * l] += weights[i] * here * cos((double)m * phi);
+                sums[2 * l + 1] += weights[i] * here * sin((double)m * phi);
+                const double n = (double)l + 1.0, q = n * n - (double)(m * m);
+                const double next =
+                    sqrt((4.0 * n * n - 1.0) / q) * z * here -
+                    (l > m ? sqrt((2.0 * n + 1.0) * (q - 2.0 * n + 1.0) / (q * (2.0 * n - 3.0))) * before
+                           : 0.0);
+                before = here;
+                here = next;
+            }
+        }
+        for (size_t k = 2 * m; k < 2 * degree + 2; ++k)
+            worst = fmax(worst, fabs(sums[k] - (m == 0 && k == 0 ? 1.0 : 0.0)));
+    }
+    return worst;
+}
+
+/* The residual that is reported is the one of the weights that are returned; that one is the largest error
+ * among harmonics, which equal weights show far above rounding. Axes count once. */
+static void reports(void **state) {
+    (void)state;
+    enum { N = 300, DEGREE = 24 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N],
+                  storage[4 * N];
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_report report;
+    aur_exact_found found = {0};
+    aur_error error;
+    for (size_t i = 0; i < N; ++i)
+        weights[i] = 1.0 / N;
+    const aur_exact_system system = {
+        .points = aur_polar_points_make(N, xyz, storage), .near = weights, .places = N, .lowest = -1.0};
+    assert_int_equal(aur_exact_residual(&system, DEGREE, weights, &found, &error), AUR_OK);
+    assert_true(found.residual > 1e-6);
+    assert_relative(found.residual, worst_harmonic(N, xyz, weights, DEGREE), 1e-9);
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_int_equal(aur_exact_residual(&system, report.degree, weights, &found, &error), AUR_OK);
+    assert_true(report.residual == found.residual && report.residual > 0.0);
+    options.domain = AUR_DOMAIN_AXES;
+    memcpy(xyz + 3, xyz, 3 * sizeof *xyz);
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_true(report.points == N && report.places == N - 1);
+    free(xyz);
+}
+
 /* A random set at a degree that needs a negative weight: refused with the least one, or allowed. */
 static void negative(void **state) {
     (void)state;
@@ -470,6 +528,7 @@ int main(void) {
         cmocka_unit_test(golden),      cmocka_unit_test(monomials),  cmocka_unit_test(designs),
         cmocka_unit_test(two_ways),    cmocka_unit_test(transforms), cmocka_unit_test(fast_transforms),
         cmocka_unit_test(many_points), cmocka_unit_test(bad_input),  cmocka_unit_test(negative),
-        cmocka_unit_test(cells),       cmocka_unit_test(nested),     cmocka_unit_test(stops_within_a_step)};
+        cmocka_unit_test(cells),       cmocka_unit_test(nested),     cmocka_unit_test(stops_within_a_step),
+        cmocka_unit_test(reports)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
