@@ -26,6 +26,14 @@ prints 'spherical-fibonacci,1024,sphere,0.00498051' $measure spherical-fibonacci
 prints 0.0360748 $measure spherical-fibonacci -n 64 --domain hemisphere --metric energy
 prints 0.00333786 $measure larcher-pillichshammer -n 1024 --metric star
 prints riesz:S $measure --list
+# Over seeds the mean, the sample's standard deviation and the root mean square of the single figures.
+$measure random -n 64 --domain sphere --seeds 3 --seed 5 --metric energy,riesz:1 --format csv | tail -1 | cut -d, -f4- | tr , ' ' >several
+for seed in 5 6 7; do $measure random -n 64 --domain sphere --seed $seed --metric energy,riesz:1 --format csv | tail -1 | cut -d, -f4-; done |
+  cat several - | tr , ' ' | awk 'function near(a, b) { return (a / b - 1) ^ 2 < 1e-18 }
+    NR == 1 { for (i = 1; i <= 6; ++i) said[i] = $i; next } { for (m = 0; m < 2; ++m) { sum[m] += $(m + 1); squares[m] += $(m + 1) ^ 2 } }
+    END { for (m = 0; m < 2; ++m) good += near(said[3 * m + 1], sum[m] / 3) && near(said[3 * m + 2], sqrt((squares[m] - sum[m] ^ 2 / 3) / 2)) &&
+            near(said[3 * m + 3], sqrt(squares[m] / 3))
+          exit good != 2 }' || fail "figures over seeds: $(cat several)"
 prints energy-rms $measure sobol -n 64 --scramble digit --seeds 3 --metric energy
 
 printf 'x,y,z\n1,0,0\n-1,0,0\n0,1,0\n0,-1,0\n0,0,1\n0,0,-1\n' >octahedron.csv

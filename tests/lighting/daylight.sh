@@ -121,6 +121,33 @@ done
 "$aureole" irradiance hour.xml --sensors last.pts --weather mixed.epw -n 64 -o last.csv 2>&1 |
   grep -qF 'aureole: 3650 hours count; ' || fail "no summary"
 
+# What the summary says of all sensors is what its table says of each, by intervals of 95 % of 16 randomisations (a quantile of
+# Student's t of 2.13145). A row of sensors goes from under a roof into the open.
+echo '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world"><scale x="2" y="9" z="1"/><translate z="1"/></transform>
+<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape></scene>' >roof.xml
+bash "$weather" 48 11 1 >whole.epw
+for x in $(seq 0 .1 2 | tr , .) $(seq 2 .02 3 | tr , .); do echo "$x 0 0 0 0 1"; done >row.pts
+"$aureole" irradiance roof.xml --sensors row.pts --weather whole.epw --up 0,0,1 -n 64 --threshold 9500 --schedule 10-14 -o row.csv 2>said || fail "a row"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
+  { ++n; value = $column["autonomy"]; half = 2.13145 * $column["autonomy_error"]; enough += value >= 50; least += value - half >= 50
+    most += value + half >= 50; sunny += $column["sun_hours"] > 250 }
+  END { printf "aureole: 1460 hours count; %.4g %% of the sensors have daylight for half of them or more (%.4g to %.4g %% by their intervals), %.4g %% have more than 250 hours of sun\n",
+          100 * enough / n, 100 * least / n, 100 * most / n, 100 * sunny / n
+        exit !(least < enough && enough < most && sunny > 0 && sunny < n) }' row.csv >expected || fail "all sensors are alike: $(cat expected)"
+grep -qxFf expected said || fail "the summary: $(cat said), not $(cat expected)"
+
+# The errors of a series are standard errors: values of 8 seeds spread as they say. The ratio of both variances is F with 7 and 8 * 15
+# degrees of freedom, at most 4.9 and at least .072 but in 1 of 10,000 cases each, were hours alike; the root mean square is over 50 hours.
+for seed in 0 1 2 3 4 5 6 7; do
+  sed -n 45p row.pts >one.pts
+  "$aureole" irradiance -q roof.xml --sensors one.pts --weather whole.epw --up 0,0,1 -n 128 --seed $seed --series hours.csv -o /dev/null || fail "a series"
+  awk -F, 'NR > 1 && $4 == 12 && $2 != before { before = $2; hour = 0 } NR > 1 && $4 == 12 && ++hour <= 4 { print $2 "-" $3, $5, $6 }' hours.csv
+done >spread
+awk '{ ++n[$1]; sum[$1] += $2; squares[$1] += $2 * $2; errors += $3 * $3 / 8 }
+  END { for (h in n) variance += (squares[h] - sum[h] ^ 2 / 8) / 7
+        print variance / errors; exit !(length(n) == 48 && variance < 4.9 * errors && variance > .072 * errors) }' spread >ratio ||
+  fail "hours spread $(cat ratio) times as their errors say"
+
 # Bad weather, by line.
 # edited NAME LINE SUBSTITUTION: `direct` is the beginning of a record to the field before the sun's irradiance.
 direct='^(([^,]*,){14})[^,]*'
@@ -156,7 +183,6 @@ edited unknown.epw 21 "s/$direct,[^,]*/\19999,9999/"
   grep -qF 'unknown.epw:21: 1 hours of daylight are not known' || fail "an hour that is not known"
 
 # The same weather written otherwise is the same year, and how it was written is said.
-bash "$weather" 48 11 1 >whole.epw
 head -8 whole.epw >head.epw
 tail -8760 whole.epw >hours.epw
 year() { # year FILE: what is said goes to `said`
@@ -232,6 +258,10 @@ warned swapped.epw "$balance"
 { head -8 whole.epw; awk -F, -v OFS=, '{ line[NR] = $0 } END { for (i = 1; i <= NR; ++i) { split(line[(i + 11) % NR + 1], v, ","); split(line[i], w, ",")
   $0 = line[i]; $14 = v[14]; $15 = v[15]; $16 = v[16]; print } }' <(tail -8760 whole.epw); } >noon.epw # 12 hours off
 warned noon.epw "it is dark with the sun high"
+
+# Light in the first hour of 27 days of January is light at night, of all hours that are lit.
+awk -F, -v OFS=, 'NR > 8 && $2 == 1 && $3 >= 5 && $4 == 1 { $14 = 100; $16 = 100 } { print }' whole.epw >night.epw
+warned night.epw "night.epw:105: there is light with the sun below the horizon in 27 of $(awk -F, 'NR > 8 && ($14 > 20 || $16 > 20)' night.epw | wc -l) hours"
 
 # Bad options.
 refused "--threshold is for a year of weather: --weather FILE" plane.xml --sensors up.pts --threshold 500

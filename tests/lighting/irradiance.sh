@@ -100,6 +100,13 @@ sed -n 2p room.pts >second.pts
 awk -F, 'NR > 1 && !($10 <= .005 * $4 * 1.001 && $13 > 256) { exit 1 }' error.csv || fail "to an error: $(cat error.csv)"
 near 4 6.283185307 error.csv
 warned "did not reach the error with 256 directions" room.xml --sensors room.pts --error 0.01% -n 256
+# Which sensors those are, and the worst of them, stands in the table.
+printf '3 0 0 0 0 1\n0 0 0 0 0 1\n.5 0 0 1 1 0\n.4 0 0 0 -.3 1\n.2 0 0 0 0 1\n' >near.pts
+"$aureole" irradiance screen.xml --sensors near.pts --error 1% -n 512 --illuminance rec709 --intervals -o unreached.csv 2>said || fail "unreached"
+awk -F, 'NR > 1 { ratio = $6 / $4; if (ratio > .01) { if (n++ == 0) first = NR - 2; if (ratio > worst) worst = ratio } ; if (least == 0 || ratio < least) least = ratio }
+  END { printf "near.pts:%d: %d of 5 sensors did not reach the error with 512 directions (the first of them is sensor %d); the worst reached %.3g\n",
+          first + 1, n, first, worst; exit !(n > 1 && n < 5 && first > 0) }' unreached.csv >expected || fail "unreached: $(cat expected unreached.csv)"
+grep -qFf expected said || fail "unreached: $(cat said), not $(cat expected)"
 
 # Formats: the same numbers in all of them.
 for format in json npy ply; do
@@ -172,6 +179,8 @@ refused "the scene has no light" unlit.xml --sensors room.pts
 # A solid cube in the light of a sky: its inside sees black backs.
 printf '<scene version="3.0.0"><emitter type="constant"/><shape type="cube"/></scene>' >solid.xml
 warned "3 of 3 sensors see mostly the black backs of surfaces" solid.xml --sensors room.pts
+printf '0 0 3 0 0 1\n0 3 0 0 1 0\n' | cat - room.pts >mixed.pts
+warned "mixed.pts:3: 3 of 5 sensors see mostly the black backs of surfaces (the first of them is sensor 2)" solid.xml --sensors mixed.pts
 warned "room.pts:4: 1 of 3 sensors lie on surfaces (the first of them is sensor 2)" room.xml --sensors room.pts
 # A sensor sealed in a box that is grey on both sides of its walls, and one that stands on it.
 printf 'void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 1 1 1\nlamp source sky 0 0 4 0 0 1 180\n' >box.rad

@@ -1,5 +1,6 @@
 /* Estimates of functionals: closed forms, errors asked, what a functional and the options may do wrong. */
 #include <aureole/estimate.h>
+#include <aureole/statistics.h>
 #include <string.h>
 
 #include "check.h"
@@ -61,6 +62,39 @@ static void test_reasons(void **state) {
     assert_true(!report.reached && report.levels == 2 && report.evaluations == 16 * (16 + 32));
 }
 
+/* Of 1000 intervals as many hold the mean as they say, and standard errors are those of the values' spread:
+ * five standard deviations of the binomial count are a false alarm in two million. Means of independent
+ * random points are nearly normal. */
+static void test_coverage(void **state) {
+    (void)state;
+    enum { SEEDS = 1000 };
+    static const double confidences[] = {0.8, 0.95};
+    for (size_t k = 0; k < 2; ++k) {
+        size_t held = 0;
+        aur_moments values = {0};
+        double squares = 0.0;
+        for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+            aur_estimate_options options = aur_estimate_options_default(2, 2);
+            aur_estimated found[2];
+            uint64_t evaluations = 0;
+            options.set = "random";
+            options.relative = 0.0;
+            options.evaluations = 64 * options.replicates;
+            options.confidence = confidences[k];
+            options.seed = seed;
+            assert_int_equal(aur_estimate(means, &evaluations, &options, found, NULL, NULL), AUR_OK);
+            held += fabs(found[0].value - 1.0 / 6.0) <= found[0].half_width;
+            aur_moments_add(&values, found[0].value);
+            squares += found[0].error * found[0].error / SEEDS;
+        }
+        const double wanted = confidences[k] * SEEDS, deviation = sqrt(wanted * (1.0 - confidences[k]));
+        print_message("confidence %g: %zu of %d hold the mean\n", confidences[k], held, (int)SEEDS);
+        assert_in_range(held, wanted - 5.0 * deviation, wanted + 5.0 * deviation);
+        /* The variance of 1000 values errs by 4.5 %. */
+        assert_relative(squares, aur_moments_variance(&values), 0.25);
+    }
+}
+
 static aur_result wrong(void *user, const aur_estimate_points *points, double *values, aur_error *error) {
     values[0] = NAN;
     return *(const bool *)user && points->replicate == 3
@@ -96,6 +130,6 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_means), cmocka_unit_test(test_reasons),
-                                       cmocka_unit_test(test_refusals)};
+                                       cmocka_unit_test(test_coverage), cmocka_unit_test(test_refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

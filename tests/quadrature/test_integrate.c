@@ -128,6 +128,48 @@ static void ends(void **state) {
     assert_non_null(strstr(error.message, "the function is nan in the direction ("));
 }
 
+/* One level of a discontinuous function: of 1000 intervals as many hold the integral as they say. Student's
+ * assumes normal values, which these nearly are, and five standard deviations of the binomial count are a
+ * false alarm in two million. */
+static void coverage(void **state) {
+    (void)state;
+    enum { SEEDS = 1000 };
+    const double expected = 2.0 * AUR_PI * (1.0 - 0.2 / sqrt(1.09));
+    static const double confidences[] = {0.8, 0.95};
+    for (size_t k = 0; k < 2; ++k) {
+        size_t held = 0;
+        for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+            integrand f = {.value = half};
+            aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+            options.confidence = confidences[k];
+            options.seed = seed;
+            options.evaluations = 64 * options.replicates;
+            aur_integral integral = {.size = sizeof integral};
+            assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+            held += fabs(integral.value - expected) <= integral.interval;
+        }
+        const double wanted = confidences[k] * SEEDS, deviation = sqrt(wanted * (1.0 - confidences[k]));
+        print_message("confidence %g: %zu of %d hold the integral\n", confidences[k], held, (int)SEEDS);
+        assert_in_range(held, wanted - 5.0 * deviation, wanted + 5.0 * deviation);
+    }
+}
+
+/* The difference is between values that are reported with fewer and with more evaluations. */
+static void difference(void **state) {
+    (void)state;
+    aur_integral levels[2];
+    for (size_t k = 0; k < 2; ++k) {
+        integrand f = {.value = half};
+        aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_HEMISPHERE);
+        options.relative = 1e-12;
+        options.evaluations = (uint64_t)(512 << k);
+        levels[k] = (aur_integral){.size = sizeof levels[k]};
+        assert_int_equal(aur_integrate(evaluate, &f, &options, &levels[k], NULL), AUR_OK);
+    }
+    assert_true(isinf(levels[0].difference) && levels[1].difference > 0.0);
+    assert_true(levels[1].difference == fabs(levels[1].value - levels[0].value));
+}
+
 static void refuse(const aur_integrate_options *options, aur_result result) {
     integrand f = {.value = smooth};
     aur_integral integral = {.size = sizeof integral};
@@ -174,6 +216,7 @@ static void bad_options(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(closed_forms), cmocka_unit_test(polynomials),
-                                       cmocka_unit_test(ends), cmocka_unit_test(bad_options)};
+                                       cmocka_unit_test(ends),         cmocka_unit_test(bad_options),
+                                       cmocka_unit_test(coverage),     cmocka_unit_test(difference)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -138,6 +138,15 @@ static void structs_may_grow(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* The count of the message is that of the description, of all paths, and so is its share in percent. */
+static void expect_share(const char *message, uint64_t count, uint64_t paths) {
+    char said[96];
+    snprintf(said, sizeof said, " %zu of %zu paths (%.3g %%)", (size_t)count, (size_t)paths,
+             100.0 * (double)count / (double)paths);
+    if (strstr(message, said) == NULL)
+        fail_msg("'%s' does not say '%s'", message, said);
+}
+
 /* By reciprocity one path in five leaves an open room at once. */
 static void open_scenes_are_reported(void **state) {
     (void)state;
@@ -149,6 +158,7 @@ static void open_scenes_are_reported(void **state) {
     assert_in_range(describe(radiosity).lost, 2000, 5000);
     assert_int_equal(kept.count, 1);
     assert_non_null(strstr(kept.text, "left the scene: it is open"));
+    expect_share(kept.text, describe(radiosity).lost, 10000);
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);
 }
@@ -163,6 +173,7 @@ static void backs_are_reported(void **state) {
     assert_in_range(describe(radiosity).behind, 100, 900);
     assert_int_equal(kept.count, 1);
     assert_non_null(strstr(kept.text, "back of a one-sided surface"));
+    expect_share(kept.text, describe(radiosity).behind, 1000);
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);
 }
