@@ -74,6 +74,13 @@ for clip in far_clip near_clip; do
   done
 done
 
+# Of half of the image, where the others see nothing.
+printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><film type="hdrfilm">' \
+  '<integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="rectangle"><transform name="to_world">' \
+  '<rotate y="1" angle="180"/><scale value="1e6"/><translate x="1e6" z="2e5"/></transform><emitter type="area"/></shape></scene>' > clip.xml
+"$aureole" render clip.xml --spp 4 -o clip.exr 2> said
+grep -q "512 of 1024 camera rays end at far_clip" said || fail "half of the image: $(cat said)"
+
 refuses() { # WORDS OPTION...
   local words=$1 status=0
   shift

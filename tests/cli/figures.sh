@@ -29,6 +29,11 @@ for spp in 1 2 4 8; do
   awk -v r="$rays" -v s=$((64 * spp)) 'BEGIN { exit !(r >= s) }' || fail "$spp samples: $rays rays"
 done
 
+# --stats says in words what --json says.
+"$aureole" render "$box" --width 8 --spp 8 --stats --json -o last.pfm >stats.json 2>stats.txt || fail "--stats"
+grep -q "^aureole: $(value stats.json samples) samples, $(value stats.json rays) rays, .*, $(value stats.json invalid_samples) invalid samples$" stats.txt ||
+  fail "$(cat stats.txt) is not $(cat stats.json)"
+
 # A picture to an error: on both streams, and of the file.
 "$aureole" render "$box" --width 8 --error 20% --integrator path -o asked.pfm --json >asked.json 2>asked.txt || fail "--error"
 near "$(value asked.json mean)" "$(mean asked.pfm)" 1e-6 || fail "the mean is $(mean asked.pfm): $(cat asked.json)"

@@ -152,6 +152,25 @@ static int stop_at(void *user, const char *what, uint64_t done, uint64_t total) 
     return done == *(const uint64_t *)user;
 }
 
+/* The least and the most samples of a pixel, which are those of the film that has part of them. */
+static void samples_of_pixels_are_described(void **state) {
+    const fixture *const f = *state;
+    const aur_render_options options = small("path", 1);
+    aur_render *const render = start(f->renderer, &options);
+    static uint32_t targets[45 * 37];
+    uint64_t all = 0;
+    for (size_t i = 0; i < 45 * 37; ++i)
+        all += targets[i] = i == 700 ? 7 : 2 + (uint32_t)(i % 3);
+    assert_int_equal(aur_render_step_pixels(render, 45 * 37, targets, NULL), AUR_OK);
+    aur_film_description described = {.size = sizeof described};
+    aur_render_statistics statistics = {.size = sizeof statistics};
+    assert_int_equal(aur_film_describe(aur_render_film(render), &described, NULL), AUR_OK);
+    assert_int_equal(aur_render_get_statistics(render, &statistics, NULL), AUR_OK);
+    assert_true(described.least_samples == 2 && described.most_samples == 7);
+    assert_int_equal(statistics.samples, all);
+    aur_render_destroy(render);
+}
+
 /* What is stopped keeps what it has, and goes on to the same bits. */
 static void a_stopped_step_is_kept_and_continued(void **state) {
     const fixture *const f = *state;
@@ -307,6 +326,7 @@ static void damaged_films_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_one_render),
                                        cmocka_unit_test(parts_are_merged),
+                                       cmocka_unit_test(samples_of_pixels_are_described),
                                        cmocka_unit_test(a_stopped_step_is_kept_and_continued),
                                        cmocka_unit_test(a_tile_is_stopped_within),
                                        cmocka_unit_test(the_error_is_that_of_independent_samples),

@@ -122,6 +122,33 @@ awk -v m="$(mean small-first)" -v b="$(mean copies-back)" 'BEGIN { exit !(m < b 
 awk -v m="$(mean back)" 'BEGIN { exit !(m > .78 && m < .82) }' || fail "back: the mean is $(mean back), not .8"
 grep -q "two.xml:.* 2 triangles lie .* shape 'b', behind triangle 0 of 'a'" two.said || fail "no names: $(cat two.said)"
 warned group 2
+# Triangles are counted within their shapes: of these only the third of b and the second of a lie in one plane.
+cat >a.obj <<'OBJ'
+v 0 0 3
+v 1 0 3
+v 0 1 3
+v 0 0 0
+v 1 0 0
+v 0 1 0
+f 1 2 3
+f 4 5 6
+OBJ
+cat >b.obj <<'OBJ'
+v 0 0 5
+v 1 0 5
+v 0 1 5
+v 0 0 7
+v 1 0 7
+v 0 1 7
+v .1 .1 0
+v 1 .1 0
+v .1 1 0
+f 1 2 3
+f 4 5 6
+f 7 8 9
+OBJ
+picture counted "<shape type='obj' id='a'><string name='filename' value='a.obj'/></shape>" "<shape type='obj' id='b'><string name='filename' value='b.obj'/></shape>"
+grep -q "1 triangles lie .* the first is triangle 2 of shape 'b', behind triangle 1 of 'a' at " counted.said || fail "the first triangles: $(cat counted.said)"
 
 # --- view factors: areas count what is covered once, with the first
 cat >floors.obj <<'OBJ'

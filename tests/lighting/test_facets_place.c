@@ -224,6 +224,47 @@ static void test_coverage(void **state) {
     aur_facets_destroy(facets);
 }
 
+/* What two squares of side 1 at distance 1 send to the sky is 1 less Howell's C-11; rays alone. Five standard
+ * deviations of the binomial count are a false alarm in two million. */
+static void test_sky_coverage(void **state) {
+    (void)state;
+    enum { RUNS = 400 };
+    const double expected = 1.0 - 0.19982489569838732, *const o = offsets[2];
+    mesh_file file;
+    mesh_begin(&file, "sky-coverage");
+    mesh_group(&file, "below");
+    mesh_polygon(&file, 4,
+                 (const double[4][3]){{o[0], o[1], o[2]},
+                                      {o[0] + 1.0, o[1], o[2]},
+                                      {o[0] + 1.0, o[1] + 1.0, o[2]},
+                                      {o[0], o[1] + 1.0, o[2]}});
+    mesh_group(&file, "above");
+    mesh_polygon(&file, 4,
+                 (const double[4][3]){{o[0], o[1], o[2] + 1.0},
+                                      {o[0], o[1] + 1.0, o[2] + 1.0},
+                                      {o[0] + 1.0, o[1] + 1.0, o[2] + 1.0},
+                                      {o[0] + 1.0, o[1], o[2] + 1.0}});
+    aur_facets_options options = aur_facets_options_default();
+    options.group = true;
+    aur_facets *const facets = mesh_load(&file, &options);
+    static const double confidences[] = {0.8, 0.95};
+    for (size_t c = 0; c < 2; ++c) {
+        size_t held = 0;
+        for (uint64_t seed = 0; seed < RUNS; ++seed) {
+            aur_view_factors_options wish = wish_of(seed, true);
+            wish.confidence = confidences[c];
+            aur_view_factors_matrix m;
+            aur_view_factors *const factors = factors_of(facets, &wish, &m);
+            held += fabs(m.sky[0] - expected) <= m.sky_half_widths[0];
+            aur_view_factors_destroy(factors);
+        }
+        const double wanted = confidences[c] * RUNS, deviation = sqrt(wanted * (1.0 - confidences[c]));
+        print_message("%zu of %d intervals of confidence %g hold the sky\n", held, (int)RUNS, confidences[c]);
+        assert_in_range(held, wanted - 5.0 * deviation, fmin(wanted + 5.0 * deviation, RUNS));
+    }
+    aur_facets_destroy(facets);
+}
+
 /* Facets that are small beside their distance from the origin used to vanish when they were merged. */
 static void test_small_facets(void **state) {
     (void)state;
@@ -332,10 +373,11 @@ static void test_tilted_square(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_room),         cmocka_unit_test(test_street),
-        cmocka_unit_test(test_radiosities),  cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_small_facets), cmocka_unit_test(test_tilted_square),
-        cmocka_unit_test(test_wide_ground),  cmocka_unit_test(test_far_speck),
+        cmocka_unit_test(test_room),          cmocka_unit_test(test_street),
+        cmocka_unit_test(test_radiosities),   cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_sky_coverage),  cmocka_unit_test(test_small_facets),
+        cmocka_unit_test(test_tilted_square), cmocka_unit_test(test_wide_ground),
+        cmocka_unit_test(test_far_speck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,6 +124,14 @@ said=$("$aureole" viewfactors twins.obj --group --rays 65536 2>&1 >/dev/null)
 grep -qE '1 rows see backs of facets, up to 0\.(199|2) of' <<<"$said" || fail "the largest share of backs: $said"
 [ -z "$("$aureole" viewfactors open.obj --both-sides --group -q --to csv | grep -e ',-2,')" ] || fail "backs are rows"
 
+# Half widths: none of a closed form, and of rays one that the error of what leaves the lower plate for the sky does not exceed
+# by far (its other side is Howell's C-11), nor falls far below.
+awk -F, '$1 == 0 && $2 == 1 { found = $4 == 0 } END { exit !found }' room.csv || fail "a closed form has an interval: $(cat room.csv)"
+"$aureole" viewfactors twins.obj --group -q --to csv --rays-only --rays 4096 >rays.csv
+[ "$(head -1 rays.csv)" = row,column,factor,half_width ] || fail "columns: $(head -1 rays.csv)"
+awk -F, '$1 == 0 && $2 == -1 { off = ($3 - .80017510430161) / $4; width = $4 } END { exit !(width > 1e-4 && width < .01 && off < 3 && off > -3) }' rays.csv ||
+  fail "half widths: $(cat rays.csv)"
+
 # Two rays a facet of a tetrahedron: by some seeds three facets see nothing but the fourth, which has less area than
 # they have together, so that no symmetric exchanges add up. The warning counts the rows that do not.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n' >tetrahedron.obj

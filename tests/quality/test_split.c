@@ -84,6 +84,24 @@ static void sums_are_within_their_bound(void **state) {
     release_points(&points);
 }
 
+/* At the ends of three axes harmonics of even degrees are large and add up: the error is a hundredth of its
+ * bound or more, so that a bound a hundred times smaller would not hold. */
+static void bounds_are_not_loose(void **state) {
+    (void)state;
+    own_points points = sphere_points(COUNT);
+    for (size_t j = 0; j < COUNT; ++j)
+        for (size_t d = 0; d < 3; ++d)
+            points.coordinates[3 * j + d] = j % 3 == d ? (j % 2 == 0 ? 1.0 : -1.0) : 0.0;
+    double bound, none;
+    const double exact = measured("riesz:-0.5", &points, 0.0, 0, &none);
+    for (double accuracy = 1e-3; accuracy > 1e-8; accuracy *= 1e-2) {
+        const double off = fabs(measured("riesz:-0.5", &points, accuracy, 0, &bound) - exact);
+        print_message("accuracy %g: an error of %.3f of its bound\n", accuracy, off / bound);
+        assert_true(bound > 0.0 && off <= bound && off >= 0.01 * bound);
+    }
+    release_points(&points);
+}
+
 /* What is asked for and cannot be promised is summed over all pairs. */
 static void what_is_too_much_is_summed_exactly(void **state) {
     (void)state;
@@ -192,6 +210,7 @@ static void the_smooth_part_is_the_error_function(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(sums_are_within_their_bound),
+                                       cmocka_unit_test(bounds_are_not_loose),
                                        cmocka_unit_test(what_is_too_much_is_summed_exactly),
                                        cmocka_unit_test(coincident_points_are_infinitely_repelled),
                                        cmocka_unit_test(bits_depend_on_nothing_else),

@@ -100,6 +100,29 @@ static void areas_add_up(void **state) {
     }
 }
 
+/* The least and greatest area and the standard deviation, by the table of all areas. */
+static void figures_are_those_of_the_table(void **state) {
+    (void)state;
+    own_points points = random_directions(50, 9);
+    aur_series *series;
+    assert_int_equal(
+        aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL), AUR_OK);
+    double least = INFINITY, greatest = 0.0, squares = 0.0, farthest = 0.0;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double *const row = aur_series_values(series) + 4 * i;
+        least = fmin(least, row[1]);
+        greatest = fmax(greatest, row[1]);
+        squares += (row[1] - 1.0) * (row[1] - 1.0);
+        farthest = fmax(farthest, row[2]);
+    }
+    assert_near(measured("voronoi-min", &points), least, 1e-12);
+    assert_near(measured("voronoi-max", &points), greatest, 1e-12);
+    assert_relative(measured("voronoi-deviation", &points), sqrt(squares / 50.0), 1e-12);
+    assert_near(measured("covering", &points), farthest, 1e-12);
+    aur_series_destroy(series);
+    release_points(&points);
+}
+
 static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
     own_points points = sphere_points(count);
     const double half = sin(degrees * (AUR_PI / 360.0));
@@ -594,6 +617,7 @@ int main(void) {
         cmocka_unit_test(the_grid_finds_all_neighbours),
         cmocka_unit_test(regular_sets_have_regular_cells),
         cmocka_unit_test(areas_add_up),
+        cmocka_unit_test(figures_are_those_of_the_table),
         cmocka_unit_test(areas_of_caps_add_up),
         cmocka_unit_test(cells_of_caps_hold_what_is_nearest),
         cmocka_unit_test(caps_agree_with_what_is_known),

@@ -301,21 +301,22 @@ static void leaves_out_what_is_no_surface(void **state) {
                                          "white polygon p 0 0 12 0 0 0 1 0 0 1 1 .01 0 1 0\n"
                                          "white polygon p 0 0 12 0 0 0 2 2 0 2 0 0 0 1 0\n"
                                          "lamp polygon p 0 0 12 0 0 0 1 0 0 2 0 0 1 0 0\n"
-                                         "lamp polygon p 0 0 9 0 0 3 1 0 3 0 1 3\n";
+                                         "lamp polygon p 0 0 9 0 0 3 1 0 3 0 1 3\n"
+                                         "lamp polygon p 0 0 9 0 0 4 1 0 4 2 0 4\n";
     char said[1024] = "";
     const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
     aur_scene *scene = NULL;
     assert_int_equal(aur_scene_load_memory("room.rad", strlen(text), text, &options, &scene, NULL), AUR_OK);
     assert_string_equal(said,
-                        "room.rad:10: 1 of 5 polygons have corners outside of their plane and become "
+                        "room.rad:10: 1 of 6 polygons have corners outside of their plane and become "
                         "triangles at an angle (the "
                         "first is here)\n"
-                        "room.rad:9: 2 of 5 polygons have no area and are left out (the first is here)\n"
-                        "room.rad:11: 1 of 5 polygons have an outline that crosses itself and are left out "
+                        "room.rad:9: 3 of 6 polygons have no area and are left out (the first is here)\n"
+                        "room.rad:11: 1 of 6 polygons have an outline that crosses itself and are left out "
                         "(the first is here)\n"
-                        "room.rad:12: 1 lights have no area and give no light (the first is here)\n");
-    static const size_t triangles[] = {0, 2, 0, 0, 1};
-    for (size_t i = 0; i < 5; ++i)
+                        "room.rad:12: 2 lights have no area and give no light (the first is here)\n");
+    static const size_t triangles[] = {0, 2, 0, 0, 1, 0};
+    for (size_t i = 0; i < 6; ++i)
         assert_int_equal(scene->shapes[i]->mesh.triangle_count, triangles[i]);
     assert_int_equal(scene->emitter_count, 1);
     assert_int_equal(scene->emitters[0]->shape, 4);
