@@ -78,6 +78,13 @@ head -2 screen.csv >screen_up.csv
 near 4 0.376137 screen_up.csv
 awk -F, 'NR == 2 { exit !($7 > 0 && $7 < .01) }' screen.csv || fail "half of a lamp: $(cat screen.csv)"
 
+# Beside a wall the lamp's light is as exact, and what the wall reflects errs: so does the whole, by as much.
+sed 's|</scene>|<shape type="rectangle"><transform name="to_world"><scale value="3"/><rotate y="1" angle="90"/><translate x="-2"/></transform></shape></scene>|' lamp.xml >wall.xml
+"$aureole" irradiance wall.xml --sensors below.pts --parts -o wall.csv || fail "a wall"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
+  NR == 2 { direct = $column["direct_r_error"]; whole = $column["r_error"]; reflected = $column["reflected_r_error"]
+    exit !(direct < 1e-9 && reflected > 1e-6 && (whole / reflected - 1) ^ 2 < 1e-8) }' wall.csv || fail "errors of parts: $(cat wall.csv)"
+
 # A point light: intensity / distance^2, to the rounding of floats, and in lux.
 printf '<scene version="3.0.0"><emitter type="point"><point name="position" x="0" y="0" z="2"/>
 <rgb name="intensity" value="8"/></emitter></scene>' >point.xml

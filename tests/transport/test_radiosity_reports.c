@@ -209,6 +209,10 @@ static void coincident_surfaces_are_reported(void **state) {
     aur_radiosity *const lossy = must_create(standing, &options);
     assert_in_range(describe(lossy).coincident, 2, 4);
     assert_int_equal(kept.count, 1);
+    char said[64];
+    snprintf(said, sizeof said, "radiosity: %d pairs of triangles lie on each other",
+             (int)describe(lossy).coincident);
+    assert_non_null(strstr(kept.text, said));
     assert_non_null(strstr(kept.text, "lie on each other"));
     assert_int_equal(aur_radiosity_trace(lossy, 10000, NULL), AUR_OK);
     assert_in_range(describe(lossy).lost, 100, 5000);
