@@ -88,6 +88,7 @@ static bool try_pair(const finding *work, size_t i, size_t k, size_t *capacity) 
     const aur_facets *const facets = work->facets;
     const size_t other = aur_facet_of(facets, k);
     if (i == k || !aur_pair_stands_with(facets, i, k) || facets->areas[other] == 0.0 ||
+        aur_facets_are_sheet(facets, aur_facet_of(facets, i), other) ||
         (!work->all && is_hopeless(work, i, k)))
         return true;
     const double exchange = find_exchange(work, i, k);

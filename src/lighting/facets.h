@@ -63,6 +63,8 @@ void aur_patch_corners(const aur_facets *facets, size_t patch, double corners[3]
 
 /* Finds what lies back to back, where facets see with their fronts alone. Errors: MEMORY. */
 aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error);
+/* Whether they lie back to back in one plane, where they see nothing of each other. */
+bool aur_facets_are_sheet(const aur_facets *facets, size_t first, size_t second);
 /* The facet that looks the opposite way at a point of a facet of a sheet; SIZE_MAX: none. Where
  * opposite_starts is not NULL. */
 size_t aur_facets_other_side(const aur_facets *facets, size_t facet, const double point[3]);

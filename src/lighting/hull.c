@@ -43,6 +43,9 @@ static void try_plane(aur_hull *hull, const double a[3], const double b[3], cons
     } else if (behind) {
         return;
     }
+    for (size_t p = 0; p < 2; ++p) /* a corner in the polygon's own plane, of which less is outside */
+        if (aur_dot3(plane.normal, hull->planes[p].normal) > 1.0 - 1e-12)
+            return;
     hull->planes[hull->plane_count++] = plane;
 }
 
@@ -159,6 +162,22 @@ static double highest_of(const aur_plane *plane, const double (*corners)[3]) {
                 fmax(aur_plane_height(plane, corners[1]), aur_plane_height(plane, corners[2])));
 }
 
+/* Whether the part of the facet between the two polygons' planes is outside. Sides of a hull across a narrow
+ * gap are steep by rounding alone, which farther parts of the facet would take for a way in. */
+static bool part_is_outside(const aur_hull *hull, const double (*corners)[3]) {
+    double cut[4][3], part[5][3];
+    size_t count = aur_polygon_clip(3, corners, &hull->planes[0], cut);
+    count = count > 0 ? aur_polygon_clip(count, (const double(*)[3])cut, &hull->planes[1], part) : 0;
+    for (size_t i = 2; i < hull->plane_count && count > 0; ++i) {
+        double highest = -INFINITY;
+        for (size_t c = 0; c < count; ++c)
+            highest = fmax(highest, aur_plane_height(&hull->planes[i], part[c]));
+        if (highest <= hull->slack)
+            return true;
+    }
+    return count == 0;
+}
+
 static bool facet_is_outside(const aur_hull *hull, const aur_facets *facets, size_t facet) {
     const double(*const corners)[3] = (const double(*)[3])facets->corners[facet];
     double heights[2];
@@ -171,6 +190,8 @@ static bool facet_is_outside(const aur_hull *hull, const aur_facets *facets, siz
     }
     if (facets->areas[facet] == 0.0)
         return false;
+    if (part_is_outside(hull, corners))
+        return true;
     bool behind, before;
     aur_plane plane = facets->planes[facet];
     find_sides(hull, &plane, hull->tight, &behind, &before);

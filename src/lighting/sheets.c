@@ -5,9 +5,13 @@
 #include "lighting/facets.h"
 #include "scene/overlaps.h"
 
+/* As the file has them, whose digits say how well places are known. */
 static void find_corners(const void *context, size_t index, double corners[3][3]) {
     const aur_facets *const facets = context;
-    memcpy(corners, facets->corners[index], sizeof facets->corners[index]);
+    const double *const origin = aur_scene_origin(facets->scene);
+    for (int c = 0; c < 3; ++c)
+        for (int d = 0; d < 3; ++d)
+            corners[c][d] = facets->corners[index][c][d] + origin[d];
 }
 
 aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error) {
@@ -38,6 +42,15 @@ aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error) {
     }
     aur_overlaps_release(&overlaps);
     return result;
+}
+
+bool aur_facets_are_sheet(const aur_facets *facets, size_t first, size_t second) {
+    if (facets->opposite_starts == NULL)
+        return false;
+    for (size_t k = facets->opposite_starts[first]; k < facets->opposite_starts[first + 1]; ++k)
+        if (facets->opposites[k] == second)
+            return true;
+    return false;
 }
 
 /* Whether the point lies in the facet, seen along its normal. */

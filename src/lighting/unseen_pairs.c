@@ -60,6 +60,20 @@ static void forget(const filling *work, size_t i) {
             memset(&visits->rows[i].hits[width * k], 0, width * sizeof *visits->rows[i].hits);
 }
 
+/* Others' rays that arrived at such a patch met what covers it, from behind, and were rounded beyond that. */
+static void forget_arrivals(const filling *work, size_t i) {
+    const aur_visits *const visits = work->visits;
+    const size_t width = visits->randomizations;
+    for (size_t k = visits->starts[i]; k < visits->starts[i + 1]; ++k) {
+        const size_t source = visits->sources[k];
+        uint16_t *const hits = &visits->rows[source].hits[width * (size_t)visits->places[k]];
+        for (size_t r = 0; r < width && !is_closed(work, i, source); ++r) {
+            visits->back[width * source + r] += (double)hits[r];
+            hits[r] = 0;
+        }
+    }
+}
+
 /* Whether rays of others arrived at the patch without a closed form. */
 static bool is_met(const filling *work, size_t i) {
     const aur_visits *const visits = work->visits;
@@ -149,8 +163,10 @@ aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_visits *visits, a
     for (size_t i = 0; i < count; ++i) {
         const double area = facets->areas[aur_facet_of(facets, i)], rest = area - work.exchanges[i];
         if (work.exchanges[i] > 0.0 && rest > -SMALLEST_REST * area &&
-            count_sampled(&work, i) > SURPRISING + 4.0 * rays * fmax(rest, 0.0) / area)
+            count_sampled(&work, i) > SURPRISING + 4.0 * rays * fmax(rest, 0.0) / area) {
             forget(&work, i);
+            forget_arrivals(&work, i);
+        }
     }
     bool good = true;
     for (size_t i = 0; good && i < count; ++i) {
