@@ -22,6 +22,9 @@ check diffuse gain_percent "$(gain diffuse equal)" 1e-3
 "$program" weights $sf -n 64 --lobe phong:20 --regularization 0 --unconstrained --report --format csv >glossy || exit 1
 check glossy equal 2.284681166476e-2 1e-9
 check glossy optimal 2.130088901918e-2 1e-9
+# A system that is nearly a multiple of the identity has the condition 1; three digits are printed.
+"$program" weights $sf -n 64 --lobe cosine --regularization 1e6 --unconstrained --report --format csv >identity || exit 1
+check identity condition 1 .005
 # The optimal density: plain weights p/q, and optimal ones.
 "$program" weights $sf -n 64 --lobe phong:20 --density optimal --regularization 0 --unconstrained --report \
   --format csv >dense || exit 1
