@@ -181,14 +181,3 @@ aur_vector aur_extreme_triangle_normal(aur_vector a, aur_vector b, double *doubl
         *doubled_area = ldexp((double)length, 2 * exponent);
     return length > 0.0f && isfinite(length) ? aur_vector_scale(cross, 1.0f / length) : (aur_vector){0};
 }
-
-double aur_triangle_area(const aur_vector corner[3]) {
-    const aur_vector a = aur_vector_subtract(corner[1], corner[0]);
-    const aur_vector b = aur_vector_subtract(corner[2], corner[0]);
-    const aur_vector cross = aur_vector_cross(a, b);
-    const float squared = aur_vector_dot(cross, cross);
-    double doubled = (double)sqrtf(squared);
-    if (!aur_is_usual_square(squared))
-        aur_extreme_triangle_normal(a, b, &doubled);
-    return 0.5 * doubled;
-}

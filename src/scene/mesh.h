@@ -80,4 +80,13 @@ static inline aur_vector aur_triangle_normal(const aur_vector corner[3]) {
     return aur_extreme_triangle_normal(a, b, NULL);
 }
 
-double aur_triangle_area(const aur_vector corner[3]);
+static inline double aur_triangle_area(const aur_vector corner[3]) {
+    const aur_vector a = aur_vector_subtract(corner[1], corner[0]);
+    const aur_vector b = aur_vector_subtract(corner[2], corner[0]);
+    const aur_vector cross = aur_vector_cross(a, b);
+    const float squared = aur_vector_dot(cross, cross);
+    double doubled = (double)sqrtf(squared);
+    if (!aur_is_usual_square(squared))
+        aur_extreme_triangle_normal(a, b, &doubled);
+    return 0.5 * doubled;
+}

@@ -10,10 +10,19 @@
 
 enum { MOST_BOXES = 2048 };
 
+/* These are in the innermost loops: fmin and fmax, which know of NaN, are calls. */
+static inline double smaller_of(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double larger_of(double a, double b) {
+    return a > b ? a : b;
+}
+
 static void include(aur_patch_box *box, const double point[3], double radius) {
     for (size_t i = 0; i < 3; ++i) {
-        box->lower[i] = fmin(box->lower[i], point[i] - radius);
-        box->upper[i] = fmax(box->upper[i], point[i] + radius);
+        box->lower[i] = smaller_of(box->lower[i], point[i] - radius);
+        box->upper[i] = larger_of(box->upper[i], point[i] + radius);
     }
 }
 
@@ -70,8 +79,8 @@ static aur_result add_shape(aur_patch_boxes *boxes, const aur_shape *shape, cons
             move(to_world, &box);
         bool usable = true;
         for (size_t i = 0; i < 3; ++i) {
-            usable = usable && fmax(fabs(box.lower[i]), fabs(box.upper[i])) <= 1.00001 * AUR_REACH;
-            box.size = fmax(box.size, box.upper[i] - box.lower[i]);
+            usable = usable && larger_of(fabs(box.lower[i]), fabs(box.upper[i])) <= 1.00001 * AUR_REACH;
+            box.size = larger_of(box.size, box.upper[i] - box.lower[i]);
         }
         box.weight = (double)count / (double)picked;
         if (usable && box.size > 0.0)
@@ -123,7 +132,7 @@ void aur_patch_boxes_release(aur_patch_boxes *boxes) {
 double aur_patch_rounding(const aur_patch_box *box, const double origin[3]) {
     double reach = 0.0;
     for (size_t i = 0; i < 3; ++i)
-        reach = fmax(reach, fmax(fabs(box->lower[i] - origin[i]), fabs(box->upper[i] - origin[i])));
+        reach = larger_of(reach, larger_of(fabs(box->lower[i] - origin[i]), fabs(box->upper[i] - origin[i])));
     return 0.5 * (double)FLT_EPSILON * reach / box->size;
 }
 
@@ -131,14 +140,14 @@ double aur_patch_rounding(const aur_patch_box *box, const double origin[3]) {
  * surface has that is within twice its size of the origin. */
 static const double HARMLESS = 4e-6, LEAST = 1.2e-7;
 
-/* The area whose coordinates are rounded, times by how much of its size, beyond what is harmless. Where all
- * is lost it cannot become worse. */
-static double harm_of(const aur_patch_boxes *boxes, const double origin[3]) {
+/* The area whose coordinates are rounded, times by how much of its size, beyond what is harmless, or more
+ * than `most`. Where all is lost it cannot become worse. */
+static double harm_of(const aur_patch_boxes *boxes, const double origin[3], double most) {
     static const double lost = 2e-3;
     double harm = 0.0;
-    for (size_t i = 0; i < boxes->count; ++i) {
+    for (size_t i = 0; i < boxes->count && harm < most; ++i) {
         const aur_patch_box *const box = &boxes->boxes[i];
-        const double rounding = fmin(aur_patch_rounding(box, origin), lost);
+        const double rounding = smaller_of(aur_patch_rounding(box, origin), lost);
         if (rounding > HARMLESS)
             harm += box->weight * box->size * box->size * (rounding - HARMLESS);
     }
@@ -146,7 +155,8 @@ static double harm_of(const aur_patch_boxes *boxes, const double origin[3]) {
 }
 
 typedef struct side {
-    double at, weight;
+    double at;
+    const aur_patch_box *box;
 } side;
 
 static int compare_sides(const void *a, const void *b) {
@@ -154,31 +164,38 @@ static int compare_sides(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* The median of both sides of all boxes: what spans far shifts it to neither side. */
-static double median(const aur_patch_boxes *boxes, size_t axis, double power, side *sides) {
-    const size_t count = 2 * boxes->count;
-    double total = 0.0, below = 0.0;
+static void sort_sides(const aur_patch_boxes *boxes, size_t axis, side *sides) {
     for (size_t i = 0; i < boxes->count; ++i) {
         const aur_patch_box *const box = &boxes->boxes[i];
-        const double weight = box->weight * pow(box->size, power);
-        sides[2 * i] = (side){box->lower[axis], weight};
-        sides[2 * i + 1] = (side){box->upper[axis], weight};
-        total += 2.0 * weight;
+        sides[2 * i] = (side){box->lower[axis], box};
+        sides[2 * i + 1] = (side){box->upper[axis], box};
     }
-    qsort(sides, count, sizeof *sides, compare_sides);
+    qsort(sides, 2 * boxes->count, sizeof *sides, compare_sides);
+}
+
+static double weight_of(const aur_patch_box *box, int power) {
+    return box->weight * (power == 2 ? box->size * box->size : power == 1 ? box->size : 1.0);
+}
+
+/* The median of both sides of all boxes: what spans far shifts it to neither side. */
+static double median(const aur_patch_boxes *boxes, const side *sides, int power) {
+    const size_t count = 2 * boxes->count;
+    double total = 0.0, below = 0.0;
+    for (size_t i = 0; i < boxes->count; ++i)
+        total += 2.0 * weight_of(&boxes->boxes[i], power);
     size_t low = 0;
-    while (low + 1 < count && (below += sides[low].weight) < 0.4999999 * total)
+    while (low + 1 < count && (below += weight_of(sides[low].box, power)) < 0.4999999 * total)
         ++low;
     size_t high = low;
     while (high + 1 < count && below < 0.5000001 * total)
-        below += sides[++high].weight;
+        below += weight_of(sides[++high].box, power);
     return 0.5 * (sides[low].at + sides[high].at);
 }
 
 /* Whether nothing is rounded much more from another origin. */
 static bool is_as_good(const aur_patch_boxes *boxes, const double origin[3], const double other[3]) {
     for (size_t i = 0; i < boxes->count; ++i) {
-        const double most = fmax(4.0 * aur_patch_rounding(&boxes->boxes[i], origin), LEAST);
+        const double most = larger_of(4.0 * aur_patch_rounding(&boxes->boxes[i], origin), LEAST);
         if (aur_patch_rounding(&boxes->boxes[i], other) > most)
             return false;
     }
@@ -189,7 +206,7 @@ static bool is_as_good(const aur_patch_boxes *boxes, const double origin[3], con
 static void round_origin(const aur_patch_boxes *boxes, const double best[3], double origin[3]) {
     double largest = 0.0;
     for (size_t i = 0; i < 3; ++i)
-        largest = fmax(largest, fabs(best[i]));
+        largest = larger_of(largest, fabs(best[i]));
     int exponent;
     frexp(largest, &exponent);
     /* In the end it is the best one itself. */
@@ -204,29 +221,32 @@ static void round_origin(const aur_patch_boxes *boxes, const double best[3], dou
 aur_result aur_origin_choose(const aur_patch_boxes *boxes, double origin[3]) {
     enum { MEDIANS = 3, PLACES = 32 };
     memset(origin, 0, 3 * sizeof *origin);
-    const double at_zero = harm_of(boxes, origin);
+    const double at_zero = harm_of(boxes, origin, HUGE_VAL);
     if (!(at_zero > 0.0))
         return AUR_OK;
     double least = HUGE_VAL;
-    double best[3] = {0.0};
+    double best[3] = {0.0}, tried[MEDIANS + PLACES][3];
     side *const sides = malloc(2 * boxes->count * sizeof *sides);
     if (sides == NULL)
         return AUR_ERROR_MEMORY;
-    for (size_t k = 0; k < MEDIANS + PLACES; ++k) {
-        /* Where most of the area is, or of the lengths, or of the surfaces; else at some of them. */
-        const aur_patch_box *const some =
-            &boxes->boxes[k < MEDIANS ? 0 : (2 * (k - MEDIANS) + 1) * boxes->count / (2 * PLACES)];
-        double tried[3];
-        for (size_t i = 0; i < 3; ++i)
-            tried[i] = k < MEDIANS ? median(boxes, i, 2.0 - (double)k, sides)
-                                   : 0.5 * (some->lower[i] + some->upper[i]);
-        const double harm = harm_of(boxes, tried);
-        if (harm < least) {
-            least = harm;
-            memcpy(best, tried, sizeof tried);
+    /* Where most of the area is, or of the lengths, or of the surfaces; else at some of them. */
+    for (size_t i = 0; i < 3; ++i) {
+        sort_sides(boxes, i, sides);
+        for (size_t k = 0; k < MEDIANS + PLACES; ++k) {
+            const aur_patch_box *const some =
+                &boxes->boxes[k < MEDIANS ? 0 : (2 * (k - MEDIANS) + 1) * boxes->count / (2 * PLACES)];
+            tried[k][i] =
+                k < MEDIANS ? median(boxes, sides, 2 - (int)k) : 0.5 * (some->lower[i] + some->upper[i]);
         }
     }
     free(sides);
+    for (size_t k = 0; k < MEDIANS + PLACES; ++k) {
+        const double harm = harm_of(boxes, tried[k], least);
+        if (harm < least) {
+            least = harm;
+            memcpy(best, tried[k], sizeof best);
+        }
+    }
     if (at_zero > 4.0 * least)
         round_origin(boxes, best, origin);
     return AUR_OK;

@@ -9,7 +9,7 @@
 
 /* A ball around a plane's normal and offset, in parts of the reach of all triangles, is put into each cell
  * that it meets; planes that are the same within rounding have a cell in common. */
-enum { CELLS = 512, EXPONENTS = 320, ZERO_EXPONENT = 160 };
+enum { CELLS = 512, EXPONENTS = 257, ZERO_EXPONENT = 127 };
 
 /* Triangles are like each other if no extent is above a power of two and no altitude below this part of it,
  * so that balls are no wider than a cell. */
@@ -27,56 +27,59 @@ typedef struct planes {
     size_t count;
     row *rows;
     double reach, largest;
-    float most; /* the extent of triangles that are like each other */
+    float most, least; /* the extent and altitude of triangles that are like each other */
     uint64_t *table;
     size_t table_size, filled;
 } planes;
 
-static inline float larger(float a, float b) {
+static inline double larger_of(double a, double b) {
     return a > b ? a : b;
 }
 
-/* Reads all triangles. */
-static void describe(planes *p, const aur_triangle_source *triangles) {
-    double corners[3][3], start[3], reach = 0.0, largest = 0.0;
+/* Returns the square of the longest side. */
+static double describe(const double corners[3][3], const double start[3], row *r) {
+    double sides[3][3], normal[3], longest = 0.0, extent = 0.0, offset = 0.0;
+    for (size_t c = 0; c < 3; ++c) {
+        for (size_t d = 0; d < 3; ++d) {
+            sides[c][d] = corners[(c + 1) % 3][d] - corners[c][d];
+            extent = larger_of(extent, fabs(sides[c][d]));
+        }
+        longest = larger_of(longest, aur_dot3(sides[c], sides[c]));
+    }
+    aur_cross3(sides[0], sides[1], normal);
+    const double length = aur_length3(normal), scale = length > 0.0 ? 1.0 / length : 0.0;
+    for (size_t d = 0; d < 3; ++d) {
+        r->normal[d] = (float)(normal[d] * scale);
+        offset += normal[d] * (corners[0][d] - start[d]);
+    }
+    r->offset = (float)(offset * scale);
+    r->extent = (float)extent;
+    r->altitude = length > 0.0 ? (float)(length / sqrt(longest)) : 0.0F;
+    return longest;
+}
+
+static void describe_all(planes *p, const aur_triangle_source *triangles) {
+    double corners[3][3], start[3], far = 0.0, longest = 0.0;
     triangles->corners(triangles->context, 0, corners);
     memcpy(start, corners[0], sizeof start);
     for (size_t i = 0; i < p->count; ++i) {
-        double sides[3][3], normal[3], longest = 0.0, extent = 0.0, far = 0.0;
         triangles->corners(triangles->context, i, corners);
-        for (size_t c = 0; c < 3; ++c) {
-            double square = 0.0, away = 0.0;
-            for (size_t d = 0; d < 3; ++d) {
-                const double side = sides[c][d] = corners[(c + 1) % 3][d] - corners[c][d];
-                const double from = corners[c][d] - start[d], at = fabs(corners[c][d]);
-                square += side * side;
-                away += from * from;
-                extent = fabs(side) > extent ? fabs(side) : extent;
-                largest = at > largest ? at : largest;
-            }
-            longest = square > longest ? square : longest;
-            far = away > far ? away : far;
-        }
-        aur_cross3(sides[0], sides[1], normal);
-        const double length = aur_length3(normal), scale = length > 0.0 ? 1.0 / length : 0.0;
-        double offset = 0.0;
-        for (size_t d = 0; d < 3; ++d) {
-            p->rows[i].normal[d] = (float)(normal[d] *= scale);
-            offset += normal[d] * (corners[0][d] - start[d]);
-        }
-        p->rows[i].offset = (float)offset;
-        p->rows[i].extent = (float)extent;
-        p->rows[i].altitude = length > 0.0 ? (float)(length / sqrt(longest)) : 0.0F;
-        reach = far > reach ? far : reach;
+        longest = larger_of(longest, describe((const double(*)[3])corners, start, &p->rows[i]));
+        double away = 0.0;
+        for (size_t d = 0; d < 3; ++d)
+            away += (corners[0][d] - start[d]) * (corners[0][d] - start[d]);
+        far = larger_of(far, away);
     }
-    p->reach = sqrt(reach);
-    p->largest = largest;
+    /* No corner is farther from the start, and no coordinate larger. */
+    p->reach = sqrt(far) + sqrt(longest);
+    p->largest = p->reach + larger_of(fabs(start[0]), larger_of(fabs(start[1]), fabs(start[2])));
 }
 
-static int exponent_of(float x) {
-    int exponent;
-    (void)frexpf(fminf(x, FLT_MAX), &exponent);
-    return exponent + ZERO_EXPONENT;
+/* x <= 2^(this - ZERO_EXPONENT), and more than half of that; of 0 and numbers without normal form 0. */
+static uint32_t exponent_of(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (bits >> 23 & 0xff) + ((bits & 0x7fffff) != 0);
 }
 
 /* The power of two with which most triangles are like each other. */
@@ -99,10 +102,6 @@ static void choose_size(planes *p) {
     }
 }
 
-static bool is_like(const planes *p, const row *r) {
-    return r->extent <= p->most && r->altitude >= ldexpf(p->most, -LIKE_BITS);
-}
-
 /* Marks the triangle and the first one in this cell. False: the table is full. */
 static bool enter(planes *p, const uint32_t cell[4], size_t index, uint8_t *marks) {
     uint64_t hash = cell[0];
@@ -115,7 +114,7 @@ static bool enter(planes *p, const uint32_t cell[4], size_t index, uint8_t *mark
         const uint32_t first = (uint32_t)found - 1;
         if (found == 0) {
             p->table[at] = tag | (uint32_t)(index + 1);
-            return ++p->filled <= p->table_size / 2;
+            return ++p->filled <= p->table_size / 4 * 3;
         }
         if ((found & ~(uint64_t)UINT32_MAX) != tag)
             continue;
@@ -158,20 +157,17 @@ static bool enter_plane(planes *p, size_t index, double slack, uint8_t *marks) {
     const float tilt = (float)aur_overlap_tilt(slack, (double)r->altitude) + 1e-6F;
     const float radius[2] = {tilt, tilt + (float)(slack / p->reach)};
     const float along = r->normal[0] * side[0] + r->normal[1] * side[1] + r->normal[2] * side[2];
-    const float middle[4] = {r->normal[0], r->normal[1], r->normal[2], (float)((double)r->offset / p->reach)};
-    for (float sign = -1.0F; sign < 2.0F; sign += 2.0F) {
-        if (sign * along < -2.0F * tilt)
-            continue;
-        const float turned[4] = {sign * middle[0], sign * middle[1], sign * middle[2], sign * middle[3]};
-        if (!enter_ball(p, turned, radius, index, marks))
-            return false;
-    }
-    return true;
+    const float sign = along < 0.0F ? -1.0F : 1.0F, offset = (float)((double)r->offset / p->reach);
+    const float middle[4] = {sign * r->normal[0], sign * r->normal[1], sign * r->normal[2], sign * offset},
+                turned[4] = {-middle[0], -middle[1], -middle[2], -middle[3]};
+    return enter_ball(p, middle, radius, index, marks) &&
+           (sign * along > 2.0F * tilt || enter_ball(p, turned, radius, index, marks));
 }
 
 static bool mark(planes *p, uint8_t *marks, size_t *unlike) {
+    p->least = ldexpf(p->most, -LIKE_BITS);
     const double slack = aur_overlap_slack((double)p->most, p->largest);
-    const double widest = aur_overlap_tilt(slack, (double)ldexpf(p->most, -LIKE_BITS));
+    const double widest = aur_overlap_tilt(slack, (double)p->least);
     /* Far from the origin, where coordinates are too coarse, balls would have more cells than two a side. */
     bool good = 2.0 * (widest + 2e-6 + slack / p->reach) * CELLS < 1.0 && p->reach > 0.0;
     *unlike = 0;
@@ -179,7 +175,7 @@ static bool mark(planes *p, uint8_t *marks, size_t *unlike) {
         const row *const r = &p->rows[i];
         if (r->altitude == 0.0F)
             continue;
-        if (is_like(p, r)) {
+        if (r->extent <= p->most && r->altitude >= p->least) {
             good = enter_plane(p, i, slack, marks);
         } else {
             marks[i] = AUR_PLANE_UNLIKE;
@@ -195,14 +191,14 @@ size_t aur_planes_mark(const aur_triangle_source *triangles, uint8_t *marks) {
         memset(marks, AUR_PLANE_UNLIKE, p.count);
         return p.count;
     }
-    while (p.table_size < 4 * p.count)
+    while (p.table_size < 2 * p.count)
         p.table_size *= 2;
     p.rows = malloc(p.count * sizeof *p.rows);
     p.table = calloc(p.table_size, sizeof *p.table);
     size_t unlike = SIZE_MAX;
     if (p.rows != NULL && p.table != NULL) {
         memset(marks, AUR_PLANE_ALONE, p.count);
-        describe(&p, triangles);
+        describe_all(&p, triangles);
         choose_size(&p);
         if (!mark(&p, marks, &unlike)) {
             memset(marks, AUR_PLANE_UNLIKE, p.count);

@@ -38,14 +38,19 @@ aur_result aur_mesh_reader_add_vertex(aur_mesh_reader *reader, const double poin
     return AUR_OK;
 }
 
-aur_result aur_mesh_reader_add_corner(aur_mesh_reader *reader, uint32_t vertex) {
-    if (reader->corner_count >= AUR_MESH_NO_INDEX - 1)
+aur_result aur_mesh_reader_add_corners(aur_mesh_reader *reader, size_t count, const uint32_t *vertices) {
+    if (reader->corner_count + count >= AUR_MESH_NO_INDEX)
         return aur_mesh_reader_fail(reader, "more than 2^32 - 2 corners");
-    if (!aur_array_reserve(&reader->corners, &reader->corner_capacity, reader->corner_count + 1,
+    if (!aur_array_reserve(&reader->corners, &reader->corner_capacity, reader->corner_count + count,
                            sizeof *reader->corners))
         return aur_fail_memory(reader->error);
-    reader->corners[reader->corner_count++] = vertex;
+    for (size_t i = 0; i < count; ++i)
+        reader->corners[reader->corner_count++] = vertices[i];
     return AUR_OK;
+}
+
+aur_result aur_mesh_reader_add_corner(aur_mesh_reader *reader, uint32_t vertex) {
+    return aur_mesh_reader_add_corners(reader, 1, &vertex);
 }
 
 aur_result aur_mesh_reader_end_face(aur_mesh_reader *reader, size_t line) {

@@ -35,6 +35,7 @@ aur_result aur_mesh_reader_fail(const aur_mesh_reader *reader, const char *forma
 
 aur_result aur_mesh_reader_add_vertex(aur_mesh_reader *reader, const double point[3]);
 /* A corner of the face that comes next, and its end. `line` is 0 in binary files. */
+aur_result aur_mesh_reader_add_corners(aur_mesh_reader *reader, size_t count, const uint32_t *vertices);
 aur_result aur_mesh_reader_add_corner(aur_mesh_reader *reader, uint32_t vertex);
 aur_result aur_mesh_reader_end_face(aur_mesh_reader *reader, size_t line);
 

@@ -1,5 +1,4 @@
 /* Stanford PLY: ascii and both binary forms; elements that a mesh has no use for are left out. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,42 +14,59 @@ static void skip_ascii_space(aur_scanner *scanner) {
 }
 
 static double read_binary(const char *at, aur_ply_type type, bool big) {
+    char turned[8];
     const size_t size = type_sizes[type];
-    uint64_t bits = 0;
-    for (size_t i = 0; i < size; ++i)
-        bits |= (uint64_t)(unsigned char)at[big ? size - 1 - i : i] << (8 * i);
-    const uint32_t half = (uint32_t)bits;
-    float single;
-    double wide;
+    if (big != (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) && size > 1) {
+        for (size_t i = 0; i < size; ++i)
+            turned[i] = at[size - 1 - i];
+        at = turned;
+    }
+    union {
+        int8_t int8;
+        uint8_t uint8;
+        int16_t int16;
+        uint16_t uint16;
+        int32_t int32;
+        uint32_t uint32;
+        float single;
+        double wide;
+    } value;
     switch (type) {
     case AUR_PLY_INT8:
-        return (int8_t)bits;
+        return memcpy(&value.int8, at, 1), value.int8;
+    case AUR_PLY_UINT8:
+        return memcpy(&value.uint8, at, 1), value.uint8;
     case AUR_PLY_INT16:
-        return (int16_t)bits;
+        return memcpy(&value.int16, at, 2), value.int16;
+    case AUR_PLY_UINT16:
+        return memcpy(&value.uint16, at, 2), value.uint16;
     case AUR_PLY_INT32:
-        return (int32_t)bits;
+        return memcpy(&value.int32, at, 4), value.int32;
+    case AUR_PLY_UINT32:
+        return memcpy(&value.uint32, at, 4), value.uint32;
     case AUR_PLY_FLOAT:
-        memcpy(&single, &half, sizeof single);
-        return (double)single;
-    case AUR_PLY_DOUBLE:
-        memcpy(&wide, &bits, sizeof wide);
-        return wide;
-    default: /* the unsigned types */
-        return (double)bits;
+        return memcpy(&value.single, at, 4), (double)value.single;
+    default:
+        return memcpy(&value.wide, at, 8), value.wide;
     }
 }
 
-static aur_result read_value(aur_ply *self, aur_ply_type type, const aur_ply_element *element, size_t index,
-                             double *value) {
+/* False: the text has another form, or the file ends. */
+static inline bool next_binary(aur_ply *self, aur_ply_type type, double *value) {
+    aur_scanner *const scanner = &self->reader->scanner;
+    if (self->format == AUR_PLY_ASCII || (size_t)(scanner->end - scanner->at) < type_sizes[type])
+        return false;
+    *value = read_binary(scanner->at, type, self->format == AUR_PLY_BIG);
+    scanner->at += type_sizes[type];
+    return true;
+}
+
+static aur_result read_text(aur_ply *self, const aur_ply_element *element, size_t index, double *value) {
     aur_scanner *const scanner = &self->reader->scanner;
     if (self->format == AUR_PLY_ASCII) {
         skip_ascii_space(scanner);
         if (aur_scan_double(scanner, value))
             return AUR_OK;
-    } else if ((size_t)(scanner->end - scanner->at) >= type_sizes[type]) {
-        *value = read_binary(scanner->at, type, self->format == AUR_PLY_BIG);
-        scanner->at += type_sizes[type];
-        return AUR_OK;
     }
     if (scanner->at >= scanner->end || self->format != AUR_PLY_ASCII)
         return aur_mesh_reader_fail(self->reader, "the file ends in %s %zu of %zu", element->name, index,
@@ -60,7 +76,7 @@ static aur_result read_value(aur_ply *self, aur_ply_type type, const aur_ply_ele
 
 static aur_result add_corner(aur_ply *self, size_t face, double value) {
     const size_t vertex_count = self->vertices->count;
-    if (!(value >= 0.0) || !(value < (double)vertex_count) || value != floor(value))
+    if (!(value >= 0.0) || !(value < (double)vertex_count) || value != (double)(uint32_t)value)
         return aur_mesh_reader_fail(self->reader, "face %zu: index %.10g is no vertex: there are %zu", face,
                                     value, vertex_count);
     return aur_mesh_reader_add_corner(self->reader, (uint32_t)value);
@@ -89,15 +105,17 @@ static aur_result read_values(aur_ply *self, const aur_ply_element *element, con
     double value = 1.0;
     aur_result result = AUR_OK;
     if (property->list) {
-        result = read_value(self, property->count_type, element, index, &value);
-        if (result == AUR_OK && (!(value >= 0.0) || value > 4294967295.0 || value != floor(value)))
+        if (!next_binary(self, property->count_type, &value))
+            result = read_text(self, element, index, &value);
+        if (result == AUR_OK && (!(value >= 0.0) || value > 4294967295.0 || value != (double)(uint32_t)value))
             return aur_mesh_reader_fail(self->reader, "%s %zu: a list cannot have %g values", element->name,
                                         index, value);
     }
     const size_t count = (size_t)value;
     const size_t line = self->format == AUR_PLY_ASCII ? self->reader->scanner.line : 0;
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        result = read_value(self, property->type, element, index, &value);
+        if (!next_binary(self, property->type, &value))
+            result = read_text(self, element, index, &value);
         if (result == AUR_OK)
             result = take_value(self, element, property, index, value);
     }
@@ -106,16 +124,78 @@ static aur_result read_values(aur_ply *self, const aur_ply_element *element, con
                : result;
 }
 
+static aur_result read_row(aur_ply *self, const aur_ply_element *element, size_t index) {
+    aur_result result = AUR_OK;
+    for (size_t p = 0; p < element->property_count && result == AUR_OK; ++p)
+        result = read_values(self, element, &element->properties[p], index);
+    return result;
+}
+
+/* --- the usual rows of large files, in the machine's order of bytes */
+
+static bool is_native(const aur_ply *self) {
+    return self->format == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? AUR_PLY_BIG : AUR_PLY_LITTLE);
+}
+
+static bool has_floats(const aur_ply *self, const aur_ply_element *element) {
+    bool all = is_native(self);
+    for (size_t p = 0; p < element->property_count; ++p)
+        all = all && !element->properties[p].list && element->properties[p].type == AUR_PLY_FLOAT &&
+              element->properties[p].doubles != NULL;
+    return all;
+}
+
+/* False: what is special about the row is still to be read. */
+static bool take_floats(aur_ply *self, const aur_ply_element *element, size_t index) {
+    aur_scanner *const scanner = &self->reader->scanner;
+    const size_t count = element->property_count;
+    bool usable = (size_t)(scanner->end - scanner->at) >= count * sizeof(float);
+    for (size_t p = 0; p < count && usable; ++p) {
+        const aur_ply_property *const property = &element->properties[p];
+        float value;
+        memcpy(&value, scanner->at + p * sizeof value, sizeof value);
+        usable = aur_mesh_is_usable((double)value);
+        property->doubles[property->stride * index] = (double)value;
+    }
+    scanner->at += usable ? count * sizeof(float) : 0;
+    return usable;
+}
+
+static bool has_short_lists(const aur_ply *self, const aur_ply_element *element) {
+    const aur_ply_property *const list = &element->properties[0];
+    return is_native(self) && element->property_count == 1 && list->role == AUR_PLY_INDICES &&
+           list->count_type == AUR_PLY_UINT8 && (list->type == AUR_PLY_INT32 || list->type == AUR_PLY_UINT32);
+}
+
+static bool take_face(aur_ply *self, aur_result *result) {
+    aur_scanner *const scanner = &self->reader->scanner;
+    const size_t left = (size_t)(scanner->end - scanner->at);
+    const size_t count = left > 0 ? (unsigned char)*scanner->at : 0;
+    uint32_t corners[UINT8_MAX];
+    bool usable = left > count * sizeof *corners;
+    for (size_t i = 0; i < count && usable; ++i) {
+        memcpy(&corners[i], scanner->at + 1 + i * sizeof *corners, sizeof *corners);
+        usable = corners[i] < self->vertices->count && corners[i] <= INT32_MAX;
+    }
+    if (!usable)
+        return false;
+    scanner->at += 1 + count * sizeof *corners;
+    *result = aur_mesh_reader_add_corners(self->reader, count, corners);
+    if (*result == AUR_OK)
+        *result = aur_mesh_reader_end_face(self->reader, 0);
+    return true;
+}
+
 static aur_result read_rows(aur_ply *self, const aur_ply_element *element) {
     /* Without properties there are no bytes, however many rows there are said to be. */
-    for (size_t i = 0; element->property_count > 0 && i < element->count; ++i) {
-        for (size_t p = 0; p < element->property_count; ++p) {
-            const aur_result result = read_values(self, element, &element->properties[p], i);
-            if (result != AUR_OK)
-                return result;
-        }
-    }
-    return AUR_OK;
+    if (element->property_count == 0)
+        return AUR_OK;
+    const bool floats = has_floats(self, element), lists = has_short_lists(self, element);
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < element->count && result == AUR_OK; ++i)
+        if (!(floats && take_floats(self, element, i)) && !(lists && take_face(self, &result)))
+            result = read_row(self, element, i);
+    return result;
 }
 
 /* --- the whole */
