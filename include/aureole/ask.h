@@ -76,7 +76,7 @@ typedef struct aur_ask_report {
      * pixels share an error, such as a photon map's. */
     double degrees;
     uint64_t rounds;
-    double samples_per_pixel; /* mean over the picture, of all replicas together */
+    double samples_per_pixel; /* mean over the picture, of all replicas and finished rounds: the error's */
     size_t replicas;
     aur_render_statistics
         statistics; /* of all replicas together, and of what was tried; its size is set here */

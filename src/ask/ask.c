@@ -347,7 +347,7 @@ aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_report *out, aur_error
                           .mean = ask->trial.measure.mean,
                           .degrees = interval.degrees,
                           .rounds = ask->trial.rounds,
-                          .samples_per_pixel = ask->trial.samples,
+                          .samples_per_pixel = ask->trial.begun ? ask->trial.before : ask->trial.samples,
                           .replicas = ask->trial.replicas.count,
                           .trial_rays = ask->others.budget,
                           .bias_high = sqrt(ask->bias.high)};

@@ -163,10 +163,12 @@ static int describe_weight_table(const char *path, const info_options *options) 
     report_fact_number(facts, "samples", (double)o->count);
     report_fact_number(facts, "mirror_samples", (double)o->mirror_count);
     report_fact_number(facts, "exponent", o->lobe.exponent);
-    if (o->mirror_lobe.kind == AUR_LOBE_GGX)
-        report_fact_number(facts, "mirror_alpha", o->mirror_lobe.alpha);
-    else
-        report_fact_number(facts, "mirror_exponent", o->mirror_lobe.exponent);
+    /* Programs are given both, of which one is not known. */
+    const bool ggx = o->mirror_lobe.kind == AUR_LOBE_GGX, all = options->common.format != REPORT_TABLE;
+    if (ggx || all)
+        report_fact_number(facts, "mirror_alpha", ggx ? o->mirror_lobe.alpha : NAN);
+    if (!ggx || all)
+        report_fact_number(facts, "mirror_exponent", ggx ? NAN : o->mirror_lobe.exponent);
     report_fact_text(facts, "density", o->optimal_density ? "optimal" : "same");
     report_fact_text(facts, "horizon",
                      o->clipped || o->mirror_lobe.kind == AUR_LOBE_GGX ? "clipped" : "ignored");

@@ -125,8 +125,20 @@ static aur_result estimate_year(irradiance_command *given, const aur_scene *scen
                             given->common.quiet, error);
 }
 
+/* In the time of a particle: a path from a sensor takes that of two. */
+static void plan(const irradiance_command *given, size_t sensors) {
+    static cli_phase phases[] = {{"photons", 0.0}, {"radiosity", 0.0}, {"sensors", 0.0}};
+    const double particles = given->estimate.particles > 0 ? (double)given->estimate.particles : 5e5;
+    const double directions = given->estimate.directions > 0 ? (double)given->estimate.directions : 1024.0;
+    phases[0].work = given->estimate.reflected == AUR_REFLECTED_BY_MAP ? particles : 0.0;
+    phases[1].work = given->estimate.reflected == AUR_REFLECTED_BY_RADIOSITY ? particles : 0.0;
+    phases[2].work = 2.0 * directions * (double)sensors;
+    cli_progress_plan(sizeof phases / sizeof phases[0], phases);
+}
+
 static aur_result estimate(const irradiance_command *given, const aur_scene *scene,
                            const aur_sensors_view *sensors, aur_error *error) {
+    plan(given, sensors->count);
     aur_irradiance *const results = calloc(sensors->count, sizeof *results);
     if (results == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);

@@ -17,6 +17,7 @@ typedef struct schedule {
     double expected, spent; /* processor seconds: of what is to be run, and of what was */
     double spent_expected;  /* what had been expected of the latter */
     report_table *summary;
+    cli_phase *phases; /* of the progress: the experiments that are run */
 } schedule;
 
 void cli_lab_duration(double seconds, char text[32]) {
@@ -151,9 +152,16 @@ static int check_set(const char *set) {
 }
 
 static void estimate(schedule *plan) {
-    for (size_t i = 0; i < plan->count; ++i)
-        if (!is_kept(plan, plan->experiments[i]))
-            plan->expected += expected_of(plan, plan->experiments[i]);
+    size_t count = 0;
+    for (size_t i = 0; i < plan->count; ++i) {
+        const lab_experiment *const experiment = plan->experiments[i];
+        if (is_kept(plan, experiment))
+            continue;
+        plan->expected += expected_of(plan, experiment);
+        if (plan->phases != NULL)
+            plan->phases[count++] = (cli_phase){experiment->name, expected_of(plan, experiment)};
+    }
+    cli_progress_plan(count, plan->phases);
     if (plan->command->common.quiet || plan->expected < 10.0 || aur_ranks_rank() != 0)
         return;
     char all[32], wall[32];
@@ -199,12 +207,15 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
     lab->progress = cli_progress_of_kept(command->common.quiet);
     lab->warnings = cli_warnings(command->common.quiet);
     if (status == CLI_SUCCESS) {
+        plan.phases = calloc(plan.count, sizeof *plan.phases);
         estimate(&plan);
         plan.summary = command->all ? report_create(sizeof columns / sizeof columns[0], columns) : NULL;
         status = run_all(&plan);
         const int printed = command->all ? cli_finish(plan.summary, command->common.format) : CLI_SUCCESS;
         status = status == CLI_SUCCESS ? printed : status;
     }
+    cli_progress_plan(0, NULL);
+    free(plan.phases);
     free(plan.experiments);
     return status;
 }

@@ -55,6 +55,7 @@ static int refuse_verb(const char *name) {
 
 /* A result that cannot be delivered (a full disk behind standard output) is a failure. */
 static int finish(int status) {
+    cli_progress_clear();
     if (fflush(stdout) != 0 || ferror(stdout)) {
         if (status == CLI_SUCCESS)
             fprintf(stderr, "aureole: cannot write standard output\n");

@@ -180,6 +180,7 @@ static aur_result measure(const cli_measure_arguments *arguments, cli_measure_ro
             if (!whole)
                 aur_parse_integer(cli_list_at(&arguments->sizes, i), SIZE_MAX, &size);
             row->source = source;
+            row->phase = rows->count * cli_phases_per_row(arguments);
             const aur_result result = cli_measure_figures(arguments, source, (size_t)size, row, error);
             if (result != AUR_OK)
                 return result;
@@ -189,13 +190,32 @@ static aur_result measure(const cli_measure_arguments *arguments, cli_measure_ro
     return AUR_OK;
 }
 
+/* Most measures sum over pairs of points; sizes of files are not known yet. */
+static cli_phase *plan(const cli_measure_arguments *arguments, size_t rows) {
+    const size_t per = cli_phases_per_row(arguments);
+    cli_phase *const phases = calloc(rows * per, sizeof *phases);
+    for (size_t i = 0; i < rows * per && phases != NULL; ++i) {
+        uint64_t size = 1;
+        if (arguments->sizes.count > 0)
+            aur_parse_integer(cli_list_at(&arguments->sizes, i / per % arguments->sizes.count), SIZE_MAX,
+                              &size);
+        phases[i].work = (double)size * (double)size;
+    }
+    cli_progress_plan(phases != NULL ? rows * per : 0, phases);
+    return phases;
+}
+
 static int measure_all(const cli_measure_arguments *arguments) {
     const size_t sizes = arguments->sizes.count > 0 ? arguments->sizes.count : 1;
     const size_t most = arguments->source_count * sizes;
     cli_measure_rows rows = {.items = calloc(most, sizeof *rows.items)};
     aur_error error = {0};
-    const aur_result result = rows.items != NULL ? measure(arguments, &rows, &error) : AUR_ERROR_MEMORY;
+    cli_phase *const phases = plan(arguments, most);
+    const bool ready = rows.items != NULL && phases != NULL;
+    const aur_result result = ready ? measure(arguments, &rows, &error) : AUR_ERROR_MEMORY;
+    cli_progress_plan(0, NULL);
     cli_progress_clear();
+    free(phases);
     int status = CLI_SUCCESS;
     if (rows.count > 0)
         status = print_rows(arguments, &rows);

@@ -26,6 +26,7 @@ typedef struct cli_measure_row {
     const char *source;
     aur_domain domain;
     size_t count;
+    size_t phase;       /* of the progress: the first of the row's */
     double *figures;    /* metrics.count * cli_figures_per_metric() */
     aur_series *series; /* NULL: figures */
 } cli_measure_row;
@@ -37,6 +38,13 @@ typedef struct cli_measure_rows {
 
 static inline size_t cli_figures_per_metric(const cli_measure_arguments *arguments) {
     return arguments->seed_count > 0 ? 3 : arguments->options.accuracy > 0.0 ? 2 : 1;
+}
+
+/* A row's phases of progress: its metrics, or with seeds as many groups of these. */
+static inline size_t cli_phases_per_row(const cli_measure_arguments *arguments) {
+    enum { MOST_GROUPS = 64 };
+    const size_t seeds = arguments->seed_count;
+    return seeds == 0 ? arguments->metrics.count : seeds < MOST_GROUPS ? seeds : MOST_GROUPS;
 }
 
 static inline const char *cli_metric(const cli_measure_arguments *arguments, size_t index) {

@@ -34,11 +34,15 @@ static aur_result measure_points(const cli_measure_arguments *arguments, const c
         return result;
     row->count = view.count;
     row->domain = view.domain;
-    if (arguments->series)
+    if (arguments->series) {
+        cli_progress_begin(row->phase);
         result =
             aur_measure_series(cli_metric(arguments, 0), &view, &arguments->options, &row->series, error);
+    }
     for (size_t m = 0; m < arguments->metrics.count && !arguments->series && result == AUR_OK; ++m) {
         double *const bound = &values[arguments->metrics.count + m];
+        if (arguments->seed_count == 0)
+            cli_progress_begin(row->phase + m);
         result = aur_measure_bounded(cli_metric(arguments, m), &view, &arguments->options, &values[m], bound,
                                      error);
         if (is_left_out(arguments, source, m, result, error)) {
@@ -56,10 +60,12 @@ static aur_result measure_points(const cli_measure_arguments *arguments, const c
 /* Mean, spread (the sample's standard deviation) and root mean square over seeds. */
 static aur_result measure_seeds(const cli_measure_arguments *arguments, const char *source, size_t count,
                                 cli_measure_row *row, double *values, aur_error *error) {
-    const size_t metrics = arguments->metrics.count;
+    const size_t metrics = arguments->metrics.count, groups = cli_phases_per_row(arguments);
     double *const means = row->figures;
     aur_result result = AUR_OK;
     for (size_t k = 0; k < arguments->seed_count && result == AUR_OK; ++k) {
+        if (k == 0 || k * groups / arguments->seed_count != (k - 1) * groups / arguments->seed_count)
+            cli_progress_begin(row->phase + k * groups / arguments->seed_count);
         result =
             measure_points(arguments, source, count, arguments->points.options.seed + k, row, values, error);
         for (size_t m = 0; m < metrics && result == AUR_OK; ++m) {

@@ -13,16 +13,16 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/progress.h"
 
 /* Handlers may use atomics without locks, and any thread that reports progress reads it. */
 static atomic_bool interrupted;
 
 typedef struct progress_bar {
     bool draws; /* on a terminal; else lines are written, which a log can hold */
-    bool shown;
-    const char *what;
-    double start, last;
-    double first, fraction; /* where it began, and where it is: it goes back never */
+    bool shown, begun;
+    double start, last; /* of the command; when the bar was drawn last */
+    cli_estimate estimate;
 } progress_bar;
 
 static progress_bar bar;
@@ -66,22 +66,24 @@ static void format_seconds(double seconds, char text[72]) {
         snprintf(text, 72, "%" PRIu64 ":%02" PRIu64, whole / 60, whole % 60);
 }
 
-static void draw(const char *what, double fraction, double elapsed) {
+static void draw(double elapsed) {
     enum { WIDTH = 30 };
+    const cli_estimate *const estimate = &bar.estimate;
     char cells[WIDTH + 1];
-    const int filled = (int)(fraction * WIDTH);
+    const int filled = (int)(estimate->share * WIDTH);
     for (int i = 0; i < WIDTH; ++i)
         cells[i] = i < filled ? '#' : '.';
     cells[WIDTH] = '\0';
     char spent[72], left[72] = "?";
     format_seconds(elapsed, spent);
-    if (fraction - bar.first > 0.01 * (1 - bar.first))
-        format_seconds(elapsed * (1 - fraction) / (fraction - bar.first), left);
+    if (isfinite(estimate->left))
+        format_seconds(estimate->left, left);
+    const double percent = 100.0 * estimate->share;
     if (!bar.draws) {
-        fprintf(stderr, "aureole: %s, %.0f %%, %s, %s left\n", what, 100 * fraction, spent, left);
+        fprintf(stderr, "aureole: %s, %.0f %%, %s, %s left\n", estimate->what, percent, spent, left);
         return;
     }
-    fprintf(stderr, "\r\033[K%s [%s] %3.0f %%  %s, %s left", what, cells, 100 * fraction, spent, left);
+    fprintf(stderr, "\r\033[K%s [%s] %3.0f %%  %s, %s left", estimate->what, cells, percent, spent, left);
     fflush(stderr);
     bar.shown = true;
 }
@@ -90,18 +92,11 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     listens = true;
     if (interrupted)
         return 1;
+    const double time = now();
+    cli_estimate_report(&bar.estimate, time, what != NULL ? what : "working",
+                        total > 0 ? fmin((double)done / (double)total, 1.0) : 0.0);
     if (user == NULL)
         return 0;
-    const double time = now(), fraction = total > 0 ? (double)done / (double)total : 0.0;
-    if (what == NULL)
-        what = "working";
-    if (bar.what == NULL || strcmp(bar.what, what) != 0)
-        bar = (progress_bar){.draws = bar.draws,
-                             .shown = bar.shown,
-                             .what = what,
-                             .start = time,
-                             .last = time,
-                             .first = fraction};
     /* The bar's refresh backs off: ten a second at first, one a second after a minute. Lines come every ten
      * seconds, every minute after five. */
     const double elapsed = time - bar.start;
@@ -109,17 +104,26 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
                          : elapsed < 10 ? 0.1
                          : elapsed < 60 ? 0.3
                                         : 1.0;
-    if (done < total && time - bar.last < pause)
+    const bool over = done >= total && bar.estimate.next >= bar.estimate.count;
+    if (over)
+        cli_progress_clear();
+    if (over || time - bar.last < pause)
         return 0;
     bar.last = time;
-    if (done >= total) {
-        cli_progress_clear();
-        bar.what = NULL;
-    } else {
-        bar.fraction = fmax(bar.fraction, fraction);
-        draw(what, bar.fraction, elapsed);
-    }
+    draw(elapsed);
     return 0;
+}
+
+void cli_progress_plan(size_t count, const cli_phase *phases) {
+    bar.estimate = cli_estimate_of(count, phases);
+}
+
+double cli_progress_share(void) {
+    return bar.estimate.share;
+}
+
+void cli_progress_begin(size_t index) {
+    cli_estimate_begin(&bar.estimate, now(), index);
 }
 
 /* A log says once how many processes worked, and where. */
@@ -162,7 +166,11 @@ aur_progress cli_progress(bool quiet) {
         tell_of_ranks();
     if (aur_ranks_count() > 1) /* mpirun sends signals to all ranks, which end together */
         handle_signals();
-    bar.draws = isatty(STDERR_FILENO);
+    if (!bar.begun) { /* which may have its plan already */
+        bar.draws = isatty(STDERR_FILENO);
+        bar.begun = true;
+        bar.start = bar.last = now();
+    }
     return (aur_progress){.function = show, .user = quiet || aur_ranks_rank() != 0 ? NULL : &bar};
 }
 
@@ -209,6 +217,7 @@ int cli_status(aur_result result, const aur_error *error) {
 
 int cli_finish(report_table *table, report_format format) {
     aur_error error = {0};
+    cli_progress_clear();
     const aur_result result = report_write(table, format, stdout, &error);
     report_destroy(table);
     return cli_status(result, &error);

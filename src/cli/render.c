@@ -199,6 +199,25 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
     return result;
 }
 
+/* In the time of a photon or particle: a sample of a pixel takes that of three. */
+static void plan(const render_command *command) {
+    static cli_phase phases[] = {{"photons", 5e5}, {"rendering", 0.0}};
+    aur_scene_description scene = {.size = sizeof scene};
+    aur_scene_describe(command->scene, &scene, NULL);
+    const aur_render_options *const given = &command->options;
+    const double width = (double)(given->width > 0 ? given->width : scene.width),
+                 height = given->height > 0 ? (double)given->height
+                          : scene.width > 0 ? width * (double)scene.height / (double)scene.width
+                                            : width,
+                 samples = (double)(given->samples_per_pixel > 0 ? given->samples_per_pixel
+                                                                 : scene.samples_per_pixel);
+    const char *const integrator = given->integrator != NULL ? given->integrator : scene.integrator;
+    if (strncmp(integrator, "radiosity", strlen("radiosity")) == 0)
+        phases[0].what = "radiosity";
+    phases[1].work = 3.0 * width * height * samples;
+    cli_progress_plan(sizeof phases / sizeof phases[0], phases);
+}
+
 /* What can be known to fail is said before an hour is spent. */
 static bool check_output(const char *path) {
     aur_error error;
@@ -248,6 +267,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     aur_image *image = NULL;
     aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
     command->scene = scene;
+    if (result == AUR_OK && !cli_is_wish(&command->wish)) /* whose progress is one phase */
+        plan(command);
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)

@@ -47,7 +47,7 @@ static const cli_option options[] = {
     {CLI_REAL(
         factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
         "instead of factors each row's area, sky factor and radiosity, with half of its interval, when all "
-        "facets reflect RHO: CSV, to FILE or printed")},
+        "facets reflect RHO: CSV or, with --json, JSON, to FILE or printed")},
     {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun or --emission",
               "for --radiosity: of the sky"),
      .key.computed = true},
@@ -164,6 +164,24 @@ static int write_matrix(const aur_facets *facets, const factor_command *given) {
     return status;
 }
 
+/* In the time of a ray: a half plane takes that of three rays, edges that of half as many as usual. */
+static void plan(const factor_command *given) {
+    static cli_phase phases[] = {{"tracing rays", 0.0},
+                                 {"measuring the sky", 0.0},
+                                 {"integrating along edges", 0.0},
+                                 {"putting rows together", 0.0}};
+    const double rays = given->factors.rays > 0 ? (double)given->factors.rays : 2048.0;
+    const bool all = !given->factors.rays_only;
+    phases[0].work = rays;
+    phases[1].work = !all                             ? 0.0
+                     : given->factors.half_planes > 0 ? 3.0 * (double)given->factors.half_planes
+                                                      : 4.5 * rays;
+    phases[2].work = all ? 1024.0 : 0.0;
+    phases[3].work = 64.0;
+    if (!given->matrix_free) /* whose progress is one phase */
+        cli_progress_plan(sizeof phases / sizeof phases[0], phases);
+}
+
 static int run(const cli_call *call) {
     factor_command *const given = call->options;
     if (!options_fit(call) || !read_light(call))
@@ -178,6 +196,7 @@ static int run(const cli_call *call) {
     given->factors.threads = given->common.threads;
     given->factors.size = sizeof given->factors;
     given->factors.progress = cli_progress(given->common.quiet);
+    plan(given);
     aur_error error;
     aur_facets *facets = NULL;
     if (aur_facets_load(call->operands[0], &given->facets, &facets, &error) != AUR_OK)
@@ -185,7 +204,7 @@ static int run(const cli_call *call) {
     int status;
     if (cli_given(call, "radiosity") != NULL)
         status = cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, &given->light,
-                                           given->output);
+                                           given->common.format, given->output);
     else if (given->format != NULL && strcmp(given->format, "vs3") == 0)
         status = cli_status(aur_facets_write_vs3(facets, given->output != NULL ? given->output : "-", &error),
                             &error);

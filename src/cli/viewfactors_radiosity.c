@@ -6,25 +6,34 @@
 #include "cli/viewfactors.h"
 
 /* `numbers` are sky factors, radiosities and half widths: [3][rows]. */
-static aur_result write_rows(const aur_facets *facets, const double *numbers, const char *output,
-                             aur_error *error) {
+static aur_result write_rows(const aur_facets *facets, const double *numbers, report_format format,
+                             const char *output, aur_error *error) {
     const size_t rows = aur_facets_rows(facets);
     const double *const areas = aur_facets_areas(facets);
-    const size_t capacity = 64 + 160 * rows;
-    char *const text = malloc(capacity);
-    if (text == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    size_t used = (size_t)aur_format(text, capacity, "row,area,sky,radiosity,half_width\n");
-    for (size_t i = 0; i < rows; ++i)
-        used += (size_t)aur_format(text + used, capacity - used, "%zu,%.17g,%.17g,%.17g,%.17g\n", i, areas[i],
-                                   numbers[i], numbers[rows + i], numbers[2 * rows + i]);
-    const aur_result result = aur_file_write(output != NULL ? output : "-", used, text, error);
+    report_table *const table =
+        report_create(5, (const char *const[]){"row", "area", "sky", "radiosity", "half_width"});
+    for (size_t i = 0; i < rows; ++i) {
+        report_integer(table, i);
+        report_number(table, areas[i], 17);
+        for (size_t k = 0; k < 3; ++k)
+            report_number(table, numbers[rows * k + i], 17);
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const stream = open_memstream(&text, &size);
+    aur_result result = stream == NULL ? AUR_ERROR_MEMORY : report_write(table, format, stream, error);
+    if ((stream != NULL && fclose(stream) != 0) || result == AUR_ERROR_MEMORY)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (result == AUR_OK)
+        result = aur_file_write(output != NULL ? output : "-", size, text, error);
+    report_destroy(table);
     free(text);
     return result;
 }
 
 int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_options *options,
-                              bool matrix_free, const aur_facets_light *light, const char *output) {
+                              bool matrix_free, const aur_facets_light *light, report_format format,
+                              const char *output) {
     aur_error error;
     const size_t rows = aur_facets_rows(facets);
     double *const numbers = calloc(3 * rows, sizeof *numbers);
@@ -37,7 +46,7 @@ int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_o
                                             numbers + 2 * rows, numbers, &error);
     cli_progress_clear();
     if (result == AUR_OK)
-        result = write_rows(facets, numbers, output, &error);
+        result = write_rows(facets, numbers, format == REPORT_TABLE ? REPORT_CSV : format, output, &error);
     aur_view_factors_destroy(factors);
     free(numbers);
     return cli_status(result, &error);

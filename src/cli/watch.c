@@ -31,10 +31,10 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         done = (uint64_t)(WHOLE * (watch->from + (watch->to - watch->from) * (double)done / (double)total));
         total = WHOLE;
     }
-    const bool stopped = watch->watch != NULL && watch_progress(watch->watch, what, done, total);
+    const int status = watch->progress.function(watch->progress.user, what, done, total);
+    const bool stopped = watch->watch != NULL && watch_progress(watch->watch, what, cli_progress_share());
     if (watch->watch != NULL)
         warn(watch);
-    const int status = watch->progress.function(watch->progress.user, what, done, total);
     return stopped ? 1 : status;
 }
 
@@ -64,10 +64,11 @@ static aur_result develop_ask(const void *user, aur_image **image, aur_error *er
 static void describe_ask(const void *user, size_t capacity, char *text) {
     aur_ask_report report = {.size = sizeof report};
     if (aur_ask_get_report(user, &report, NULL) == AUR_OK && isfinite(report.error_high))
-        aur_format(text, capacity,
-                   "%.4g samples a pixel; the error is %.3g %% of the mean, between %.3g and %.3g (95 %%)",
-                   report.samples_per_pixel, 100.0 * report.error, 100.0 * report.error_low,
-                   100.0 * report.error_high);
+        aur_format(
+            text, capacity,
+            "after %.4g samples a pixel the error was %.3g %% of the mean, between %.3g and %.3g (95 %%)",
+            report.samples_per_pixel, 100.0 * report.error, 100.0 * report.error_low,
+            100.0 * report.error_high);
 }
 
 void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_ask *ask) {

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
     return aur_lobe_parse(text, field, error);
@@ -144,34 +145,57 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
     return CLI_SUCCESS;
 }
 
+enum { FIGURES = 11 };
+
+/* Of one lobe or one level; NaN is what the method does not have. */
+static void find_figures(const cli_weights_arguments *arguments, const cli_weights_result *result, size_t k,
+                         double figures[FIGURES]) {
+    for (size_t i = 0; i < FIGURES; ++i)
+        figures[i] = NAN;
+    if (arguments->method == CLI_METHOD_EXACT) {
+        const aur_exact_report *const exact = &result->exact[k];
+        const double found[] = {(double)exact->degree, exact->residual, exact->least, exact->largest,
+                                (double)exact->places};
+        memcpy(figures + 6, found, sizeof found);
+        return;
+    }
+    /* What the points would give without a solve. */
+    const double plain = result->has_ratio ? result->ratio[k] : result->equal[k];
+    figures[0] = result->equal[k];
+    figures[1] = result->has_ratio ? result->ratio[k] : NAN;
+    figures[2] = result->weighted[k];
+    figures[3] = 100.0 * (1.0 - result->weighted[k] / plain);
+    figures[4] = result->sum[k];
+    figures[5] = result->condition > 0.0 ? result->condition : NAN;
+}
+
+/* Programs are given one set of columns, people those that have figures. */
 static int print_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
-    if (arguments->method == CLI_METHOD_EXACT)
-        return cli_weights_exact_report(arguments, result);
-    const bool optimal = arguments->method == CLI_METHOD_OSW || arguments->method == CLI_METHOD_OSWA;
-    report_table *const table =
-        report_create(5, (const char *const[]){"set", "n", "lobe", "method", "equal"});
-    if (result->has_ratio)
-        report_column(table, "ratio");
-    report_column(table, optimal ? "optimal" : "weighted");
-    report_column(table, "gain_percent");
-    report_column(table, "weight_sum");
-    if (result->condition > 0.0)
-        report_column(table, "condition");
+    static const struct {
+        const char *name;
+        int digits;
+    } of[FIGURES] = {{"equal", 8},       {"ratio", 8},     {"weighted", 8}, {"gain_percent", 4},
+                     {"weight_sum", 10}, {"condition", 3}, {"degree", 9},   {"residual", 3},
+                     {"least", 8},       {"largest", 8},   {"places", 9}};
+    const bool exact = arguments->method == CLI_METHOD_EXACT;
+    double figures[FIGURES];
+    find_figures(arguments, result, 0, figures);
+    bool shown[FIGURES];
+    report_table *const table = report_create(4, (const char *const[]){"set", "n", "lobe", "method"});
+    for (size_t i = 0; i < FIGURES; ++i) {
+        shown[i] = arguments->common.format != REPORT_TABLE || !isnan(figures[i]);
+        if (shown[i])
+            report_column(table, of[i].name);
+    }
     for (size_t k = 0; k < result->lobe_count; ++k) {
-        /* What the points would give without a solve. */
-        const double plain = result->has_ratio ? result->ratio[k] : result->equal[k];
+        find_figures(arguments, result, k, figures);
         report_text(table, arguments->source);
-        report_integer(table, result->count);
-        report_text(table, k == 0 ? arguments->lobe_text : arguments->mirror_text);
+        report_integer(table, exact ? result->exact[k].points : result->count);
+        report_text(table, k == 0 || exact ? arguments->lobe_text : arguments->mirror_text);
         report_text(table, arguments->method_name);
-        report_number(table, result->equal[k], 8);
-        if (result->has_ratio)
-            report_number(table, result->ratio[k], 8);
-        report_number(table, result->weighted[k], 8);
-        report_number(table, 100.0 * (1.0 - result->weighted[k] / plain), 4);
-        report_number(table, result->sum[k], 10);
-        if (result->condition > 0.0)
-            report_number(table, result->condition, 3);
+        for (size_t i = 0; i < FIGURES; ++i)
+            if (shown[i])
+                report_number(table, figures[i], of[i].digits);
     }
     return cli_finish(table, arguments->common.format);
 }

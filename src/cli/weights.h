@@ -65,7 +65,6 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
                                  aur_error *error);
 aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weights_result *result,
                                 aur_error *error);
-int cli_weights_exact_report(const cli_weights_arguments *arguments, const cli_weights_result *result);
 int cli_weights_plot(const cli_weights_arguments *arguments, const cli_weights_result *result);
 int cli_weights_table(const cli_weights_arguments *arguments);
 /* Reads a table and writes the samples and weights of one angle and rotation. Without a set any table will

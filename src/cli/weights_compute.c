@@ -251,12 +251,30 @@ static aur_result judge(weights_job *task, aur_error *error) {
     return judged;
 }
 
+/* In the time of a pair of points: the cells take that of thousands for each point. */
+static void plan(const weights_job *task) {
+    enum { MOST = 7 };
+    static cli_phase phases[MOST];
+    const cli_weights_arguments *const arguments = task->arguments;
+    const double count = (double)task->result->count;
+    const bool drawn = arguments->points.options.optimal_density && !from_file(task);
+    const size_t sums = arguments->report ? (drawn ? 3 : 2) * (arguments->two ? 2 : 1) : 0;
+    for (size_t i = 1; i <= sums; ++i)
+        phases[i] = (cli_phase){"worst-case error", count * count};
+    phases[0] = (cli_phase){"cutting cells", 8000.0 * count};
+    if (arguments->method == CLI_METHOD_VORONOI)
+        cli_progress_plan(sums + 1, phases);
+    else if (arguments->method != CLI_METHOD_EXACT)
+        cli_progress_plan(sums, phases + 1);
+}
+
 static aur_result compute(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
     const bool two_patterns = task->arguments->two && !from_file(task);
     aur_result made = two_patterns ? load_two(task, error) : load_one(task, error);
     if (made == AUR_OK && !two_patterns && !from_file(task))
         task->own[0] = result->count;
+    plan(task);
     const bool exact = task->arguments->method == CLI_METHOD_EXACT;
     if (made == AUR_OK && result->domain == AUR_DOMAIN_AXES && !exact &&
         task->arguments->method != CLI_METHOD_VORONOI)

@@ -51,22 +51,3 @@ aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weig
     cli_progress_clear();
     return made;
 }
-
-int cli_weights_exact_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
-    report_table *const table =
-        report_create(9, (const char *const[]){"set", "n", "lobe", "method", "degree", "residual", "least",
-                                               "largest", "places"});
-    for (size_t k = 0; k < result->lobe_count; ++k) {
-        const aur_exact_report *const exact = &result->exact[k];
-        report_text(table, arguments->source);
-        report_integer(table, exact->points);
-        report_text(table, arguments->lobe_text);
-        report_text(table, arguments->method_name);
-        report_integer(table, exact->degree);
-        report_number(table, exact->residual, 3);
-        report_number(table, exact->least, 8);
-        report_number(table, exact->largest, 8);
-        report_integer(table, exact->places);
-    }
-    return cli_finish(table, arguments->common.format);
-}

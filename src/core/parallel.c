@@ -137,8 +137,11 @@ bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t
 
 /* With the lock held: reports progress, unless the work has been stopped. */
 static void report(shared_work *work) {
+    const bool triangular = work->options->triangular;
+    const uint64_t done = work->done, count = work->count;
     if (atomic_load(&work->stop) ||
-        !aur_progress_stops(&work->options->progress, work->options->what, work->done, work->count))
+        !aur_progress_stops(&work->options->progress, work->options->what, triangular ? done * done : done,
+                            triangular ? count * count : count))
         return;
     work->result = AUR_ERROR_CANCELLED;
     atomic_store(&work->stop, true);

@@ -36,6 +36,7 @@ typedef struct aur_parallel_options {
     /* Denormal numbers are zero inside the items, as Embree asks of who traces rays. Points, weights and
      * measures leave it false: the same function then gives the same bits inside and outside of an item. */
     bool flush_denormals;
+    bool triangular; /* item i takes as long as i first ones, and counts as much in progress reports */
     const aur_parallel_share *share; /* NULL: each rank of a job does all items */
 } aur_parallel_options;
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/options.h"
+#include "core/progress.h"
 #include "lighting/facet_product.h"
 #include "lighting/upper_walk.h"
 #include "lighting/view_factors.h"
@@ -20,6 +21,7 @@ typedef struct solution {
     const aur_view_factors *factors;
     const aur_facets_light *light;
     aur_parallel_options parallel;
+    aur_progress_span *span; /* of all products */
     size_t rows, randomizations;
     /* Patterns of half as many rays each, down to FEWEST_RAYS. */
     aur_facet_pattern patterns[LEVELS];
@@ -30,6 +32,17 @@ typedef struct solution {
     double *now, *next, *sky, *found, *total, *squares, *sky_total;
     double *sun; /* [randomizations + 1][rows]: irradiances, the last ones their mean; NULL: there is none */
 } solution;
+
+/* The next product takes `work` after `done` of its randomisation, in units of the first one. The sun's takes
+ * about one too, and those with fewer rays, which the light shrinks to, come to as much as that. */
+static void place_product(const solution *s, size_t randomization, bool of_sun, double done, double work) {
+    const double sun = s->sun != NULL ? 1.0 : 0.0,
+                 others = 1.0 + 1.0 / fmax(1.0 - s->light->reflectance, 0.1), each = of_sun ? sun : others,
+                 first = (of_sun ? 0.0 : sun * (double)s->randomizations) + each * (double)randomization,
+                 all = (sun + others) * (double)s->randomizations;
+    s->span->from = (first + fmin(done, each)) / all;
+    s->span->to = (first + fmin(done + work, each)) / all;
+}
 
 static double mean(const solution *s, const double *values) {
     double sum = 0.0, area = 0.0;
@@ -86,6 +99,7 @@ static aur_result first_light(const solution *s, size_t randomization, aur_error
     for (size_t i = 0; i < s->rows; ++i)
         s->now[i] = s->facets->row_areas[i] > 0.0 ? light->emission : 0.0;
     memcpy(s->found, s->now, s->rows * sizeof *s->found);
+    place_product(s, randomization, false, 0.0, 1.0);
     aur_result result = apply(s, 0, randomization, 0, s->now, s->next, s->sky, error);
     if (result != AUR_OK)
         return result;
@@ -103,6 +117,7 @@ static aur_result trace_sun(solution *s, aur_error *error) {
     s->sun = calloc((count + 1) * rows + 1, sizeof *s->sun);
     aur_result result = s->sun != NULL ? AUR_OK : aur_fail_memory(error);
     for (size_t r = 0; r < count && result == AUR_OK; ++r) {
+        place_product(s, r, true, 0.0, 1.0);
         result = aur_facet_product(s->facets, &s->sun_places, r + count * (MOST_REFLECTIONS + 1), 1,
                                    &s->parallel, s->light->sun, NULL, &s->sun[rows * r], NULL, error);
         for (size_t i = 0; i < rows; ++i)
@@ -114,7 +129,7 @@ static aur_result trace_sun(solution *s, aur_error *error) {
 static aur_result solve_once(const solution *s, size_t randomization, aur_error *error) {
     aur_result result = first_light(s, randomization, error);
     const double first = mean(s, s->next);
-    double before = 0.0;
+    double before = 0.0, done = 1.0;
     for (size_t k = 1; result == AUR_OK && k < MOST_REFLECTIONS; ++k) {
         const double part = mean(s, s->next), ratio = k > 1 && before > 0.0 ? part / before : 1.0;
         const double whole = mean(s, s->found) + part;
@@ -131,6 +146,9 @@ static aur_result solve_once(const solution *s, size_t randomization, aur_error 
         while (level + 1 < s->level_count && part <= first / (double)(UINT64_C(2) << level))
             ++level;
         memcpy(s->now, s->next, s->rows * sizeof *s->now);
+        const double work = 1.0 / (double)(UINT64_C(1) << level);
+        place_product(s, randomization, false, done, work);
+        done += work;
         result = apply(s, level, randomization, k, s->now, s->next, NULL, error);
         for (size_t i = 0; i < s->rows; ++i)
             s->next[i] *= s->light->reflectance;
@@ -219,10 +237,12 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
         result = check(facets, factors, &light, error);
     if (result != AUR_OK)
         return result;
+    aur_progress_span span = {.whole = options.progress};
     solution s = {.facets = facets,
                   .factors = factors,
                   .light = &light,
-                  .parallel = {.threads = options.threads, .progress = options.progress},
+                  .parallel = {.threads = options.threads, .progress = aur_progress_within(&span)},
+                  .span = &span,
                   .rows = facets->row_count,
                   .randomizations = factors != NULL ? factors->randomizations : options.randomizations};
     double *const numbers = calloc(7 * s.rows + 1, sizeof *numbers);

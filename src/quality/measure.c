@@ -17,15 +17,27 @@ aur_result aur_measure_number(const aur_measure_request *request, double minimum
     return AUR_OK;
 }
 
+static aur_result run_items(const aur_measure_options *options, aur_parallel_options parallel, size_t count,
+                            aur_parallel_function function, void *context, aur_parallel_slice found,
+                            aur_error *error) {
+    const aur_parallel_share share = {.slices = {found}};
+    parallel.threads = options->threads;
+    parallel.progress = options->progress;
+    parallel.share = found.data != NULL ? &share : NULL;
+    return aur_parallel_for(&parallel, count, function, context, error);
+}
+
 aur_result aur_measure_items(const aur_measure_options *options, const char *what, size_t count,
                              aur_parallel_function function, void *context, aur_parallel_slice found,
                              aur_error *error) {
-    const aur_parallel_share share = {.slices = {found}};
-    const aur_parallel_options parallel = {.threads = options->threads,
-                                           .what = what,
-                                           .progress = options->progress,
-                                           .share = found.data != NULL ? &share : NULL};
-    return aur_parallel_for(&parallel, count, function, context, error);
+    return run_items(options, (aur_parallel_options){.what = what}, count, function, context, found, error);
+}
+
+aur_result aur_measure_rows(const aur_measure_options *options, const char *what, size_t count,
+                            aur_parallel_function function, void *context, aur_parallel_slice found,
+                            aur_error *error) {
+    const aur_parallel_options parallel = {.what = what, .triangular = true};
+    return run_items(options, parallel, count, function, context, found, error);
 }
 
 aur_result aur_series_create(aur_series *series, size_t row_count, size_t column_count,

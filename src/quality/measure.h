@@ -50,6 +50,11 @@ aur_result aur_measure_items(const aur_measure_options *options, const char *wha
                              aur_parallel_function function, void *context, aur_parallel_slice found,
                              aur_error *error);
 
+/* The same for rows of a triangle: item i takes as long as i first ones. */
+aur_result aur_measure_rows(const aur_measure_options *options, const char *what, size_t count,
+                            aur_parallel_function function, void *context, aur_parallel_slice found,
+                            aur_error *error);
+
 static inline double aur_weight_at(const aur_points_view *points, size_t index) {
     return points->weights != NULL ? points->weights[index] : 1.0;
 }

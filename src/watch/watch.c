@@ -34,6 +34,7 @@ struct watch_session {
     atomic_bool stop;
     /* Of the thread that reports progress: */
     watch_source source;
+    char pending[TEXT_CAPACITY];  /* what is known of the picture, until it is told with all else */
     double told, developed, cost; /* when it was last told and developed, and the seconds that this took */
     pthread_mutex_t lock;         /* guards what follows */
     uint64_t serial;              /* of the state */
@@ -268,6 +269,7 @@ aur_result watch_create(const watch_options *options, watch_session **made, aur_
     }
     atomic_init(&watch->stop, false);
     watch->serial = 1;
+    aur_format(watch->what, sizeof watch->what, "planning");
     aur_format(watch->title, sizeof watch->title, "%s", options->title);
     aur_result result = options->serve != NULL ? begin_serving(watch, options->serve, error) : AUR_OK;
     if (result == AUR_OK && options->display != NULL)
@@ -301,52 +303,49 @@ void watch_set_source(watch_session *watch, const watch_source *source) {
 }
 
 void watch_tell(watch_session *watch, const char *text) {
-    pthread_mutex_lock(&watch->lock);
-    aur_format(watch->known, sizeof watch->known, "%s", text);
-    pthread_mutex_unlock(&watch->lock);
+    aur_format(watch->pending, sizeof watch->pending, "%s", text);
 }
 
-/* Pictures for the pages and the display server, if they want any and the last ones have not cost too much
- * for others. */
-static void develop(watch_session *watch) {
+/* Pictures for the pages, which is returned, and the display server, if they want any and the last ones have
+ * not cost too much for others. */
+static aur_image *develop(watch_session *watch) {
     pthread_mutex_lock(&watch->lock);
     const bool wanted = watch->wanted && watch->fresh == NULL;
     pthread_mutex_unlock(&watch->lock);
     const bool sends = watch->display != NULL && watch_display_is_free(watch->display);
     const double begin = now();
     const watch_source *const source = &watch->source;
-    aur_image *image = NULL;
+    aur_image *image = NULL, *fresh = NULL;
     if ((!wanted && !sends) || source->develop == NULL ||
         begin - watch->developed < watch->cost / DEVELOPING_PART)
-        return;
+        return NULL;
     if (sends && source->develop(source->user, &image, NULL) == AUR_OK)
         watch_display_show(watch->display, image);
-    if (wanted && source->develop(source->user, &image, NULL) == AUR_OK) {
-        pthread_mutex_lock(&watch->lock);
-        watch->fresh = image;
-        watch->wanted = false;
-        pthread_mutex_unlock(&watch->lock);
-    }
+    if (wanted && source->develop(source->user, &fresh, NULL) != AUR_OK)
+        fresh = NULL;
     watch->developed = now();
     watch->cost = watch->developed - begin;
+    return fresh;
 }
 
-bool watch_progress(watch_session *watch, const char *what, uint64_t done, uint64_t total) {
+bool watch_progress(watch_session *watch, const char *what, double share) {
     if (atomic_load(&watch->stop))
         return true;
     const double time = now();
     if (time - watch->told < PAUSE)
         return false;
     watch->told = time;
-    char known[TEXT_CAPACITY] = "";
     if (watch->source.describe != NULL)
-        watch->source.describe(watch->source.user, sizeof known, known);
-    develop(watch);
-    pthread_mutex_lock(&watch->lock);
+        watch->source.describe(watch->source.user, sizeof watch->pending, watch->pending);
+    aur_image *const fresh = develop(watch);
+    pthread_mutex_lock(&watch->lock); /* words, share and picture are of this moment */
     aur_format(watch->what, sizeof watch->what, "%s", what != NULL ? what : "working");
-    if (known[0] != '\0')
-        memcpy(watch->known, known, sizeof known);
-    watch->share = total > 0 ? (double)done / (double)total : 0.0;
+    memcpy(watch->known, watch->pending, sizeof watch->known);
+    if (fresh != NULL) {
+        watch->fresh = fresh;
+        watch->wanted = false;
+    }
+    watch->share = share;
     ++watch->serial;
     pthread_mutex_unlock(&watch->lock);
     if (watch->server != NULL)

@@ -32,11 +32,11 @@ typedef struct watch_source {
 
 /* From now on there is a picture; with a source of zeros there is none any more. */
 void watch_set_source(watch_session *watch, const watch_source *source);
-/* What is known of the picture, where the source does not describe it. */
+/* What is known of the picture, where the source does not describe it; shown with the next progress. */
 void watch_tell(watch_session *watch, const char *text);
-/* To be called with the progress; true when somebody has asked for the render to stop. One thread at a time.
- */
-bool watch_progress(watch_session *watch, const char *what, uint64_t done, uint64_t total);
+/* To be called with the progress, `share` from 0 to 1; true when somebody has asked for the render to stop.
+ * One thread at a time. */
+bool watch_progress(watch_session *watch, const char *what, double share);
 
 /* Why a display server gets no more: text[capacity], once; else false. */
 bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text);

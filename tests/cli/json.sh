@@ -45,6 +45,45 @@ json 'len(it) > 40' lab list --json
 json 'any(row["name"] == "finalgather" for row in it)' help integrators --json
 json 'any(row["key"] == "photons" for row in it)' help integrator finalgather --json
 json 'any(row["key"].endswith("--spp N") for row in it)' help verb render --json
+# One schema a command: its options change values, which are null where they are not known, and no key.
+"$aureole" weights sobol -n 8 --lobe cosine --lobe2 phong:5 --angles 2 --rotations 1 --table phong.wt -q && "$aureole" weights sobol -n 8 \
+  --lobe ggx:.4 --angles 2 --rotations 1 --table ggx.wt -q || status=1
+"$aureole" points sobol -n 8 -o points.csv && "$aureole" points sobol -n 8 -o points.npy || status=1
+same() { # same NAME ARGUMENT...: keys as those of the other commands of that name
+  local name=$1
+  shift
+  json 'keys' "$@" --json
+  printf '%s\tprinted%s\t%s\n' "$name" "$count" "$*" >>alike
+}
+for options in "" "--method mis" "--method equal" "--method ratio" "--density optimal" "--lobe ggx:.3" "--unconstrained" \
+  "--lobe cosine --lobe2 phong:5 --angle 60" "--domain sphere --method exact" "--domain sphere --method exact --degree 1" "--domain sphere --method voronoi"; do
+  case $options in *mis*) options="$options --lobe2 phong:5 --angle 60" ;; esac
+  # shellcheck disable=SC2086
+  same "weights --report" weights sobol -n 16 --report $options
+done
+for options in "" "--group" "--rays-only" "--rays 64" "--both-sides"; do
+  same viewfactors viewfactors mesh.obj -q $options
+done
+for options in "" "--matrix-free" "--sun 0,0,1" "--emission 1 --sky 0"; do
+  same "viewfactors --radiosity" viewfactors mesh.obj -q --radiosity .5 $options
+done
+for options in "--spp 1" "--spp 4" "--rounds 2" "--rays 1e4" "--error 60%" "--time .1" "--spp 1 --integrator direct" "--spp 4 --crop 0,4,0,4"; do
+  same render render scene.xml -q -o d.exr $options
+done
+for options in "" "--domain sphere" "--cap 40" "--domain axes"; do same voronoi voronoi spherical-fibonacci -n 9 $options; done
+for options in "-k 1" "-k 3"; do same nearest nearest spherical-fibonacci queries.csv -n 8 $options; done
+for options in "" "--reflected map --particles 1000" "--error 50%" "--max-depth 1" "--set sobol"; do
+  same irradiance irradiance scene.xml --sensors sensors -n 64 -q $options
+done
+for options in "" "--tolerance 10"; do
+  same compare compare a.exr b.exr --metric rmse $options
+done
+for file in phong.wt ggx.wt; do same "info of a table" info $file; done
+for file in points.csv points.npy; do same "info of points" info $file; done
+for file in a.exr b.exr; do same "info of a picture" info $file; done
+for row in "integrator path" "bsdf diffuse" "shape sphere"; do same "help of a row" help $row; done
+for kind in integrators bsdfs sets; do same "help of a kind" help $kind; done
+for verb in render weights lab; do same "help of a verb" help verb $verb; done
 "$aureole" render scene.xml --spp 1 -q -o - >piped.exr && cmp -s <("$aureole" render scene.xml --spp 1 -q -o c.exr && cat c.exr) piped.exr || {
   echo "FAILED: render -o - is not the picture"
   status=1
@@ -60,11 +99,19 @@ for line in open("wanted"):
         text = file.read()
     try:
         it = json.loads(text)
+        keys = isinstance(it, list) and len(it) > 0 and all(list(row) == list(it[0]) for row in it)
         good = eval(expression)
     except (ValueError, KeyError, IndexError, TypeError) as wrong:
         good = print(wrong)
     if not good:
         print("FAILED: aureole %s: not %s: %s" % (command, expression, text[:300]))
+        failed = True
+first = {}
+for line in open("alike"):
+    name, file, command = line.rstrip("\n").split("\t")
+    keys = list(json.load(open(file))[0])
+    if keys != first.setdefault(name, keys):
+        print("FAILED: aureole %s: keys %s, not %s" % (command, keys, first[name]))
         failed = True
 raise SystemExit(failed)
 PY

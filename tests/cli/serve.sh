@@ -33,6 +33,36 @@ wait "$pid" && cmp plain.exr served.exr || fail "a picture that is served has ot
 begin served --rounds 3
 wait "$pid" && cmp plain.exr served.exr || fail "a picture of rounds that is served has other bits"
 
+# What a page is told belongs together: the samples and the error of one finished round, as a render of so many rounds prints
+# them, and a share that never falls; and before the first picture it is told what is done.
+if command -v python3 >/dev/null; then
+  begin told --rounds 14
+  python3 - "$port" "$token" "$aureole" "$scene" <<'PY' || fail "what a page is told"
+import json, re, subprocess, sys, urllib.request
+port, token, aureole, scene = sys.argv[1:]
+states, serial = [], 0
+while not states or states[-1]["ended"] == "":
+    with urllib.request.urlopen("http://127.0.0.1:%s/%s/state/1/%d" % (port, token, serial)) as answer:
+        states.append(json.load(answer))
+    serial = states[-1]["serial"]
+urllib.request.urlopen(urllib.request.Request("http://127.0.0.1:%s/%s/bye/1" % (port, token), method="POST"))
+of_rounds = {}
+for rounds in range(1, 15):
+    printed = subprocess.run([aureole, "render", scene, "--width", "64", "-q", "-o", "round.exr", "--json", "--rounds", str(rounds)],
+                             capture_output=True, check=True).stdout
+    it = json.loads(printed)[0]
+    of_rounds["%.4g" % it["samples_per_pixel"]] = "%.3g" % (100 * it["error"])
+pairs = [re.match(r"after (\S+) samples a pixel the error was (\S+) %", state["known"]) for state in states if state["known"]]
+assert states[0]["what"] in ("planning", "rendering"), states[0]
+assert pairs and all(pairs), [state["known"] for state in states]
+for pair in pairs:
+    assert of_rounds.get(pair[1]) == pair[2], (pair[0], of_rounds)
+shares = [state["share"] for state in states]
+assert shares == sorted(shares), shares
+PY
+  wait "$pid" || fail "a picture that a page is told of: $(cat told.txt)"
+fi
+
 begin long --spp 1000000 --integrator aov
 page=$(ask GET "/$token/")
 status 200 "$page" "the page"

@@ -14,14 +14,14 @@ check() { near "$(column "$1" "$2" "${5:-1}")" "$3" "$4" || fail "$1: $2 is $(co
 sf=spherical-fibonacci
 "$program" weights $sf -n 64 --lobe cosine --regularization 0 --unconstrained --report --format csv >diffuse || exit 1
 check diffuse equal 3.451313401060e-2 1e-9
-check diffuse optimal 3.299058614880e-2 1e-9
+check diffuse weighted 3.299058614880e-2 1e-9
 check diffuse weight_sum .998357445867 1e-9
 # A gain is the part of the error that is saved; four digits are printed.
-gain() { awk -v plain="$(column "$1" "$2")" -v weighted="$(column "$1" optimal)" 'BEGIN { print 100 * (plain - weighted) / plain }'; }
+gain() { awk -v plain="$(column "$1" "$2")" -v weighted="$(column "$1" weighted)" 'BEGIN { print 100 * (plain - weighted) / plain }'; }
 check diffuse gain_percent "$(gain diffuse equal)" 1e-3
 "$program" weights $sf -n 64 --lobe phong:20 --regularization 0 --unconstrained --report --format csv >glossy || exit 1
 check glossy equal 2.284681166476e-2 1e-9
-check glossy optimal 2.130088901918e-2 1e-9
+check glossy weighted 2.130088901918e-2 1e-9
 # A system that is nearly a multiple of the identity has the condition 1; three digits are printed.
 "$program" weights $sf -n 64 --lobe cosine --regularization 1e6 --unconstrained --report --format csv >identity || exit 1
 check identity condition 1 .005
@@ -29,7 +29,7 @@ check identity condition 1 .005
 "$program" weights $sf -n 64 --lobe phong:20 --density optimal --regularization 0 --unconstrained --report \
   --format csv >dense || exit 1
 check dense ratio 2.078e-2 2.5e-4
-check dense optimal 2.055e-2 5e-4
+check dense weighted 2.055e-2 5e-4
 check dense gain_percent "$(gain dense ratio)" 1e-3
 
 # x,y,z,w: a header, 17 digits, weights of sum 1, and a file that goes in comes out the same.
@@ -70,7 +70,7 @@ for method in ratio osw; do
     awk -F, 'NR > 1 && $3 < 0 { n++; if ($4 != 0) exit 1 } END { exit n == 0 }' || fail "GGX: hidden samples"
 done
 near "$(column ggx.ratio weight_sum)" 1 0.02 || fail "GGX: sum of ratio weights"
-awk -v a="$(column ggx.osw optimal)" -v b="$(column ggx.ratio weighted)" 'BEGIN { exit !(a < b) }' || fail "GGX: gain"
+awk -v a="$(column ggx.osw weighted)" -v b="$(column ggx.ratio weighted)" 'BEGIN { exit !(a < b) }' || fail "GGX: gain"
 
 # Two lobes: OSWA has the lowest error of all methods for both.
 for method in osw mis mis-power equal oswa; do
@@ -78,9 +78,9 @@ for method in osw mis mis-power equal oswa; do
     --scramble digit --report --format csv >two.$method || exit 1
 done
 for row in 1 2; do
-  best=$(column two.oswa optimal $row)
+  best=$(column two.oswa weighted $row)
   near "$(column two.oswa weight_sum $row)" 1 1e-10 || fail "OSWA sum"
-  awk -v a="$best" -v b="$(column two.osw optimal $row)" 'BEGIN { exit !(a < b) }' || fail "OSWA against OSW"
+  awk -v a="$best" -v b="$(column two.osw weighted $row)" 'BEGIN { exit !(a < b) }' || fail "OSWA against OSW"
   for method in mis mis-power equal; do
     awk -v a="$best" -v b="$(column two.$method weighted $row)" 'BEGIN { exit !(a < b) }' || fail "OSWA against $method"
   done

@@ -172,7 +172,7 @@ static aur_result solve(factor *f, size_t degree, bool search, double *weights, 
         exact = add_degree(f, l);
         if (!exact || (!search && l < degree))
             continue;
-        if (aur_progress_stops(&f->system->progress, "factoring", l, degree))
+        if (aur_exact_factoring_stops(f->system, &f->system->progress, l, degree, search))
             return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
         memcpy(f->right, f->y, f->rank * sizeof *f->y);
         memcpy(f->best, f->system->near, f->count * sizeof *f->best);

@@ -125,12 +125,33 @@ typedef struct ladder {
     aur_exact_found *found;
     aur_error *error;
     aur_result result;
+    aur_progress progress;
+    size_t tried, degree;  /* how many degrees; the present one */
+    double done, reported; /* work of those before: steps, each as long as there are functions; the share */
 } ladder;
+
+/* Searches take some seven degrees of some ninety steps each. */
+static int report(void *user, const char *what, uint64_t done, uint64_t total) {
+    enum { USUAL_TRIALS = 6, USUAL_STEPS = 90, WHOLE = 10000 };
+    ladder *const l = user;
+    const double functions = (double)((l->degree + 1) * (l->degree + 1)), steps = (double)done;
+    const double now = l->done + functions * steps,
+                 trials = l->tried < USUAL_TRIALS ? (double)(USUAL_TRIALS - l->tried) : 0.0,
+                 left = functions * (fmax(USUAL_STEPS - steps, 0.25 * USUAL_STEPS) + trials * USUAL_STEPS);
+    (void)total;
+    l->reported = fmax(l->reported, l->degree > 0 ? now / (now + left) : 0.0);
+    return l->progress.function(l->progress.user, what, (uint64_t)(WHOLE * l->reported), WHOLE);
+}
 
 static bool climbs(ladder *l, size_t degree) {
     aur_exact_found found;
+    l->degree = degree;
     if (l->result == AUR_OK)
         l->result = aur_exact_iterate(l->system, degree, AUR_EXACT_SEARCH_STEPS, l->trial, &found, l->error);
+    if (l->result == AUR_OK && degree > 0) {
+        l->done += (double)((degree + 1) * (degree + 1)) * (double)found.iterations;
+        ++l->tried;
+    }
     if (l->result != AUR_OK || !found.exact || found.least <= 0.0)
         return false;
     double *const trial = l->trial;
@@ -148,7 +169,15 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
     double *const storage = malloc(2 * count * sizeof *storage);
     if (storage == NULL)
         return aur_fail_memory(error);
-    ladder l = {system, storage, storage + count, found, error, AUR_OK};
+    ladder l = {.best = storage,
+                .trial = storage + count,
+                .found = found,
+                .error = error,
+                .progress = system->progress};
+    aur_exact_system reporting = *system;
+    if (system->progress.function != NULL)
+        reporting.progress = (aur_progress){report, &l};
+    l.system = &reporting;
     climbs(&l, 0);
     size_t low = 0, high = bound + 1, next = (size_t)sqrt((double)system->places / 1.3);
     for (size_t step = 1; low + 1 < high && l.result == AUR_OK;) {

@@ -228,7 +228,7 @@ static aur_result solve(const measured *m, const aur_exact_system *system, size_
     const size_t count = system->points.count;
     size_t last = 0;
     for (size_t l = 0; l <= degree && l <= last + (search ? AUR_EXACT_PATIENCE : degree); ++l) {
-        if (aur_progress_stops(&m->progress, "factoring", l, degree))
+        if (aur_exact_factoring_stops(system, &m->progress, l, degree, search))
             return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
         const aur_result result = make_room(m, l, error);
         if (result != AUR_OK)

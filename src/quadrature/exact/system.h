@@ -33,6 +33,11 @@ bool aur_exact_positive(const aur_exact_system *system, const double *weights, a
 aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, const double *weights,
                               aur_exact_found *found, aur_error *error);
 
+/* Reports that a factorisation comes to a degree, in the time of which, its cube, the degrees before count; a
+ * search ends where there are as many functions as places. True: it is to stop. */
+bool aur_exact_factoring_stops(const aur_exact_system *system, const aur_progress *progress, size_t at,
+                               size_t degree, bool search);
+
 /* By a factorisation that grows degree by degree, so that every degree is tried: O(points * degree^4) time.
  * `search`: `degree` is only the last one to try. */
 enum { AUR_EXACT_DIRECT_POINTS = 2048 };

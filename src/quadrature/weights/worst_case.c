@@ -55,8 +55,11 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
                     storage + 5 * count};
     const aur_parallel_share share = {
         .slices = {{sum.blocks, sizeof *sum.blocks, block_count * sizeof *sum.blocks}}};
-    const aur_parallel_options options = {
-        .threads = own.threads, .share = &share, .what = "worst-case error", .progress = own.progress};
+    const aur_parallel_options options = {.threads = own.threads,
+                                          .share = &share,
+                                          .what = "worst-case error",
+                                          .progress = own.progress,
+                                          .triangular = true};
     result = aur_parallel_for(&options, block_count, add_block, &sum, error);
     if (result == AUR_OK) {
         aur_potential_evaluate(potential, count, xyz, z);

@@ -60,7 +60,7 @@ aur_result aur_rotation_pair_sum(const aur_measure_request *request, double (*pa
                       aur_arena_allocate(request->arena, items * sizeof *work.sums)};
     if (work.sums == NULL)
         return aur_fail_memory(error);
-    const aur_result result = aur_measure_items(
+    const aur_result result = aur_measure_rows(
         &request->options, "summing pairs", items, sum_rows, &work,
         (aur_parallel_slice){work.sums, sizeof *work.sums, items * sizeof *work.sums}, error);
     const double mass = mass_of(request->points);

@@ -55,7 +55,7 @@ static aur_result discrepancy(const product_kernel *kernel, const aur_measure_re
     double_sum work = {kernel, points, aur_arena_allocate(request->arena, 2 * items * sizeof *work.rows)};
     if (work.rows == NULL)
         return aur_fail_memory(error);
-    const aur_result result = aur_measure_items(
+    const aur_result result = aur_measure_rows(
         &request->options, "summing pairs", items, sum_rows, &work,
         (aur_parallel_slice){work.rows, 2 * sizeof *work.rows, 2 * items * sizeof *work.rows}, error);
     if (result != AUR_OK)

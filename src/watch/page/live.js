@@ -38,6 +38,8 @@ class Live {
   tell() {
     const {what, known, ended, share} = this.state;
     this.share.value = ended ? 1 : share;
+    if (this.viewer === undefined) // there is no picture yet
+      this.figure.textContent = ended || `${what} ...`;
     this.say(ended || [`${what}: ${(100 * share).toFixed(0)} %`, known].filter(text => text !== '').join('; '));
     document.title = ended || `${(100 * share).toFixed(0)} % ${document.querySelector('h1').textContent}`;
   }
