@@ -53,6 +53,25 @@ static aur_result decode_values(const unsigned char *values, const aur_image *im
     return AUR_OK;
 }
 
+/* What cannot be seen from the values; sRGB's own chunk overrides the others. */
+static void add_notes(png_structp png, png_infop info, aur_image *image) {
+    static const double usual[8] = {0.3127, 0.329, 0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
+    double gamma = 1.0 / 2.2, there[8];
+    bool other = false;
+    if (png_get_valid(png, info, PNG_INFO_sRGB) != 0)
+        return;
+    if (png_get_gAMA(png, info, &gamma) != 0 && !(fabs(gamma * 2.2 - 1.0) < 0.05))
+        aur_image_note(image, "its gamma of %g is not applied: values are read as sRGB's", gamma);
+    if (png_get_cHRM(png, info, &there[0], &there[1], &there[2], &there[3], &there[4], &there[5], &there[6],
+                     &there[7]) == 0)
+        return;
+    for (size_t i = 0; i < 8; ++i)
+        other = other || !(fabs(there[i] - usual[i]) < 2e-3);
+    if (other)
+        aur_image_note(image,
+                       "its chromaticities are not those of Rec. 709: colours are read as if they were");
+}
+
 /* Whatever the file holds becomes 16 bits of grey or R, G, B, with alpha where it has any. */
 static aur_result read_values(png_structp png, png_infop info, const aur_image_source *source,
                               png_reader *reader, aur_error *error) {
@@ -79,6 +98,8 @@ static aur_result read_values(png_structp png, png_infop info, const aur_image_s
             png_read_row(png, reader->values + y * row, NULL);
     png_read_end(png, NULL);
     result = aur_image_create(width, height, channel_count, reader->image, error);
+    if (result == AUR_OK)
+        add_notes(png, info, *reader->image);
     return result == AUR_OK ? decode_values(reader->values, *reader->image, error) : result;
 }
 

@@ -207,6 +207,57 @@ static void test_png_of_others(void **state) {
     remove(scratch(0, "x.png"));
 }
 
+/* A white pixel whose file tells its colour space; the values are sRGB's all the same. */
+static void write_white_png(const char *path, double gamma, const double *primaries, bool srgb) {
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, file);
+    png_set_IHDR(png, info, 1, 1, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    if (srgb)
+        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (gamma > 0.0)
+        png_set_gAMA(png, info, gamma);
+    if (primaries != NULL)
+        png_set_cHRM(png, info, primaries[0], primaries[1], primaries[2], primaries[3], primaries[4],
+                     primaries[5], primaries[6], primaries[7]);
+    png_write_info(png, info);
+    png_write_row(png, (const png_byte[]){255, 255, 255});
+    png_write_end(png, NULL);
+    png_destroy_write_struct(&png, &info);
+    fclose(file);
+}
+
+static void test_png_of_other_colours(void **state) {
+    (void)state;
+    static const double rec709[] = {0.3127, 0.329, 0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
+    static const double p3[] = {0.3127, 0.329, 0.68, 0.32, 0.265, 0.69, 0.15, 0.06};
+    static const double d50[] = {0.3457, 0.3585, 0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
+    static const struct {
+        double gamma;
+        const double *primaries;
+        bool srgb;
+        const char *note;
+    } cases[] = {{0.0, NULL, false, ""},
+                 {0.45455, rec709, false, ""},
+                 {0.45455, rec709, true, ""},
+                 {1.0, NULL, false, "its gamma of 1 is not applied"},
+                 {0.55556, rec709, false, "its gamma of 0.55556 is not applied"},
+                 {0.45455, p3, false, "its chromaticities are not those of Rec. 709"},
+                 {0.0, d50, false, "its chromaticities are not those of Rec. 709"},
+                 {1.0, p3, false, "its gamma of 1 is not applied"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        write_white_png(scratch(0, "x.png"), cases[i].gamma, cases[i].primaries, cases[i].srgb);
+        aur_image *const image = read_picture(scratch(0, "x.png"));
+        const char *const notes = aur_image_notes(image);
+        assert_true(cases[i].note[0] == '\0' ? notes[0] == '\0' : strstr(notes, cases[i].note) != NULL);
+        aur_image_destroy(image);
+    }
+    remove(scratch(0, "x.png"));
+}
+
 /* A smooth picture with noise of four levels, as a renderer makes them: a quarter below what stb needs. Its
  * noise alone is two bits a value. */
 static void test_png_is_small(void **state) {
@@ -378,6 +429,7 @@ int main(void) {
         cmocka_unit_test(test_hdr_round_trip),
         cmocka_unit_test(test_png_round_trip),
         cmocka_unit_test(test_png_of_others),
+        cmocka_unit_test(test_png_of_other_colours),
         cmocka_unit_test(test_png_is_small),
         cmocka_unit_test(test_png_is_decoded_from_srgb),
         cmocka_unit_test(test_png_of_any_radiance),
