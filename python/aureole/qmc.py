@@ -15,12 +15,13 @@ True
 from __future__ import annotations
 
 import re
+import warnings
 from typing import Any, Optional, Union
 
 import numpy as np
 from scipy.stats import qmc as _qmc
 
-from ._bridge import ArgumentError
+from ._bridge import ArgumentError, AureoleWarning
 from ._maps import map_from_directions
 from ._points import Array, Directions, PointSet
 from ._tables import Set, sets
@@ -93,6 +94,9 @@ class Engine(_qmc.QMCEngine):
             return np.empty((n, 0))
         if self.num_generated + n > len(self._set):
             raise ArgumentError(f"{type(self).__name__}: {len(self._set)} points are all there are")
+        if self.num_generated == 0 < n < len(self._set) and not self.row.extensible:
+            part = f"{type(self).__name__}: the first {n} of {len(self._set)} points are no even set: draw all of them"
+            warnings.warn(part, AureoleWarning, stacklevel=3)
         found = self._set.points(self.num_generated, n)
         return map_from_directions(found) if self.row.native else found
 

@@ -1,6 +1,7 @@
 """The engines of aureole.qmc."""
 
 import unittest
+import warnings
 
 import copy
 import os
@@ -76,6 +77,17 @@ class Engines(unittest.TestCase):
             following = engine.random(5)
             for made in copies:
                 self.assertTrue((made.random(5) == following).all())
+
+    def test_parts_of_sets(self):
+        """The first points of a set that is other points for every size are told of, those of a sequence are not."""
+        for engine in (aureole.qmc.SphericalFibonacci, aureole.qmc.FibonacciLattice, aureole.qmc.Hammersley):
+            with self.assertWarnsRegex(aureole.AureoleWarning, "the first 64 of 89 points are no even set"):
+                engine(n=89, scramble=True, seed=1).random(64)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(aureole.qmc.SphericalFibonacci(n=89).random(89).shape, (89, 2))
+            self.assertEqual(aureole.qmc.Halton(2, n=89).random(64).shape, (64, 2))
+            self.assertEqual(aureole.qmc.Hammersley(2, n=64).fast_forward(32).random(32).shape, (32, 2))
 
     def test_qmc_quad(self):
         """Integrals by every set, within eight of their standard errors: by 8 estimates chance exceeds that once in 10^4."""
