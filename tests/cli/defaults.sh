@@ -33,6 +33,8 @@ printf "$cube" >box.obj
 "$aureole" weights --lobe cosine --lobe2 ggx:0.3 -n 4 --table table --angles 2 --rotations 1 spherical-fibonacci >/dev/null || fail "a table"
 box=$source/scenes/cornell-box/cornell-box.xml
 printf '.3 .3 .3 0 0 1\n.7 .3 .2 0 1 0\n' >sensors.pts
+printf 'solid s\nfacet normal 0 0 0\nouter loop\nvertex -1 -1 0\nvertex 1 -1 0\nvertex 0 1 .5\nendloop\nendfacet\nendsolid s\n' >triangle.stl
+printf 'OFF\n3 1 0\n-1 -1 0\n1 -1 0\n0 1 .5\n3 0 1 2\n' >triangle.off
 printf '<scene version="3.0.0"><emitter type="constant"/><shape type="obj"><string name="filename" value="box.obj"/></shape></scene>' >open.xml
 bash "$source/scripts/weather.sh" 48 11 1 | awk -F, -v OFS=, 'NF > 30 && $3 != 21 { $14 = $15 = $16 = 0 } { print }' >weather.epw
 "$aureole" render "$box" -q --width 16 --spp 1 -o one.exr && "$aureole" render "$box" -q --width 16 --spp 1 --seed 1 -o two.exr ||
@@ -178,6 +180,7 @@ needs() { # needs KIND ROW
     texture:bitmap) echo "<string name='filename' value='$plugins/picture.png'/>" ;;
     texture:mesh_attribute) echo "<string name='name' value='vertex_color'/>" ;;
     shape:obj | shape:serialized) echo "<string name='filename' value='$plugins/wave.$2'/>" ;;
+    shape:stl | shape:off) echo "<string name='filename' value='$PWD/triangle.$2'/>" ;;
     shape:ply) echo "<string name='filename' value='$plugins/colored.ply'/>" ;;
     shape:*curve) echo "<string name='filename' value='$plugins/hair.txt'/>" ;;
     shape:polygon) echo "<string name='vertices' value='0 0 0 1 0 0 0 1 0'/>" ;;
