@@ -28,10 +28,9 @@ typedef struct aur_hit {
 typedef struct aur_surface {
     aur_vector position;
     aur_vector geometric_normal; /* unit, on the side the shape's winding and flip_normals give */
-    float reach;     /* how far the corners of its triangle, or its box, are along the normal, axis by axis */
-    aur_frame frame; /* frame.z is the shading normal, on the side of geometric_normal */
-    aur_bsdf_point texture; /* texture coordinates */
-    const aur_bsdf *bsdf;   /* never NULL */
+    aur_frame frame;             /* frame.z is the shading normal, on the side of geometric_normal */
+    aur_bsdf_point texture;      /* texture coordinates */
+    const aur_bsdf *bsdf;        /* never NULL */
     uint32_t shape, primitive;
     uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
 } aur_surface;
@@ -54,26 +53,10 @@ static inline float aur_surface_offset(aur_vector position) {
     return 1.5e-6f * aur_vector_max(size) + 1e-9f;
 }
 
-/* Where a triangle is much larger than the coordinates of a place in it, these are differences of those of
- * its corners, and as coarse. Roundings along an axis lift a place off the plane as much as the normal is
- * along it. */
-static inline float aur_triangle_reach(aur_vector normal, aur_vector a, aur_vector b, aur_vector c) {
-    const float x = aur_larger(fabsf(a.x), aur_larger(fabsf(b.x), fabsf(c.x)));
-    const float y = aur_larger(fabsf(a.y), aur_larger(fabsf(b.y), fabsf(c.y)));
-    const float z = aur_larger(fabsf(a.z), aur_larger(fabsf(b.z), fabsf(c.z)));
-    return fabsf(normal.x) * x + fabsf(normal.y) * y + fabsf(normal.z) * z;
-}
-
-/* The offset of a place on a triangle of that reach. */
-static inline float aur_reach_offset(aur_vector position, float reach) {
-    return aur_larger(aur_surface_offset(position), 1.5e-6f * reach);
-}
-
 /* A point beside the surface, on the side of `direction`. */
 static inline aur_vector aur_surface_leave(const aur_surface *surface, aur_vector direction) {
     const float side = aur_vector_dot(direction, surface->geometric_normal) < 0.0f ? -1.0f : 1.0f;
-    return aur_vector_add_scaled(surface->position,
-                                 side * aur_reach_offset(surface->position, surface->reach),
+    return aur_vector_add_scaled(surface->position, side * aur_surface_offset(surface->position),
                                  surface->geometric_normal);
 }
 

@@ -59,7 +59,6 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
         aur_vector_add_scaled(aur_vector_scale(corner[0], weight[0]), weight[1], corner[1]), weight[2],
         corner[2]);
     surface->geometric_normal = normal;
-    surface->reach = aur_triangle_reach(normal, corner[0], corner[1], corner[2]);
     surface->frame.z = normal;
     if (mesh->normals != NULL) {
         const aur_vector smooth = interpolate(mesh->normals, index, weight);
@@ -75,17 +74,6 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
     surface->frame.y = tangents[1];
 }
 
-/* As of a triangle, from the box of the shape. Curves are as thin as their places are near. */
-static float curved_reach(const aur_shape *shape, size_t primitive, aur_vector normal) {
-    if (shape->curved->intersect == NULL)
-        return 0.0f;
-    double lower[3], upper[3];
-    shape->curved->bounds(shape, primitive, lower, upper);
-    const aur_vector low = {(float)lower[0], (float)lower[1], (float)lower[2]};
-    const aur_vector high = {(float)upper[0], (float)upper[1], (float)upper[2]};
-    return aur_triangle_reach(normal, low, high, high);
-}
-
 static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
                            aur_surface *surface) {
     aur_shape_point point;
@@ -93,7 +81,6 @@ static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur
     shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), hit,
                            &point, shape->bsdf->anisotropic ? tangents : NULL);
     surface->position = point.position;
-    surface->reach = curved_reach(shape, hit->primitive, point.normal);
     surface->geometric_normal = surface->frame.z = point.normal;
     surface->texture = point.texture;
     surface->frame.x = tangents[0];
@@ -140,8 +127,6 @@ static void instance_surface(const aur_instance *instance, const aur_shape *shap
     local.direction = aur_transform_direction_f(&instance->to_local, ray->direction);
     shape_surface(shape, &local, hit, surface);
     surface->position = aur_transform_point_f(&instance->to_world, surface->position);
-    surface->reach *=
-        aur_vector_length(aur_transform_direction_f(&instance->to_world, surface->geometric_normal));
     surface->geometric_normal =
         aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->geometric_normal));
     surface->frame.z = aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->frame.z));

@@ -10,9 +10,9 @@
 
 enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_look.sums */
 
-/* Moves the place off the first surface within `reach` that is nearer to it than `least` or than its own
- * places are known; false where there is none. Along one of three axes every plane is near. */
-static bool move_off(const aur_scene *scene, float reach, float least, aur_sensor_place *place) {
+/* Moves the place off the first surface that is nearer to it than `reach`; false where there is none. Along
+ * one of three axes every plane is near. */
+static bool move_off(const aur_scene *scene, float reach, aur_sensor_place *place) {
     const aur_frame *const frame = &place->frame;
     const aur_vector axes[] = {frame->z, frame->x, frame->y};
     for (size_t i = 0; i < 3; ++i) {
@@ -23,13 +23,10 @@ static bool move_off(const aur_scene *scene, float reach, float least, aur_senso
         if (!aur_scene_intersect(scene, &ray, &hit))
             continue;
         aur_scene_surface(scene, &ray, &hit, &surface);
-        const float offset = aur_reach_offset(surface.position, surface.reach);
-        if (fabsf(hit.distance - reach) > aur_larger(offset, least))
-            continue;
         const float along = aur_vector_dot(surface.geometric_normal, frame->z);
         const float side = along < -1e-3f ? -1.0f : 1.0f;
-        place->position = aur_vector_add_scaled(surface.position, side * 2.0f * aur_larger(offset, least),
-                                                surface.geometric_normal);
+        place->position =
+            aur_vector_add_scaled(surface.position, side * 2.0f * reach, surface.geometric_normal);
         return true;
     }
     return false;
@@ -58,11 +55,7 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
     const aur_vector at = aur_place_from(aur_scene_origin(scene), position);
     place->frame = aur_frame_about(aur_vector_normalize(z));
     place->position = at;
-    const float least = aur_surface_offset(at),
-                most = aur_larger(least, 3e-6f * (aur_vector_length(scene->center) + scene->radius));
-    for (size_t i = 0;
-         i < MOST_SURFACES && (move_off(scene, least, least, place) || move_off(scene, most, least, place));
-         ++i)
+    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, aur_surface_offset(at), place); ++i)
         place->on_surface = true;
     if (lights->count == 0)
         return;
