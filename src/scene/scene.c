@@ -33,7 +33,7 @@ static double reach_of(const aur_shape *shape, const double origin[3]) {
     return reach;
 }
 
-/* Rays leave surfaces by at least 1e-9 (aur_surface_offset), which in a tiny scene is as far as walls are. */
+/* Rays leave surfaces by at least 1e-9 (AUR_LEAST_OFFSET), which in a tiny scene is as far as walls are. */
 static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
     const double width = 2.0 * (double)scene->radius;
     if (width < 1e-5)

@@ -31,6 +31,7 @@ typedef struct aur_surface {
     aur_frame frame;             /* frame.z is the shading normal, on the side of geometric_normal */
     aur_bsdf_point texture;      /* texture coordinates */
     const aur_bsdf *bsdf;        /* never NULL */
+    float offset;                /* how far beside it rays begin (aur_surface_offset) */
     uint32_t shape, primitive;
     uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
 } aur_surface;
@@ -46,18 +47,36 @@ bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 AUR_EXPERIMENTAL void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit,
                                         aur_surface *surface);
 
-/* Positions are found to a few parts in 10^7 of their coordinates (seven roundings of 2^-24); the offset is a
- * little beyond that, so that a ray never meets the surface that it leaves. */
-static inline float aur_surface_offset(aur_vector position) {
-    const aur_vector size = {fabsf(position.x), fabsf(position.y), fabsf(position.z)};
-    return 1.5e-6f * aur_vector_max(size) + 1e-9f;
+/* How far rounding puts a point off a surface with this unit normal, and more, where all coordinates that it
+ * is made of are within +-reach. A number x is rounded by u |x|, u = 2^-24, which along the axis d moves a
+ * point off a plane by u |n_d| reach_d; s is the sum of these over d. A triangle's point is off by 4 s at
+ * most: its weights 1, their products with corners 1, two sums 2. The origin of a ray is off by 1 s more.
+ * Embree counts corners from that origin, up to 2 reach: differences 1, their products with the normal and
+ * sums 3; the normal is of sides, differences 3, and their cross product 2. That is 9 times 2 s, unless the
+ * triangle is a sliver; in all 23 s, and 1.5e-6 are 25 u. */
+static inline float aur_surface_rounding(aur_vector reach, aur_vector normal) {
+    return 1.5e-6f * (fabsf(normal.x) * fabsf(reach.x) + fabsf(normal.y) * fabsf(reach.y) +
+                      fabsf(normal.z) * fabsf(reach.z));
+}
+
+/* How far beside a surface rays begin, so that they never meet it. */
+#define AUR_LEAST_OFFSET 1e-9f
+static inline float aur_surface_offset(aur_vector reach, aur_vector normal) {
+    return aur_surface_rounding(reach, normal) + AUR_LEAST_OFFSET;
+}
+
+/* The same of points of a triangle. */
+static inline float aur_triangle_offset(aur_vector a, aur_vector b, aur_vector c, aur_vector normal) {
+    const aur_vector reach = {aur_larger(fabsf(a.x), aur_larger(fabsf(b.x), fabsf(c.x))),
+                              aur_larger(fabsf(a.y), aur_larger(fabsf(b.y), fabsf(c.y))),
+                              aur_larger(fabsf(a.z), aur_larger(fabsf(b.z), fabsf(c.z)))};
+    return aur_surface_offset(reach, normal);
 }
 
 /* A point beside the surface, on the side of `direction`. */
 static inline aur_vector aur_surface_leave(const aur_surface *surface, aur_vector direction) {
     const float side = aur_vector_dot(direction, surface->geometric_normal) < 0.0f ? -1.0f : 1.0f;
-    return aur_vector_add_scaled(surface->position, side * aur_surface_offset(surface->position),
-                                 surface->geometric_normal);
+    return aur_vector_add_scaled(surface->position, side * surface->offset, surface->geometric_normal);
 }
 
 /* A ray that leaves the surface without meeting it again; farthest is infinite. */

@@ -19,6 +19,13 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
     return *root > nearest && *root < farthest;
 }
 
+/* Of two triangles, (0, 1, 2) and (0, 2, 3). */
+static float parallelogram_offset(const aur_mesh *mesh, aur_vector normal) {
+    const aur_vector a = aur_mesh_position(mesh, 0), b = aur_mesh_position(mesh, 1);
+    const aur_vector c = aur_mesh_position(mesh, 2), d = aur_mesh_position(mesh, 3);
+    return aur_larger(aur_triangle_offset(a, b, c, normal), aur_triangle_offset(a, c, d, normal));
+}
+
 aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles,
                                  const float u[3]) {
     if (shape->curved != NULL)
@@ -30,10 +37,12 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     aur_mesh_corners(mesh, triangle, corner);
     aur_shape_point point;
     point.normal = aur_triangle_normal(corner);
+    point.offset = aur_triangle_offset(corner[0], corner[1], corner[2], point.normal);
     if (shape->parallelogram) {
         const aur_vector origin = aur_mesh_position(mesh, 0);
         const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);
         const aur_vector y = aur_vector_subtract(aur_mesh_position(mesh, 3), origin);
+        point.offset = parallelogram_offset(mesh, point.normal);
         point.position = aur_vector_add_scaled(aur_vector_add_scaled(origin, u[1], x), u[2], y);
         point.texture = (aur_bsdf_point){.u = u[1], .v = u[2]};
         return point;

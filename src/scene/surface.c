@@ -59,6 +59,7 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
         aur_vector_add_scaled(aur_vector_scale(corner[0], weight[0]), weight[1], corner[1]), weight[2],
         corner[2]);
     surface->geometric_normal = normal;
+    surface->offset = aur_triangle_offset(corner[0], corner[1], corner[2], normal);
     surface->frame.z = normal;
     if (mesh->normals != NULL) {
         const aur_vector smooth = interpolate(mesh->normals, index, weight);
@@ -81,6 +82,7 @@ static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur
     shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), hit,
                            &point, shape->bsdf->anisotropic ? tangents : NULL);
     surface->position = point.position;
+    surface->offset = point.offset;
     surface->geometric_normal = surface->frame.z = point.normal;
     surface->texture = point.texture;
     surface->frame.x = tangents[0];
@@ -119,7 +121,21 @@ static void shape_surface(const aur_shape *shape, const aur_ray *ray, const aur_
         mesh_surface(shape, ray, hit, surface);
 }
 
-/* Finds the surface in the group's own space, and then moves it to the instance. */
+/* Embree brings the origins of rays to the group's own space: what that rounds there, in products of the
+ * matrix with a point and with the point that is the group's origin. */
+static float instance_rounding(const aur_instance *instance, aur_vector position, aur_vector local_normal) {
+    const double *const m = instance->to_local.m, *const w = instance->to_world.m;
+    const double from[3] = {fabs((double)position.x) + fabs(w[3]), fabs((double)position.y) + fabs(w[7]),
+                            fabs((double)position.z) + fabs(w[11])};
+    double reach[3];
+    for (size_t i = 0; i < 3; ++i)
+        reach[i] = fabs(m[4 * i]) * from[0] + fabs(m[4 * i + 1]) * from[1] + fabs(m[4 * i + 2]) * from[2];
+    return aur_surface_rounding((aur_vector){(float)reach[0], (float)reach[1], (float)reach[2]},
+                                local_normal);
+}
+
+/* Finds the surface in the group's own space, and then moves it to the instance. What is 1 along the unit
+ * normal n there is 1 / |to_local^T n| along the normal here. */
 static void instance_surface(const aur_instance *instance, const aur_shape *shape, const aur_ray *ray,
                              const aur_hit *hit, aur_surface *surface) {
     aur_ray local = *ray;
@@ -127,8 +143,12 @@ static void instance_surface(const aur_instance *instance, const aur_shape *shap
     local.direction = aur_transform_direction_f(&instance->to_local, ray->direction);
     shape_surface(shape, &local, hit, surface);
     surface->position = aur_transform_point_f(&instance->to_world, surface->position);
-    surface->geometric_normal =
-        aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->geometric_normal));
+    const float own = surface->offset - AUR_LEAST_OFFSET +
+                      instance_rounding(instance, surface->position, surface->geometric_normal);
+    const aur_vector normal = aur_transform_normal_f(&instance->to_local, surface->geometric_normal);
+    surface->geometric_normal = aur_vector_normalize(normal);
+    surface->offset = aur_surface_offset(surface->position, surface->geometric_normal) +
+                      own / aur_larger(aur_vector_length(normal), 1e-30f);
     surface->frame.z = aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->frame.z));
     surface->frame.x = aur_transform_direction_f(&instance->to_world, surface->frame.x);
     surface->frame.y = aur_transform_direction_f(&instance->to_world, surface->frame.y);

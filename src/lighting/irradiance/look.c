@@ -10,26 +10,71 @@
 
 enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_look.sums */
 
-/* Moves the place off the first surface that is nearer to it than `reach`; false where there is none. Along
- * one of three axes every plane is near. */
-static bool move_off(const aur_scene *scene, float reach, aur_sensor_place *place) {
+/* Of surfaces on which a sensor stands, the nearest: within what may be wrong of both by rounding. */
+typedef struct footing {
+    aur_vector normal;
+    float height, offset; /* of the sensor over it, along the normal; what may be wrong */
+} footing;
+
+/* Of a round shape: rays are exact to its place and size as floats, which are off by four roundings (its
+ * centre 1, its radius 1, or the normal of a disk 2). aur_surface_rounding counts 25. */
+static float shape_rounding(const aur_scene *scene, const aur_hit *hit, aur_vector normal) {
+    const aur_shape *const shape = scene->shapes[hit->shape];
+    if (shape->curved == NULL || hit->instance != AUR_NO_INSTANCE)
+        return 0.0f;
+    double lower[3], upper[3];
+    shape->curved->bounds(shape, hit->primitive, lower, upper);
+    const aur_vector reach = {(float)fmax(fabs(lower[0]), fabs(upper[0])),
+                              (float)fmax(fabs(lower[1]), fabs(upper[1])),
+                              (float)fmax(fabs(lower[2]), fabs(upper[2]))};
+    return 0.16f * aur_surface_rounding(reach, normal);
+}
+
+/* Looks from -reach to reach along an axis. What is met may be a lamp of no thickness above a ground that is
+ * not exact to that. */
+static void look_along(const aur_scene *scene, const aur_sensor_place *place, aur_vector axis, float reach,
+                       const footing *before, footing *found) {
+    enum { MOST_HITS = 16 };
+    aur_ray ray = {aur_vector_add_scaled(place->position, -reach, axis), 0.0f, axis, 2.0f * reach};
+    aur_hit hit;
+    for (size_t i = 0; i < MOST_HITS && aur_scene_intersect(scene, &ray, &hit); ++i) {
+        aur_surface surface;
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        const aur_vector normal = surface.geometric_normal;
+        const float height = aur_vector_dot(normal, aur_vector_subtract(place->position, surface.position));
+        const float offset = surface.offset + aur_surface_offset(place->position, normal) +
+                             shape_rounding(scene, &hit, normal);
+        const bool parallel = fabsf(aur_vector_dot(normal, before->normal)) > 0.999f;
+        if (!parallel && fabsf(height) <= offset && fabsf(height) < fabsf(found->height))
+            *found = (footing){normal, height, offset};
+        ray.nearest = nextafterf(hit.distance, INFINITY);
+    }
+}
+
+/* Moves the place off a surface on which it stands; false where there is none but that of `before`. Along one
+ * of three axes every plane is near. */
+static bool move_off(const aur_scene *scene, float reach, footing *before, aur_sensor_place *place) {
     const aur_frame *const frame = &place->frame;
     const aur_vector axes[] = {frame->z, frame->x, frame->y};
-    for (size_t i = 0; i < 3; ++i) {
-        const aur_ray ray = {aur_vector_add_scaled(place->position, -reach, axes[i]), 0.0f, axes[i],
-                             2.0f * reach};
-        aur_hit hit;
-        aur_surface surface;
-        if (!aur_scene_intersect(scene, &ray, &hit))
-            continue;
-        aur_scene_surface(scene, &ray, &hit, &surface);
-        const float along = aur_vector_dot(surface.geometric_normal, frame->z);
-        const float side = along < -1e-3f ? -1.0f : 1.0f;
-        place->position =
-            aur_vector_add_scaled(surface.position, side * 2.0f * reach, surface.geometric_normal);
-        return true;
-    }
-    return false;
+    footing found = {.height = INFINITY};
+    for (size_t i = 0; i < 3; ++i)
+        look_along(scene, place, axes[i], reach, before, &found);
+    if (!(found.height < INFINITY))
+        return false;
+    const float side = aur_vector_dot(found.normal, frame->z) < -1e-3f ? -1.0f : 1.0f;
+    place->position =
+        aur_vector_add_scaled(place->position, side * 2.0f * found.offset - found.height, found.normal);
+    *before = found;
+    return true;
+}
+
+/* Twice the largest offset there can be, as an axis may meet a surface at an angle. */
+static float reach_of(const aur_scene *scene, aur_vector at) {
+    const aur_vector low = scene->lower, high = scene->upper;
+    const aur_vector reach = {fabsf(at.x) + aur_larger(fabsf(low.x), fabsf(high.x)),
+                              fabsf(at.y) + aur_larger(fabsf(low.y), fabsf(high.y)),
+                              fabsf(at.z) + aur_larger(fabsf(low.z), fabsf(high.z))};
+    return 2.0f * aur_surface_offset(reach, (aur_vector){1.0f, 1.0f, 1.0f});
 }
 
 void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *lights,
@@ -55,7 +100,9 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
     const aur_vector at = aur_place_from(aur_scene_origin(scene), position);
     place->frame = aur_frame_about(aur_vector_normalize(z));
     place->position = at;
-    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, aur_surface_offset(at), place); ++i)
+    footing before = {.height = 0.0f};
+    const float reach = reach_of(scene, at);
+    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, reach, &before, place); ++i)
         place->on_surface = true;
     if (lights->count == 0)
         return;

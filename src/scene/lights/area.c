@@ -25,15 +25,16 @@ typedef struct area_light {
 
 /* Points that are drawn lie off the surface by more than they are rounded, so that rays to them do not end at
  * the light itself just before. */
-static aur_vector lifted(aur_vector position, aur_vector normal) {
-    return aur_vector_add_scaled(position, aur_surface_offset(position), normal);
+static aur_vector lifted(aur_vector position, const aur_shape_point *on) {
+    return aur_vector_add_scaled(position, on->offset, on->normal);
 }
 
-static bool find_rectangle(const aur_shape *shape, aur_vector normal, aur_rectangle *rectangle) {
+/* `on`: any of its points. */
+static bool find_rectangle(const aur_shape *shape, const aur_shape_point *on, aur_rectangle *rectangle) {
     const aur_vector corner = aur_mesh_position(&shape->mesh, 0);
     const aur_vector x = aur_vector_subtract(aur_mesh_position(&shape->mesh, 1), corner);
     const aur_vector y = aur_vector_subtract(aur_mesh_position(&shape->mesh, 3), corner);
-    *rectangle = (aur_rectangle){.corner = lifted(corner, normal),
+    *rectangle = (aur_rectangle){.corner = lifted(corner, on),
                                  .x = aur_vector_normalize(x),
                                  .y = aur_vector_normalize(y),
                                  .width = aur_vector_length(x),
@@ -70,10 +71,11 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
         return aur_fail_memory_at(error, emitter->location);
     light->shape = shape;
     light->is_mesh = emitter->needs_choice = shape->curved == NULL && !shape->parallelogram;
-    if (shape->parallelogram)
-        light->rectangle.normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
-    light->is_rectangle =
-        shape->parallelogram && find_rectangle(shape, light->rectangle.normal, &light->rectangle.rectangle);
+    if (shape->parallelogram) {
+        const aur_shape_point on = aur_shape_sample(shape, NULL, (const float[3]){0.0f});
+        light->rectangle.normal = on.normal;
+        light->is_rectangle = find_rectangle(shape, &on, &light->rectangle.rectangle);
+    }
     light->rectangle.area = (float)shape->area;
     light->rectangle.radiance = emitter->radiance.constant;
     light->kernels = aur_rectangle_kernels_here();
@@ -165,7 +167,7 @@ static bool finish_sample(const aur_emitter *emitter, aur_vector reference, cons
     if (!(cosine > 0.0f) || !(squared > 0.0f))
         return false;
     const area_light *const light = emitter->data;
-    drawn->position = light->is_rectangle ? point->position : lifted(point->position, point->normal);
+    drawn->position = light->is_rectangle ? point->position : lifted(point->position, point);
     drawn->normal = point->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
     drawn->pdf = pdf_of(light, density, squared, cosine);
@@ -193,7 +195,8 @@ static bool sample_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
 static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
     const aur_shape_point point = sample_area(emitter->data, u);
     const aur_frame frame = aur_frame_about(point.normal);
-    const aur_surface surface = {.position = point.position, .geometric_normal = point.normal};
+    const aur_surface surface = {
+        .position = point.position, .geometric_normal = point.normal, .offset = point.offset};
     *ray = aur_surface_ray(&surface, aur_frame_to_world(&frame, aur_sample_cosine(u[3], u[4])));
     *power = aur_vector_scale(aur_color_at(&emitter->radiance, point.texture),
                               AUR_PI_F * ((const area_light *)emitter->data)->rectangle.area);

@@ -79,7 +79,8 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
 static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
     const aur_shape *const shape = ((const beam *)emitter->data)->shape;
     const aur_shape_point point = aur_shape_sample(shape, NULL, u);
-    const aur_surface surface = {.position = point.position, .geometric_normal = point.normal};
+    const aur_surface surface = {
+        .position = point.position, .geometric_normal = point.normal, .offset = point.offset};
     *ray = aur_surface_ray(&surface, point.normal);
     *power = aur_vector_scale(aur_color_at(&emitter->radiance, point.texture), (float)shape->area);
     return true;

@@ -85,7 +85,8 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     *point = (aur_shape_point){
         position,
         aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-        {.u = aur_shape_azimuth(x, y), .v = ((float)hit->primitive + hit->u) / (float)curves->segment_count}};
+        {.u = aur_shape_azimuth(x, y), .v = ((float)hit->primitive + hit->u) / (float)curves->segment_count},
+        aur_surface_offset(position, normal)};
     if (tangents == NULL)
         return;
     /* C + r d, whose d turns with the middle line and, where that bends sideways, with the direction across

@@ -37,14 +37,29 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return false;
 }
 
+/* In doubles, and moved onto the surface that rays meet, as the axes are rounded. */
+static aur_vector place_of(const aur_shape *shape, aur_vector normal, float z) {
+    const aur_vector along = shape->axis[2];
+    const double radius = shape->radius, height = z;
+    const double way[3] = {radius * (double)normal.x + height * (double)along.x,
+                           radius * (double)normal.y + height * (double)along.y,
+                           radius * (double)normal.z + height * (double)along.z};
+    const double x = aur_shape_dot(way, shape->axis[0]), y = aur_shape_dot(way, shape->axis[1]);
+    const double outwards = radius - sqrt(x * x + y * y);
+    return (aur_vector){(float)((double)shape->center.x + way[0] + outwards * (double)normal.x),
+                        (float)((double)shape->center.y + way[1] + outwards * (double)normal.y),
+                        (float)((double)shape->center.z + way[2] + outwards * (double)normal.z)};
+}
+
 static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine, float z) {
     aur_vector normal = aur_vector_scale(shape->axis[0], cosine);
     normal = aur_vector_add_scaled(normal, sine, shape->axis[1]);
-    aur_vector position = aur_vector_add_scaled(shape->center, shape->radius, normal);
-    position = aur_vector_add_scaled(position, z, shape->axis[2]);
-    return (aur_shape_point){position,
-                             aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-                             {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length}};
+    const aur_vector position = place_of(shape, normal, z);
+    return (aur_shape_point){
+        position,
+        aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+        {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length},
+        aur_round_offset(position, normal, aur_coordinate_sum(shape->center) + shape->radius + fabsf(z))};
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,

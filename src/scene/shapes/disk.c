@@ -39,10 +39,24 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return squared <= 1.0 && squared >= (double)shape->inner * (double)shape->inner;
 }
 
+/* In doubles, and moved onto the plane that rays meet, as the axes are rounded. */
+static aur_vector place_of(const aur_shape *shape, double x, double y) {
+    const aur_vector a = shape->axis[0], b = shape->axis[1], z = shape->axis[2];
+    const double way[3] = {x * (double)a.x + y * (double)b.x, x * (double)a.y + y * (double)b.y,
+                           x * (double)a.z + y * (double)b.z};
+    const double unit[3] = {z.x, z.y, z.z};
+    const double height = aur_shape_dot(way, z) / aur_shape_dot(unit, z);
+    return (aur_vector){(float)((double)shape->center.x + way[0] - height * unit[0]),
+                        (float)((double)shape->center.y + way[1] - height * unit[1]),
+                        (float)((double)shape->center.z + way[2] - height * unit[2])};
+}
+
 static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
     aur_shape_point point;
-    point.position = aur_vector_add_scaled(shape->center, x, shape->axis[0]);
-    point.position = aur_vector_add_scaled(point.position, y, shape->axis[1]);
+    point.position = place_of(shape, (double)x, (double)y);
+    point.offset = aur_round_offset(point.position, shape->axis[2],
+                                    aur_coordinate_sum(shape->center) + aur_coordinate_sum(shape->axis[0]) +
+                                        aur_coordinate_sum(shape->axis[1]));
     point.normal = aur_vector_scale(shape->axis[2], shape->flipped ? -1.0f : 1.0f);
     point.texture = (aur_bsdf_point){.u = hypotf(x, y), .v = aur_shape_azimuth(x, y)};
     return point;

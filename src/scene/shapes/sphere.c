@@ -25,15 +25,28 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return aur_first_root(a, b, c, nearest, farthest, distance);
 }
 
+/* The point in the direction of this normal, before flipping, from the centre: in doubles, so that beside a
+ * sphere that is far larger than what stands on it points are as exact as elsewhere. */
+static aur_vector place_of(const aur_shape *shape, aur_vector normal) {
+    const double n[3] = {normal.x, normal.y, normal.z};
+    const double squared = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const double scale = squared > 0.0 ? (double)shape->radius / sqrt(squared) : 0.0;
+    return (aur_vector){(float)((double)shape->center.x + scale * n[0]),
+                        (float)((double)shape->center.y + scale * n[1]),
+                        (float)((double)shape->center.z + scale * n[2])};
+}
+
 /* The point that has this unit normal before flipping. */
 static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
+    const aur_vector position = place_of(shape, normal);
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]);
     return (aur_shape_point){
-        aur_vector_add_scaled(shape->center, shape->radius, normal),
+        position,
         aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-        {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
+        {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F},
+        aur_round_offset(position, normal, aur_coordinate_sum(shape->center) + shape->radius)};
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,

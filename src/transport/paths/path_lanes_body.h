@@ -32,8 +32,8 @@ static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *rest
         aur_lane_set(&lanes->normal, k, normal);
         aur_lane_set(&lanes->facing, k, aur_vector_scale(normal, side));
         lanes->side[k] = side;
-        aur_lane_set(&lanes->origin, k,
-                     aur_vector_add_scaled(position, side * aur_surface_offset(position), normal));
+        const float offset = aur_triangle_offset(corner, b, c, normal);
+        aur_lane_set(&lanes->origin, k, aur_vector_add_scaled(position, side * offset, normal));
         lanes->reflectance.x[k] = along > 0.0f ? lanes->albedo[1].x[k] : lanes->albedo[0].x[k];
         lanes->reflectance.y[k] = along > 0.0f ? lanes->albedo[1].y[k] : lanes->albedo[0].y[k];
         lanes->reflectance.z[k] = along > 0.0f ? lanes->albedo[1].z[k] : lanes->albedo[0].z[k];

@@ -50,12 +50,13 @@ static float slack_of(const aur_radiosity_triangle *t) {
     return 2.0f * t->offset;
 }
 
-/* Whether an edge of `a` has all of `b` on its outer side, but for `slack`. */
-static bool separates(const aur_radiosity_triangle *a, const aur_vector p[3], const aur_vector q[3],
-                      float slack) {
+/* Whether an edge of `a` has all of `b` on its outer side, but for rounding in that direction. */
+static bool separates(const aur_radiosity_triangle *a, const aur_vector p[3], const aur_vector q[3]) {
     for (size_t i = 0; i < 3; ++i) {
         const aur_vector edge = aur_vector_subtract(p[(i + 1) % 3], p[i]);
         const aur_vector outwards = aur_vector_normalize(aur_vector_cross(edge, a->frame.z));
+        const float slack = 8.0f * fmaxf(aur_triangle_offset(p[0], p[1], p[2], outwards),
+                                         aur_triangle_offset(q[0], q[1], q[2], outwards));
         float nearest = INFINITY;
         for (size_t k = 0; k < 3; ++k)
             nearest = fminf(nearest, aur_vector_dot(outwards, aur_vector_subtract(q[k], p[i])));
@@ -75,7 +76,7 @@ static bool coincide(const aur_radiosity_triangle *a, const aur_radiosity_triang
     for (size_t k = 0; k < 3; ++k)
         if (fabsf(aur_vector_dot(a->frame.z, aur_vector_subtract(q[k], p[0]))) > slack)
             return false;
-    return !separates(a, p, q, 4.0f * slack) && !separates(b, q, p, 4.0f * slack);
+    return !separates(a, p, q) && !separates(b, q, p);
 }
 
 /* --- the tree */

@@ -92,16 +92,6 @@ static aur_frame frame_of(const aur_vector edge[2], uint64_t variant, size_t ind
     return frame;
 }
 
-/* Positions are found to a few parts in 10^7 of their coordinates, as in scene/surface.c. */
-static float offset_of(const aur_triangle *triangle) {
-    float size = 0.0f;
-    for (size_t i = 0; i < 3; ++i) {
-        const aur_vector c = triangle->corner[i];
-        size = fmaxf(size, fmaxf(fabsf(c.x), fmaxf(fabsf(c.y), fabsf(c.z))));
-    }
-    return 1.5e-6f * size + 1e-9f;
-}
-
 static uint64_t hash_vector(uint64_t hash, aur_vector v) {
     const float values[3] = {v.x, v.y, v.z};
     uint32_t bits[3];
@@ -122,10 +112,10 @@ static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t varia
         *t = (aur_radiosity_triangle){.corner = corners.corner[0],
                                       .edge = {aur_vector_subtract(corners.corner[1], corners.corner[0]),
                                                aur_vector_subtract(corners.corner[2], corners.corner[0])},
-                                      .offset = offset_of(&corners),
                                       .back = AUR_NO_PATCH,
                                       .shape = (uint32_t)shape};
         t->frame = frame_of(t->edge, variant, *next);
+        t->offset = aur_triangle_offset(corners.corner[0], corners.corner[1], corners.corner[2], t->frame.z);
         t->flags = (mirror ? AUR_RADIOSITY_MIRROR : 0u) | (bsdf->textured ? AUR_RADIOSITY_TEXTURED : 0u);
         t->albedo[0] = mean_over(scene, shape, &corners, 1.0f);
         if (bsdf->scatters_from_behind && !mirror)
