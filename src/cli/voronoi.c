@@ -141,7 +141,8 @@ static int find_cells(const voronoi_command *wanted, const aur_points_view *poin
     aur_measure_options how = aur_measure_options_default();
     how.cap_degrees = wanted->from.options.cap_degrees;
     how.threads = wanted->common.threads;
-    static const cli_phase cells = {"cutting cells", 1.0}, phases[] = {cells, cells, cells};
+    static const cli_phase phases[] = {
+        {"cutting cells", 1.0}, {"cutting cells", 1.0}, {"cutting cells", 1.0}};
     how.progress = cli_progress(wanted->common.quiet);
     cli_progress_plan(wanted->cells != NULL ? 3 : 1, phases); /* corners are found twice, to count them */
     how.warnings = cli_warnings(wanted->common.quiet);
