@@ -4,6 +4,7 @@
 set -u
 aureole=$1
 source=$2
+. "$source/tests/terminal.sh.inc"
 command -v python3 >/dev/null || { echo "skipped: no python3 to make a terminal with"; exit 77; }
 scene=$source/scenes/cornell-box/cornell-box.xml
 for x in 100 200 300 400; do for z in 100 200 300 400; do echo "$x 10 $z 0 1 0"; done; done >points

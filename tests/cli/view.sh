@@ -2,6 +2,7 @@
 # The page of pictures is opened by xdg-open at a terminal of a desktop, and nowhere else.
 set -u
 aureole=$1
+. "$2/tests/terminal.sh.inc"
 printf 'PF\n1 1\n-1.0\n\0\0\0\0\0\0\0\0\0\0\0\0' >a.pfm
 mkdir -p bin pages
 printf '#!/bin/sh\necho "$1" >>"%s/opened.txt"\n' "$PWD" >bin/xdg-open
@@ -10,16 +11,7 @@ export PATH=$PWD/bin:$PATH TMPDIR=$PWD/pages
 failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 DISPLAY=:99 "$aureole" view a.pfm >path.txt && [ -s "$(cat path.txt)" ] || fail "no page: $(cat path.txt)"
-# Where there is no /dev/pts, as in a chroot, there is one in a namespace of the test's own.
-script=(script)
-if ! script -qec true /dev/null 2>/dev/null; then
-  # shellcheck disable=SC2016
-  script=(unshare --map-root-user --mount sh -c 'mkdir -p /dev/pts && mount -t devpts -o newinstance,ptmxmode=0666 devpts /dev/pts &&
-    touch /dev/ptmx && mount --bind /dev/pts/ptmx /dev/ptmx && exec script "$@"' script)
-  "${script[@]}" -qec true /dev/null >/dev/null 2>&1 ||
-    { echo "skipped: there is no /dev/pts, and no namespace with one may be made: terminals are not tested"; exit 77; }
-fi
-at_terminal() { env "$@" "${script[@]}" -qec "'$aureole' view a.pfm $output" /dev/null | tr -d '\r' >path.txt; }
+at_terminal() { env "$@" script -qec "'$aureole' view a.pfm $output" /dev/null | tr -d '\r' >path.txt; }
 output=
 at_terminal -u DISPLAY -u WAYLAND_DISPLAY
 output="-o page.html" at_terminal DISPLAY=:99
