@@ -59,7 +59,7 @@ def _(context):
     rows = points(context, "spherical-fibonacci", "-n", "120", "--domain", "axes")
     write_points("a.csv", rows)
     write_points("b.csv", [tuple(-v for v in p) if i % 3 else p for i, p in enumerate(rows)])
-    return nearly_equal(figures(context, "a.csv", "all", "--domain", "axes"), figures(context, "b.csv", "all", "--domain", "axes"), 1e-9, 1e-12)
+    return nearly_equal(figures(context, "a.csv", "all", "--domain", "axes"), figures(context, "b.csv", "all", "--domain", "axes"), 1e-12)
 
 
 @relation("numbers", "measure", "points as CSV, NPY and PLY", "the same numbers")
@@ -103,7 +103,7 @@ for _method, _options in (("exact", ("--degree", "6")), ("voronoi", ()), ("osw",
         write_points("b.csv", [turn(p) for p in rows])
         a = weights(context, "a.csv", "--method", method, "--domain", "sphere", "--negative" if method == "exact" else "-q", *options)
         b = weights(context, "b.csv", "--method", method, "--domain", "sphere", "--negative" if method == "exact" else "-q", *options)
-        return nearly_equal(a, b, 1e-8, 1e-8 / len(rows))
+        return nearly_equal(a, b, 1e-9, 1e-9 / len(rows))
 
 
 @relation("numbers", "voronoi", "points permuted and rotated", "1e-10")

@@ -83,7 +83,7 @@ def _(context):
 L_ROOM = 2.0  # 1 / (1 - .5)
 
 
-@relation("writing", "viewfactors --radiosity", "first corner and direction of a closed L-shaped room", "2, within intervals")
+@relation("writing", "viewfactors --radiosity", "first corner of every face of a closed L-shaped room", "2, within intervals")
 def _(context):
     room = models.room()
     shell = room.with_surfaces([s for s in room.surfaces if s.name in ("floor", "ceiling", "walls")])
