@@ -19,7 +19,7 @@ if [ ! -e "$root/complete" ]; then
   apt=(apt-get -qq -y --no-install-recommends -o Debug::NoLocking=1 -o APT::Sandbox::User="$(id -un)" -o "Dir::State=$root/apt/state"
        -o "Dir::Cache=$root/apt/cache" -o "Dir::State::status=$root/apt/status" -o APT::Architecture=arm64 -o APT::Architectures=arm64)
   "${apt[@]}" update && "${apt[@]}" --download-only install libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev zlib1g-dev liblapacke-dev \
-    libopenblas-serial-dev libcmocka-dev libc6-dev libstdc++-12-dev >/dev/null ||
+    libopenblas-serial-dev libmicrohttpd-dev libcmocka-dev libc6-dev libstdc++-12-dev >/dev/null ||
     { echo "arm64.sh: skipped: Debian's packages for arm64 are not to be had"; exit 77; }
   for package in "$root"/apt/cache/archives/*.deb; do
     dpkg-deb -x "$package" "$root"

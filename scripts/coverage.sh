@@ -31,7 +31,6 @@ parsers=(
   'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/mesh_places.c'
   'weather (EPW)|weather|src/lighting/daylight/weather.c'
   'names of sets and keys|set scene options|src/core/parameters.c src/core/names.c'
-  'requests of a browser|request|src/watch/http.c'
   'options of the program|options|src/cli/options.c src/cli/quantity.c'
 )
 

@@ -6,8 +6,9 @@ set -euo pipefail
 packages=(
   # tools
   ca-certificates clang-format cmake g++ gcc git ninja-build pkg-config
-  # ray tracing, pictures, scene files, models, linear algebra
+  # ray tracing, pictures, scene files, models, linear algebra, the page of a render
   libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev libassimp-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
+  libmicrohttpd-dev
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )

@@ -23,6 +23,7 @@ class Aureole(CMakePackage):
         depends_on("libpng@1.6:")
         depends_on("stb")
         depends_on("expat")
+        depends_on("libmicrohttpd@0.9.73:")
         depends_on("zlib-api")
         depends_on("lapack")
     depends_on("mpi", when="+mpi")

@@ -205,14 +205,14 @@ static const char *after_token(const watch_session *watch, const char *target) {
     return difference == 0 ? target + TOKEN_LENGTH + 2 : NULL;
 }
 
-static bool handle(void *user, const watch_request *request, bool last, watch_answer *answer) {
+static bool handle(void *user, const char *method, const char *target, bool last, watch_answer *answer) {
     watch_session *const watch = user;
-    const char *const what = after_token(watch, request->target);
-    const bool reads = request->method == WATCH_GET || request->method == WATCH_HEAD;
+    const char *const what = after_token(watch, target);
+    const bool reads = strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0;
     const bool acts = what != NULL && (strcmp(what, "stop") == 0 || strncmp(what, "bye/", 4) == 0);
     if (what == NULL)
         return answer_status(answer, 404);
-    if (acts ? request->method != WATCH_POST : !reads)
+    if (acts ? strcmp(method, "POST") != 0 : !reads)
         return answer_status(answer, 405);
     if (what[0] == '\0') {
         size_t size = 0;

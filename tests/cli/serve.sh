@@ -17,9 +17,9 @@ begin() { # begin NAME OPTION...: a render into NAME.exr that is served; $pid, $
   read -r port token < <(sed -n 's,^aureole: the picture is at http://127\.0\.0\.1:\([0-9]*\)/\([0-9a-f]\{32\}\)/$,\1 \2,p' "$name.txt")
   [ -n "${token:-}" ] || fail "no address: $(cat "$name.txt")"
 }
-raw() { # raw BYTES: the answer to a request
+raw() { # raw BYTES: the answer to a request, sent at once: what comes after an answer resets the connection
   exec 3<>"/dev/tcp/127.0.0.1/$port" || return
-  printf '%b' "$1" >&3
+  printf '%b' "$1" | dd bs=64k iflag=fullblock status=none >&3
   cat <&3
   exec 3>&- 3<&-
 }
@@ -79,12 +79,13 @@ done
 status 405 "$(ask GET "/$token/stop")" "GET of stop"
 status 405 "$(ask POST "/$token/")" "POST of the page"
 status 404 "$(ask POST "/$wrong/stop")" "POST without the token"
-status 400 "$(raw 'nonsense\r\n\r\n')" "no request"
+[ -z "$(raw 'nonsense\r\n\r\n')" ] || fail "an answer to what is no request"
+status 400 "$(raw 'GET /\r\n\r\n')" "no version"
 status 400 "$(raw "GET http://elsewhere/ HTTP/1.1\r\n\r\n")" "a proxy's request"
 status 505 "$(raw "GET /$token/ HTTP/2.0\r\n\r\n")" "another version"
 status 413 "$(raw "POST /$token/stop HTTP/1.1\r\nContent-Length: 5\r\n\r\n12345")" "a body"
 status 431 "$(raw "GET / HTTP/1.1\r\nA: $(printf '%8200s' '')")" "endless fields"
-status 414 "$(ask GET "/$(printf '%300s' '' | tr ' ' a)")" "an endless target"
+status 414 "$(ask GET "/$(printf '%8200s' '' | tr ' ' a)")" "an endless target"
 state=
 for serial in 0 1 2 3 4 5 6 7 8 9; do
   state=$(ask GET "/$token/state/1/$serial")
