@@ -4,12 +4,12 @@
 #include <errno.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "watch/packet.h"
 #include "watch/socket.h"
 
 /* Pixels a side of the parts in which a picture is sent, as tev's own client does. */
@@ -28,21 +28,101 @@ struct watch_display {
     aur_image *sent; /* what the viewer has */
 };
 
-static bool send_packet(watch_display *display, const watch_packet *packet) {
-    if (packet->failed) {
-        errno = ENOMEM;
-        return false;
+/* --- packets */
+
+/* Kinds of packets. */
+enum { CLOSE_IMAGE = 2, CREATE_IMAGE = 4, UPDATE_IMAGE_3 = 6 };
+
+/* A part of an image, in pixels. */
+typedef struct image_part {
+    size_t x, y, width, height;
+} image_part;
+
+/* The lowest `count` bytes, the lowest one first. */
+static void put_number(FILE *packet, size_t count, uint64_t value) {
+    for (size_t i = 0; i < count; ++i)
+        putc_unlocked((int)(value >> 8 * i & 255), packet);
+}
+
+static void put_text(FILE *packet, const char *text) {
+    fwrite(text, 1, strlen(text) + 1, packet);
+}
+
+static void put_channels(FILE *packet, const aur_image *image) {
+    const size_t channels = aur_image_channel_count(image);
+    put_number(packet, 4, channels);
+    for (size_t c = 0; c < channels; ++c)
+        put_text(packet, aur_image_channel_name(image, c));
+}
+
+/* The size and the channels of `image`, for a new black one. */
+static void put_creation(FILE *packet, const char *name, const aur_image *image) {
+    put_number(packet, 1, 1); /* it is to be seen at once */
+    put_text(packet, name);
+    put_number(packet, 4, aur_image_width(image));
+    put_number(packet, 4, aur_image_height(image));
+    put_channels(packet, image);
+}
+
+/* A part of the image, all its channels pixel by pixel. */
+static void put_update(FILE *packet, const char *name, const aur_image *image, const image_part *part) {
+    const size_t channels = aur_image_channel_count(image);
+    put_number(packet, 1, 0);
+    put_text(packet, name);
+    put_channels(packet, image);
+    put_number(packet, 4, part->x);
+    put_number(packet, 4, part->y);
+    put_number(packet, 4, part->width);
+    put_number(packet, 4, part->height);
+    for (size_t c = 0; c < channels; ++c) /* where its first value is */
+        put_number(packet, 8, c);
+    for (size_t c = 0; c < channels; ++c) /* and how far its next one */
+        put_number(packet, 8, channels);
+    for (size_t y = part->y; y < part->y + part->height; ++y) {
+        const float *const line = aur_image_data(image) + (y * aur_image_width(image) + part->x) * channels;
+        for (size_t i = 0; i < part->width * channels; ++i) {
+            uint32_t bits;
+            memcpy(&bits, &line[i], sizeof bits);
+            put_number(packet, 4, bits);
+        }
     }
-    for (size_t sent = 0; sent < packet->size;) {
-        const ssize_t put =
-            send(display->connection, packet->bytes + sent, packet->size - sent, MSG_NOSIGNAL);
-        if (put < 0 && errno == EINTR)
-            continue;
-        if (put < 0)
+}
+
+static bool send_bytes(int connection, size_t size, const char *bytes) {
+    for (size_t sent = 0; sent < size;) {
+        const ssize_t count = send(connection, bytes + sent, size - sent, MSG_NOSIGNAL);
+        if (count < 0 && errno != EINTR)
             return false;
-        sent += (size_t)put;
+        sent += count > 0 ? (size_t)count : 0;
     }
     return true;
+}
+
+/* Sends a packet of one kind; an update has a part, and CLOSE_IMAGE needs no image. */
+static bool send_packet(const watch_display *display, unsigned kind, const aur_image *image,
+                        const image_part *part) {
+    char *bytes = NULL;
+    size_t size = 0;
+    FILE *const packet = open_memstream(&bytes, &size);
+    if (packet == NULL)
+        return false;
+    put_number(packet, 4, 0); /* the count of bytes is written last */
+    put_number(packet, 1, kind);
+    if (kind == CREATE_IMAGE)
+        put_creation(packet, display->name, image);
+    else if (kind == UPDATE_IMAGE_3)
+        put_update(packet, display->name, image, part);
+    else
+        put_text(packet, display->name);
+    const bool complete = !ferror(packet);
+    const bool good = fclose(packet) == 0 && complete;
+    for (size_t i = 0; good && i < 4; ++i)
+        bytes[i] = (char)(size >> 8 * i & 255);
+    const bool sent = good && send_bytes(display->connection, size, bytes);
+    const int failure = good ? errno : ENOMEM;
+    free(bytes);
+    errno = failure;
+    return sent;
 }
 
 static bool is_alike(const aur_image *a, const aur_image *b) {
@@ -53,7 +133,7 @@ static bool is_alike(const aur_image *a, const aur_image *b) {
     return alike;
 }
 
-static bool has_changed(const aur_image *before, const aur_image *image, const watch_part *part) {
+static bool has_changed(const aur_image *before, const aur_image *image, const image_part *part) {
     const size_t channels = aur_image_channel_count(image);
     for (size_t y = part->y; y < part->y + part->height; ++y) {
         const size_t at = (y * aur_image_width(image) + part->x) * channels;
@@ -65,29 +145,20 @@ static bool has_changed(const aur_image *before, const aur_image *image, const w
 }
 
 /* The first picture makes the viewer's; of all others the parts that have changed are sent. */
-static bool send_picture(watch_display *display, const aur_image *image) {
-    watch_packet packet = {0};
-    bool good = true;
-    if (display->sent == NULL) {
-        watch_packet_close(&packet, display->name);
-        good = send_packet(display, &packet);
-        watch_packet_create(&packet, display->name, image);
-        good = good && send_packet(display, &packet);
-    }
+static bool send_picture(const watch_display *display, const aur_image *image) {
+    bool good = display->sent != NULL || (send_packet(display, CLOSE_IMAGE, NULL, NULL) &&
+                                          send_packet(display, CREATE_IMAGE, image, NULL));
     const bool alike = is_alike(display->sent, image);
     const size_t width = aur_image_width(image), height = aur_image_height(image);
     for (size_t y = 0; good && y < height; y += TILE)
         for (size_t x = 0; good && x < width; x += TILE) {
-            const watch_part part = {.x = x,
+            const image_part part = {.x = x,
                                      .y = y,
                                      .width = width - x < TILE ? width - x : TILE,
                                      .height = height - y < TILE ? height - y : TILE};
-            if (alike && !has_changed(display->sent, image, &part))
-                continue;
-            watch_packet_update(&packet, display->name, image, &part);
-            good = send_packet(display, &packet);
+            if (!alike || has_changed(display->sent, image, &part))
+                good = send_packet(display, UPDATE_IMAGE_3, image, &part);
         }
-    free(packet.bytes);
     return good;
 }
 
