@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/random.h"
+#include "lighting/covers.h"
 #include "scene/packet.h"
 
 enum { DIMENSIONS = 4, LANES = AUR_PACKET_SIZE };
@@ -105,7 +106,7 @@ void aur_facet_pattern_release(aur_facet_pattern *pattern) {
 typedef struct emitter {
     float corner[3], edge[2][3], normal[3], axis[2][3];
     float inset;  /* barycentric: how far rays begin off the edges, where other facets begin */
-    float offset; /* how far they begin before the facet: roundings of places between its corners */
+    float offset; /* how far they begin before the facet */
 } emitter;
 
 /* A few roundings of the coordinates, seen from the farthest corner of an edge. */
@@ -130,12 +131,7 @@ static void make_emitter(const aur_facets *facets, size_t patch, double turn, em
     const aur_plane plane = aur_patch_plane(facets, patch);
     aur_frame3(plane.normal, x, y);
     e->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
-    /* Roundings along an axis lift a place off its plane by as much of them as the normal is along it. */
-    double height = 0.0;
-    for (int d = 0; d < 3; ++d)
-        height +=
-            fabs(plane.normal[d]) * fmax(fabs(corners[0][d]), fmax(fabs(corners[1][d]), fabs(corners[2][d])));
-    e->offset = (float)(1.5e-6 * height + 1e-9);
+    e->offset = aur_facet_offset(facets, aur_facet_of(facets, patch));
     const double c = cos(2.0 * AUR_PI * turn), s = sin(2.0 * AUR_PI * turn);
     for (int d = 0; d < 3; ++d) {
         e->corner[d] = (float)corners[0][d];
@@ -178,14 +174,26 @@ static void fill_packet(const aur_facet_pattern *pattern, const emitter *e, cons
     }
 }
 
-static uint32_t find_target(const aur_facets *facets, const aur_packet *packet, size_t lane) {
+/* What a ray of `patch` arrives at; `hit`: something, by floats. */
+static uint32_t find_target(const aur_facets *facets, size_t patch, const aur_packet *packet, size_t lane,
+                            bool hit) {
     const struct RTCHit16 *const hits = &packet->query.hit;
     const struct RTCRay16 *const rays = &packet->query.ray;
-    const uint32_t facet = facets->first[hits->geomID[lane]] + hits->primID[lane];
     const double direction[3] = {(double)rays->dir_x[lane], (double)rays->dir_y[lane],
                                  (double)rays->dir_z[lane]};
+    size_t facet = hit ? facets->first[hits->geomID[lane]] + hits->primID[lane] : SIZE_MAX;
+    if (facets->cover_starts != NULL) { /* from the place on the facet itself */
+        const aur_plane *const plane = &facets->planes[aur_facet_of(facets, patch)];
+        double origin[3] = {(double)rays->org_x[lane], (double)rays->org_y[lane], (double)rays->org_z[lane]};
+        const double height = aur_plane_height(plane, origin);
+        for (int d = 0; d < 3; ++d)
+            origin[d] -= height * plane->normal[d];
+        facet = aur_facets_first_met(facets, aur_facet_of(facets, patch), origin, direction, facet);
+    }
+    if (facet == SIZE_MAX)
+        return AUR_TARGET_SKY;
     if (facets->areas[facet] > 0.0 && aur_dot3(direction, facets->planes[facet].normal) < 0.0)
-        return facet;
+        return (uint32_t)facet;
     if (facets->patch_count > facets->count && facets->areas[facet] > 0.0)
         return (uint32_t)(facets->count + facet);
     if (facets->opposite_starts == NULL)
@@ -219,6 +227,6 @@ void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern,
             packet.valid[k] = first + k < pattern->count ? -1 : 0;
         const uint32_t found = aur_scene_intersect16(facets->scene, AUR_EMBREE_COHERENT, &packet);
         for (size_t k = 0; k < LANES && first + k < pattern->count; ++k)
-            targets[first + k] = (found >> k & 1u) != 0 ? find_target(facets, &packet, k) : AUR_TARGET_SKY;
+            targets[first + k] = find_target(facets, patch, &packet, k, (found >> k & 1u) != 0);
     }
 }

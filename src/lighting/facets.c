@@ -1,7 +1,7 @@
 /* realpath */
 #define _XOPEN_SOURCE 700
 
-#include "lighting/facets.h"
+#include "lighting/covers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -121,7 +121,7 @@ static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
                 for (size_t d = 0; d < 3; ++d) {
                     const double at = mesh->points[3 * (size_t)mesh->indices[3 * k + c] + d];
                     facets->corners[facet][c][d] = at - scene->origin[d];
-                    facets->reach = fmax(facets->reach, fabs(facets->corners[facet][c][d]));
+                    facets->reach[d] = fmax(facets->reach[d], fabs(facets->corners[facet][c][d]));
                 }
             facets->areas[facet] =
                 aur_polygon_plane(3, (const double(*)[3])facets->corners[facet], &facets->planes[facet]);
@@ -232,6 +232,8 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
         result = make_rows(facets, &options, error);
     if (result == AUR_OK && rule == AUR_OVERLAPS_OF_FRONTS)
         result = aur_facets_find_sheets(facets, error);
+    if (result == AUR_OK && rule != AUR_OVERLAPS_STAY)
+        result = aur_facets_find_covers(facets, error);
     if (result == AUR_OK)
         result = aur_facets_inspect(facets, &options.warnings, error);
     if (result != AUR_OK) {
@@ -268,6 +270,8 @@ void aur_facets_destroy(aur_facets *facets) {
     free(facets->rows);
     free(facets->opposites);
     free(facets->opposite_starts);
+    free(facets->cover_starts);
+    free(facets->covers);
     free(facets->first);
     free(facets->lines);
     free(facets->groups);

@@ -27,7 +27,11 @@ struct aur_facets {
      * NULL: there are none. */
     size_t *opposite_starts;
     uint32_t *opposites;
-    double reach; /* the largest coordinate, either side of 0 */
+    /* Of each facet, those that floats cannot order with it are covers[cover_starts[facet]] ..
+     * covers[cover_starts[facet + 1] - 1] (covers.h). NULL: there are none. */
+    size_t *cover_starts;
+    uint32_t *covers;
+    double reach[3]; /* the largest coordinates, either side of 0 */
     /* Rows of the matrix: triangles of the file, or groups of them; those of backs follow. */
     size_t front_rows;
     uint32_t *rows; /* of the fronts of facets */
@@ -65,6 +69,8 @@ void aur_patch_corners(const aur_facets *facets, size_t patch, double corners[3]
 aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error);
 /* Whether they lie back to back in one plane, where they see nothing of each other. */
 bool aur_facets_are_sheet(const aur_facets *facets, size_t first, size_t second);
+/* Whether the point lies in the facet, seen along its normal. */
+bool aur_facet_contains(const aur_facets *facets, size_t facet, const double point[3]);
 /* The facet that looks the opposite way at a point of a facet of a sheet; SIZE_MAX: none. Where
  * opposite_starts is not NULL. */
 size_t aur_facets_other_side(const aur_facets *facets, size_t facet, const double point[3]);

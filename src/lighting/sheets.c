@@ -15,7 +15,7 @@ static void find_corners(const void *context, size_t index, double corners[3][3]
 }
 
 aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error) {
-    const aur_triangle_source source = {facets->count, facets, find_corners};
+    const aur_triangle_source source = {facets->count, facets, find_corners, true};
     aur_overlaps overlaps;
     aur_result result = aur_overlaps_find(&source, 0, &overlaps, error);
     if (result != AUR_OK || overlaps.count == 0)
@@ -53,8 +53,7 @@ bool aur_facets_are_sheet(const aur_facets *facets, size_t first, size_t second)
     return false;
 }
 
-/* Whether the point lies in the facet, seen along its normal. */
-static bool is_in(const aur_facets *facets, size_t facet, const double point[3]) {
+bool aur_facet_contains(const aur_facets *facets, size_t facet, const double point[3]) {
     const double(*const corners)[3] = (const double(*)[3])facets->corners[facet];
     for (int c = 0; c < 3; ++c) {
         double along[3], way[3], across[3];
@@ -71,7 +70,7 @@ static bool is_in(const aur_facets *facets, size_t facet, const double point[3])
 
 size_t aur_facets_other_side(const aur_facets *facets, size_t facet, const double point[3]) {
     for (size_t k = facets->opposite_starts[facet]; k < facets->opposite_starts[facet + 1]; ++k)
-        if (is_in(facets, facets->opposites[k], point))
+        if (aur_facet_contains(facets, facets->opposites[k], point))
             return facets->opposites[k];
     return SIZE_MAX;
 }

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "lighting/box_tree.h"
+#include "lighting/covers.h"
 #include "lighting/merged_facets.h"
 #include "lighting/net_spread.h"
 #include "lighting/slice_kernel.h"
@@ -78,7 +79,10 @@ static void turn_nodes(const aur_sky_slices *s, const aur_box_tree *boxes, doubl
 }
 
 static aur_result make_tree(const aur_facets *facets, aur_sky_slices *s, aur_error *error) {
-    const double slack = 4e-7 * facets->reach; /* larger than roundings of floats: boxes may be too wide */
+    const double slack =
+        4e-7 * fmax(facets->reach[0],
+                    fmax(facets->reach[1],
+                         facets->reach[2])); /* larger than roundings of floats: boxes may be too wide */
     aur_box_tree boxes = {0};
     aur_merged_facet *merged;
     size_t count;
@@ -166,13 +170,11 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
     const aur_facets *const facets = s->facets;
     const aur_plane plane = aur_patch_plane(facets, patch);
     aur_slice_patch *const p = &v->patch;
-    double corners[3][3], largest = 0.0;
+    double corners[3][3];
     aur_patch_corners(facets, patch, corners);
     for (size_t c = 0; c < 3; ++c) {
         double corner[3];
         turn(s, corners[c], corner);
-        for (int d = 0; d < 3; ++d)
-            largest = fmax(largest, fabs(corner[d]));
         for (int d = 0; d < 3; ++d)
             *(c == 0 ? &p->corner[d] : &p->edge[c - 1][d]) =
                 (float)corner[d] - (c == 0 ? 0.0f : p->corner[d]);
@@ -180,7 +182,7 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
     aur_slice_view *const view = &v->view;
     turn(s, plane.normal, view->normal);
     view->offset = plane.offset;
-    view->slack = 4e-7 * largest; /* to which floats know positions here */
+    view->slack = (double)aur_facet_offset(facets, aur_facet_of(facets, patch)); /* nearer ones are covers */
     p->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
     const double *const n = view->normal;
     p->upright = hypot(n[0], n[1]);
@@ -204,8 +206,22 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
         view->words[w] = sum_word(&view->rising[32 * w], &view->level[32 * w]);
 }
 
-static void look(const aur_sky_slices *s, const viewer *v, const aur_slice_sample *samples,
-                 aur_slice_kernel *kernel, double *wholes, double *sky) {
+/* Whether a facet that floats do not know to be there lies on the place: no sky is seen from there. */
+static bool is_covered(const aur_facets *facets, size_t patch, const float place[2]) {
+    const size_t facet = aur_facet_of(facets, patch);
+    if (facets->cover_starts == NULL || facets->cover_starts[facet] == facets->cover_starts[facet + 1])
+        return false;
+    double corners[3][3], origin[3];
+    aur_patch_corners(facets, patch, corners);
+    for (int d = 0; d < 3; ++d)
+        origin[d] = corners[0][d] + (double)place[0] * (corners[1][d] - corners[0][d]) +
+                    (double)place[1] * (corners[2][d] - corners[0][d]);
+    return aur_facets_first_met(facets, facet, origin, aur_patch_plane(facets, patch).normal, SIZE_MAX) !=
+           SIZE_MAX;
+}
+
+static void look(const aur_sky_slices *s, size_t patch_index, const viewer *v,
+                 const aur_slice_sample *samples, aur_slice_kernel *kernel, double *wholes, double *sky) {
     const size_t count = s->count * s->randomizations;
     const aur_slice_patch *const patch = &v->patch;
     for (size_t r = 0; r < s->randomizations; ++r)
@@ -226,7 +242,8 @@ static void look(const aur_sky_slices *s, const viewer *v, const aur_slice_sampl
         for (size_t l = 0; l < LANES && first + l < count; ++l) {
             const aur_slice_sample *const one = &samples[first + l];
             wholes[one->randomization] += (double)one->weight * (double)parts.whole[l];
-            sky[one->randomization] += (double)one->weight * (double)parts.sky[l];
+            if (!is_covered(s->facets, patch_index, one->place))
+                sky[one->randomization] += (double)one->weight * (double)parts.sky[l];
         }
     }
     for (size_t r = 0; r < s->randomizations; ++r)
@@ -254,7 +271,7 @@ static aur_result measure_block(void *context, size_t index) {
         make_viewer(s, i, &v);
         aur_slice_samples_draw(&v.patch, s->randomizations, s->count, s->points,
                                aur_hash3(s->seed, UINT64_C(0x736c69636573), i), samples, samples + count);
-        look(s, &v, samples + count, work->kernel, wholes, &work->sky[s->randomizations * i]);
+        look(s, i, &v, samples + count, work->kernel, wholes, &work->sky[s->randomizations * i]);
     }
     free(samples);
     free(wholes);

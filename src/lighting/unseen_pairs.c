@@ -9,9 +9,6 @@
 /* Rounding of closed forms, as a part of a patch's light. */
 static const double SMALLEST_REST = 1e-11;
 
-/* Rays that arrive where none should, of a patch whose closed forms leave none. */
-static const double SURPRISING = 16.0;
-
 typedef struct filling {
     const aur_facets *facets;
     aur_visits *visits;
@@ -47,31 +44,6 @@ static double count_sampled(const filling *work, size_t i) {
         for (size_t r = 0; r < width && !is_closed(work, i, row->patches[k]); ++r)
             sum += (double)row->hits[width * k + r];
     return sum;
-}
-
-/* Forgets the rays of a patch that began beyond what is nearer than their origins are rounded. */
-static void forget(const filling *work, size_t i) {
-    const aur_visits *const visits = work->visits;
-    const size_t width = visits->randomizations;
-    for (size_t r = 0; r < width; ++r)
-        visits->sky[width * i + r] = visits->back[width * i + r] = 0.0;
-    for (size_t k = 0; k < visits->rows[i].count; ++k)
-        if (!is_closed(work, i, visits->rows[i].patches[k]))
-            memset(&visits->rows[i].hits[width * k], 0, width * sizeof *visits->rows[i].hits);
-}
-
-/* Others' rays that arrived at such a patch met what covers it, from behind, and were rounded beyond that. */
-static void forget_arrivals(const filling *work, size_t i) {
-    const aur_visits *const visits = work->visits;
-    const size_t width = visits->randomizations;
-    for (size_t k = visits->starts[i]; k < visits->starts[i + 1]; ++k) {
-        const size_t source = visits->sources[k];
-        uint16_t *const hits = &visits->rows[source].hits[width * (size_t)visits->places[k]];
-        for (size_t r = 0; r < width && !is_closed(work, i, source); ++r) {
-            visits->back[width * source + r] += (double)hits[r];
-            hits[r] = 0;
-        }
-    }
 }
 
 /* Whether rays of others arrived at the patch without a closed form. */
@@ -159,15 +131,6 @@ aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_visits *visits, a
             work.exchanges[i] += pairs->rows[i].exchanges[k];
             work.exchanges[pairs->rows[i].patches[k]] += pairs->rows[i].exchanges[k];
         }
-    const double rays = (double)(visits->rays * visits->randomizations);
-    for (size_t i = 0; i < count; ++i) {
-        const double area = facets->areas[aur_facet_of(facets, i)], rest = area - work.exchanges[i];
-        if (work.exchanges[i] > 0.0 && rest > -SMALLEST_REST * area &&
-            count_sampled(&work, i) > SURPRISING + 4.0 * rays * fmax(rest, 0.0) / area) {
-            forget(&work, i);
-            forget_arrivals(&work, i);
-        }
-    }
     bool good = true;
     for (size_t i = 0; good && i < count; ++i) {
         const double area = facets->areas[aur_facet_of(facets, i)], rest = area - work.exchanges[i];

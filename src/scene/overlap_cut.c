@@ -588,7 +588,8 @@ static aur_result cut_group(aur_scene *scene, const aur_shape_group *group, size
     triangles t;
     aur_overlaps overlaps = {0};
     aur_result result = collect(scene, group, &t) ? AUR_OK : aur_fail_memory(error);
-    const aur_triangle_source source = {t.starts != NULL ? t.starts[t.shape_count] : 0, &t, find_corners};
+    const aur_triangle_source source = {t.starts != NULL ? t.starts[t.shape_count] : 0, &t, find_corners,
+                                        scene->keeps_points};
     if (result == AUR_OK)
         result = aur_overlaps_find(&source, threads, &overlaps, error);
     size_t kept = 0;

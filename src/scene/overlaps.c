@@ -93,12 +93,12 @@ static void find_heights(const aur_plane *plane, size_t count, const double (*co
 }
 
 /* Whether two planes are evenly apart at the corners of both triangles, and not the same one rounded. */
-static bool is_apart(double low, double high, double extent, double known, bool opposite) {
+static bool is_apart(double low, double high, double extent, double known, bool opposite, bool doubles) {
     const double far = fmax(fabs(low), fabs(high));
     if (far <= EXACT * extent + known || high - low > 0.2 * far)
         return false;
     const bool facing = opposite && low > 0.0;
-    return facing || far > EVENLY * extent;
+    return facing || doubles || far > EVENLY * extent;
 }
 
 static inline bool is_same(const double a[3], const double b[3]) {
@@ -164,7 +164,7 @@ static bool are_inclined(const aur_plane *plane, const aur_plane *other, bool op
 }
 
 /* The triangles are given with the larger one first. */
-static bool overlap(double larger[3][3], double smaller[3][3], double extent, bool *opposite) {
+static bool overlap(double larger[3][3], double smaller[3][3], double extent, bool doubles, bool *opposite) {
     const double largest = localize(larger, smaller);
     const double known = aur_overlap_slack(0.0, largest), slack = aur_overlap_slack(extent, largest);
     if (are_apart((const double(*)[3])larger, (const double(*)[3])smaller, slack))
@@ -185,7 +185,7 @@ static bool overlap(double larger[3][3], double smaller[3][3], double extent, bo
     if (are_inclined(&plane, &other, *opposite, tilt))
         return false;
     find_heights(&other, 3, (const double(*)[3])larger, *opposite ? 1.0 : -1.0, &low, &high);
-    if (is_apart(low, high, extent, known, *opposite))
+    if (is_apart(low, high, extent, known, *opposite, doubles))
         return false;
     const size_t count = cut_to((const double(*)[3])larger, plane.normal, (const double(*)[3])smaller, part);
     if (count < 3 || width_of(count, (const double(*)[3])part) <= NARROW * extent + known)
@@ -422,7 +422,7 @@ static void load_leaf(const search *s, const node *n, item items[LEAF]) {
     }
 }
 
-static bool try_pair(const item *a, const item *b, aur_overlaps *found, size_t *capacity) {
+static bool try_pair(const search *s, const item *a, const item *b, aur_overlaps *found, size_t *capacity) {
     if (found->count == MOST_PAIRS || !boxes_meet(a->lower, a->upper, b->lower, b->upper))
         return true;
     double corners[2][3][3];
@@ -433,7 +433,8 @@ static bool try_pair(const item *a, const item *b, aur_overlaps *found, size_t *
     const int larger = extents[1] > extents[0] || (extents[1] == extents[0] && b->index < a->index);
     aur_overlap made = {a->index < b->index ? a->index : b->index, a->index < b->index ? b->index : a->index,
                         false};
-    return !overlap(corners[larger], corners[1 - larger], extents[larger], &made.opposite) ||
+    return !overlap(corners[larger], corners[1 - larger], extents[larger], s->triangles->doubles,
+                    &made.opposite) ||
            append(found, capacity, made);
 }
 
@@ -444,7 +445,7 @@ static bool search_leaf(const search *s, size_t leaf, aur_overlaps *found, size_
     load_leaf(s, own, items);
     for (size_t i = 0; i < own->count; ++i)
         for (size_t m = i + 1; m < own->count; ++m)
-            if (!try_pair(&items[i], &items[m], found, capacity))
+            if (!try_pair(s, &items[i], &items[m], found, capacity))
                 return false;
     for (size_t k = 0; k < s->node_count;) {
         const node *const n = &s->nodes[k];
@@ -459,7 +460,7 @@ static bool search_leaf(const search *s, size_t leaf, aur_overlaps *found, size_
         load_leaf(s, n, others);
         for (size_t i = 0; i < own->count; ++i)
             for (size_t m = 0; m < n->count; ++m)
-                if (!try_pair(&items[i], &others[m], found, capacity))
+                if (!try_pair(s, &items[i], &others[m], found, capacity))
                     return false;
     }
     return true;

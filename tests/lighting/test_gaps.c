@@ -135,8 +135,116 @@ static void test_face_down(void **state) {
     }
 }
 
+/* Rugs of two sides over .4 of a floor of tiles, one above the other: each sees all of the next one, the
+ * floor's covered part the lowest, and what is not covered the sky. Rows: the floor, the rugs, then their
+ * backs. */
+static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const mesh_place *place) {
+    mesh_file file;
+    mesh_begin(&file, "rugs");
+    for (int part = 0; part < 2; ++part) {
+        if ((part == 0) != rugs_first) {
+            mesh_group(&file, "floor");
+            for (int i = 0; i < 9; ++i) {
+                const double x = i % 3 / 3.0, y = i / 3 / 3.0, side = 1.0 / 3.0;
+                moved_polygon(&file, place, 4,
+                              (const double[4][3]){
+                                  {x, y, 0}, {x + side, y, 0}, {x + side, y + side, 0}, {x, y + side, 0}});
+            }
+            continue;
+        }
+        for (size_t k = 1; k <= layers; ++k) {
+            const double z = (double)k * gap;
+            char name[8];
+            snprintf(name, sizeof name, "rug%zu", k);
+            mesh_group(&file, name);
+            moved_polygon(&file, place, 4,
+                          (const double[4][3]){{0.1, 0.1, z}, {0.6, 0.1, z}, {0.6, 0.9, z}, {0.1, 0.9, z}});
+        }
+    }
+    aur_facets_options options = aur_facets_options_default();
+    options.group = options.both_sides = true;
+    return mesh_load(&file, &options);
+}
+
+/* Past the edges of a gap goes less than its height times their length, as a part of the smaller area. */
+static double lost_past_edges(double gap) {
+    return 2.6 / 0.4 * gap;
+}
+
+/* The truth, when all reflect .5 and send out 1: of the floor and the lowest rug's back; between two rugs 2.
+ */
+static void check_radiosities(const double *b, const double *widths, size_t layers, bool rugs_first,
+                              double slack) {
+    const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
+    for (size_t k = 0; k < 2 * rows; ++k) {
+        double truth = 2.0;
+        if (k == floor)
+            truth = 4.0 / 3.0;
+        else if (k == rows + first)
+            truth = 5.0 / 3.0;
+        else if (k == rows + floor || k == first + layers - 1)
+            truth = 1.0;
+        assert_near(b[k], truth, 3.0 * widths[k] + slack);
+    }
+}
+
+static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_place *place) {
+    aur_facets *const facets = load_rugs(gap, layers, rugs_first, place);
+    const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
+    const double slack = lost_past_edges(gap) + 1e-6;
+    assert_int_equal(aur_facets_rows(facets), 2 * rows);
+    aur_facets_light light = aur_facets_light_default();
+    light.reflectance = 0.5;
+    light.emission = 1.0;
+    light.sky = 0.0;
+    for (int mode = 0; mode < 3; ++mode) {
+        aur_view_factors_options options = aur_view_factors_options_default();
+        options.rays_only = mode == 1;
+        aur_view_factors_matrix m;
+        aur_view_factors *const factors = mode < 2 ? factors_of(facets, &options, &m) : NULL;
+        double radiosities[8], widths[8];
+        assert_int_equal(
+            aur_view_factors_radiosity(facets, factors, &options, &light, radiosities, widths, NULL, NULL),
+            AUR_OK);
+        /* Without a matrix the sum of reflections ends at .02 / sqrt(2048) of it. */
+        check_radiosities(radiosities, widths, layers, rugs_first, mode < 2 ? slack : slack + 1e-3);
+        if (factors == NULL)
+            continue;
+        /* By the sky's own rays and cells the floor errs by as much as any open floor. */
+        const double lower = factor_at(&m, floor, rows + first, NULL);
+        assert_near(lower, 0.4, 0.004);
+        assert_near(m.sky[floor], 0.6, 0.004);
+        assert_near(factor_at(&m, rows + first, floor, NULL), 1.0, slack);
+        assert_near(m.sky[first + layers - 1], 1.0, slack);
+        for (size_t k = 0; k + 1 < layers; ++k)
+            assert_near(factor_at(&m, first + k, rows + first + k + 1, NULL), 1.0, slack);
+        for (size_t k = 0; k < 2 * rows; ++k)
+            assert_near(m.back[k], 0.0, 1e-12);
+        aur_view_factors_destroy(factors);
+    }
+    aur_facets_destroy(facets);
+}
+
+static void test_rugs(void **state) {
+    (void)state;
+    static const double gaps[] = {1e-9, 3e-8, 1e-7, 1e-6, 5e-6, 1e-4};
+    static const double offsets[][3] = {
+        {0, 0, 0}, {1e5, 1e5, 0}, {2600000, 1200000, 450.25}, {500000.3, 5200000.3, 12.7}, {1e7, 1e7, 1e7}};
+    for (size_t i = 0; i < 5; ++i)
+        for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; ++g) {
+            const double *const o = offsets[i];
+            if (i > 0 && gaps[g] < 1e-6 * (i == 4 ? 5.0 : 1.0)) /* less than doubles know there */
+                continue;
+            const mesh_place there = place_at(o[0], o[1], o[2]),
+                             turned = place_turned(0.5 + (double)(i + g), o[0], o[1], o[2]);
+            check_rugs(gaps[g], 1 + g % 3, g % 2 == 0, &there);
+            check_rugs(gaps[g], 1 + g % 3, g % 2 == 1, &turned);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gaps), cmocka_unit_test(test_far_away),
-                                       cmocka_unit_test(test_stood_on), cmocka_unit_test(test_face_down)};
+                                       cmocka_unit_test(test_stood_on), cmocka_unit_test(test_face_down),
+                                       cmocka_unit_test(test_rugs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,7 +119,7 @@ static void overlaps_are_those_of_all_pairs(void **state) {
         for (uint64_t seed = 0; seed < 3; ++seed) {
             static mesh m;
             make(&m, kind, aur_hash2((uint64_t)kind, seed));
-            const aur_triangle_source all = {m.count, &m, corners_of}, two = {2, &m, picked_of};
+            const aur_triangle_source all = {m.count, &m, corners_of, false}, two = {2, &m, picked_of, false};
             aur_overlaps overlaps;
             assert_int_equal(aur_overlaps_find(&all, 2, &overlaps, NULL), AUR_OK);
             size_t next = 0, wrong = 0;
