@@ -37,6 +37,7 @@ wait "$pid" && cmp plain.exr served.exr || fail "a picture of rounds that is ser
 # them, and a share that never falls; and before the first picture it is told what is done.
 if command -v python3 >/dev/null; then
   begin told --rounds 14
+  ask GET "/$token/state/1/0" >/dev/null # so that the page is waited for while Python starts
   python3 - "$port" "$token" "$aureole" "$scene" <<'PY' || fail "what a page is told"
 import json, re, subprocess, sys, urllib.request
 port, token, aureole, scene = sys.argv[1:]
