@@ -2,7 +2,7 @@
  * pictures, but for their photon maps and surveys for lamps, which are made once. What tables of weights save
  * is in the bench `gather-weights`. A ratio below 1 is a default that should not be one, but for what errs
  * less: there the errors' squares are compared too, and the product is what counts.
- * tests/transport/test_defaults.c counts the rays of the rows that are faster. */
+ * tests/render/transport/test_defaults.c counts the rays of the rows that are faster. */
 #include <aureole/render.h>
 #include <stdio.h>
 #include <string.h>

@@ -14,8 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/random.h"
 #include "fuzz.h"
+#include "points/base/random.h"
 
 enum { SEED_CAPACITY = 16384, WORD_CAPACITY = 4096, INPUT_CAPACITY = 1 << 16, SECONDS_A_RUN = 60, EDITS = 6 };
 

@@ -1,5 +1,5 @@
 /* Films. The checksum of every input is made right, so that what stands before it is what is tried. */
-#include "film/film.h"
+#include "render/film/film.h"
 #include "words.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "image/foreign.h"
-#include "image/format.h"
+#include "render/image/foreign.h"
+#include "render/image/format.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_image *image;

@@ -4,7 +4,7 @@
 #include <zlib.h>
 
 #include "fuzz.h"
-#include "scene/shape.h"
+#include "render/scene/shape.h"
 
 static const char *input_path(void) {
     static char path[64];

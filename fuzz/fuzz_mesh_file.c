@@ -1,6 +1,6 @@
 /* OBJ, PLY, STL and OFF, and the polygons in them. */
 #include "fuzz.h"
-#include "scene/meshes/mesh_data.h"
+#include "render/scene/importers/meshes/mesh_data.h"
 
 static void check_mesh(const aur_mesh_data *mesh) {
     size_t flaws = 0;

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "scene/model/import.h"
-#include "scene/model/message.h"
+#include "render/scene/importers/model/import.h"
+#include "render/scene/importers/model/message.h"
 
 static aur_result find(void *state, const char *name, char **used, char **path, aur_error *error) {
     (void)state, (void)error;

@@ -2,7 +2,7 @@
  * arguments, cut at its blanks; the first is the verb. */
 int program_main(int argc, char **argv);
 #define main program_main
-#include "cli/main.c"
+#include "program/cli/main.c"
 #undef main
 
 #include <fcntl.h>

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "scene/rad/rad.h"
-#include "scene/scene_data.h"
+#include "render/scene/importers/rad/rad.h"
+#include "render/scene/scene_data.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_error error = {0};

@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "scene/scene.h"
-#include "scene/vol_file.h"
+#include "render/scene/scene.h"
+#include "render/scene/vol_file.h"
 
 static const char *input_path(void) {
     static char path[64];

@@ -1,7 +1,7 @@
 /* Grids of values: .vol files. */
 #include "fuzz.h"
-#include "scene/media/majorants.h"
-#include "scene/vol_file.h"
+#include "render/scene/media/majorants.h"
+#include "render/scene/vol_file.h"
 
 static const char *input_path(void) {
     static char path[64];

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "quadrature/tables/weight_table.h"
+#include "points/quadrature/tables/weight_table.h"
 #include "words.h"
 
 static const char *input_path(void) {

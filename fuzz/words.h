@@ -1,9 +1,9 @@
-/* Files of words that end with a hash of themselves (core/words.h): it is made right before they are read, so
- * that what is damaged reaches the checks behind it. */
+/* Files of words that end with a hash of themselves (points/base/words.h): it is made right before they are
+ * read, so that what is damaged reaches the checks behind it. */
 #pragma once
 
-#include "core/random.h"
 #include "fuzz.h"
+#include "points/base/random.h"
 
 static inline uint64_t fuzz_word_at(const uint8_t *bytes) {
     uint64_t word = 0;

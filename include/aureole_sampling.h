@@ -191,7 +191,7 @@ typedef struct aureole_fraction128 {
 } aureole_fraction128;
 
 /* 1/Phi = (sqrt 5 - 1)/2, the golden ratio less one, cut after 128 bits: the project's one copy. What works
- * with 64 bits takes AUREOLE_GOLDEN_PHASE of sphere/phase.h, which is made from it. */
+ * with 64 bits takes AUREOLE_GOLDEN_PHASE of points/sphere/phase.h, which is made from it. */
 #define AUREOLE_GOLDEN_HIGH UINT64_C(0x9e3779b97f4a7c15)
 
 #define AUREOLE_GOLDEN_LOW UINT64_C(0xf39cc0605cedc834)

@@ -53,7 +53,7 @@ case $verb in
   memory)
     sanitize=(-O1 -g -fsanitize=memory -ffp-contract=off -DAUR_PORTABLE -Ifuzz)
     harnesses=(points matrices weather)
-    files=(src/core/*.c $(find src/pointset -name '*.c' ! -name '*avx*') src/lighting/daylight/weather.c src/scene/lights/sun_position.c)
+    files=(src/points/base/*.c $(find src/points/pointset -name '*.c' ! -name '*avx*') src/lighting/daylight/weather.c src/render/scene/lights/sun_position.c)
     # clang's sanitizer does not know that these functions of new C libraries write.
     for name in fstat64 stat64 lstat64; do
       of='const char *' && [ $name != fstat64 ] || of='int '
@@ -87,7 +87,7 @@ C
         grep -A12 'WARNING: \|fuzz:' "$folder/said" | head -30
       fi
     done
-    for test in tests/core/test_*.c; do
+    for test in tests/points/base/test_*.c; do
       clang "${flags[@]}" "${sanitize[@]}" "$test" "$folder"/*.o -lcmocka -lm -lpthread -ldl -o "$folder/test" 2>"$folder/said" ||
         { grep -q 'undefined reference' "$folder/said" && echo "$(basename "$test" .c): asks other rooms, not tried" && continue
           cat "$folder/said" >&2; exit 2; }
@@ -130,7 +130,7 @@ C
     [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
     for file in "$@"; do
       told=(-include "$folder/told.h")
-      [ "$file" != src/core/error.c ] || told=()
+      [ "$file" != src/points/base/error.c ] || told=()
       told+=($(sed -nE 's/^#define (_[A-Z]+_SOURCE) *([0-9]*).*/-D\1=\2/p' "$file"))
       LC_ALL=C gcc "${flags[@]}" "${told[@]}" "$file" 2>&1 | awk '
         /: In function / { split($0, part, "\x27"); f = part[2] }
@@ -147,7 +147,7 @@ C
     clang-tidy --version | sed -n 's/.*LLVM version/clang-tidy/p'
     export told=$folder/told.h
     printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 bash -c '
-      [ "$0" = src/core/error.c ] || tell=(--extra-arg=-include --extra-arg="$told")
+      [ "$0" = src/points/base/error.c ] || tell=(--extra-arg=-include --extra-arg="$told")
       clang-tidy -p build/release --quiet "${tell[@]}" "$0" 2>/dev/null' |
       grep -E '(warning|error): ' | sed "s|^$PWD/||" | sort -u >"$folder/said"
     while read -r line; do

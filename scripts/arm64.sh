@@ -42,9 +42,9 @@ fi
 
 cmake --preset arm64 --log-level=WARNING
 tests=(sampling_stream scene_packet pointset_generators pointset_net_2d pointset_runs sphere_fibonacci sphere_inverse quadrature_cholesky)
-for file in tests/core/test_*.c; do
+for file in tests/points/base/test_*.c; do
   name=${file##*/test_}
-  tests+=("core_${name%.c}")
+  tests+=("base_${name%.c}")
 done
 cmake --build --preset arm64 --target aureole-program "${tests[@]/#/test_}"
 names=${tests[*]/_//}

@@ -29,7 +29,7 @@ picture() { # picture SCENE INTEGRATOR ARGUMENTS...
 pictures() {
   local gather box scene integrator keys sampler
   gather=finalgather:photons=20000,diffuse_samples=16,glossy_samples=8
-  for scene in scenes/cornell-box/cornell-box.xml scenes/cornell-box/glossy.xml tests/render/{furnace,sky,white_bodies,caustic}.xml; do
+  for scene in scenes/cornell-box/cornell-box.xml scenes/cornell-box/glossy.xml tests/render/driver/{furnace,sky,white_bodies,caustic}.xml; do
     for integrator in path path:packets=false path:interleaved=true path:max_depth=2 direct "$gather" "$gather,packets=false"; do
       picture "$scene" "$integrator"
     done
@@ -40,7 +40,7 @@ pictures() {
               component=diffuse incident=emitters bright_samples=4 light_samples=4 clip=false max_depth=3; do
     picture "$box" "$gather,$keys"
   done
-  for scene in tests/render/weights.xml tests/render/furnace_faces.xml scenes/occlusion/occlusion.xml; do
+  for scene in tests/render/driver/weights.xml tests/render/driver/furnace_faces.xml scenes/occlusion/occlusion.xml; do
     [ "$scene" = scenes/occlusion/occlusion.xml ] && [ ! -e "$source/scenes/generated/temple.ply" ] && continue
     picture "$scene" "$gather"
     picture "$scene" ao

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes src/scene/load/cie_table.c: the CIE 1931 2 degree observer and the illuminant D65, every 5 nm.
+"""Writes src/render/scene/load/cie_table.c: the CIE 1931 2 degree observer and the illuminant D65, every 5 nm.
 
-usage: scripts/cie_table.py > src/scene/load/cie_table.c
+usage: scripts/cie_table.py > src/render/scene/load/cie_table.c
 
 Needs colour-science (PyPI), which has the CIE's data.
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes src/sphere/sets/lebedev_table.c: quadrature of the sphere with octahedral symmetry.
+"""Writes src/points/sphere/sets/lebedev_table.c: quadrature of the sphere with octahedral symmetry.
 
-usage: scripts/lebedev_table.py > src/sphere/sets/lebedev_table.c
+usage: scripts/lebedev_table.py > src/points/sphere/sets/lebedev_table.c
 
 Such a rule is a union of orbits of the octahedral group, each with one weight (Lebedev 1976). It is exact up
 to a degree when it is for the invariant polynomials, those in s = x^2 y^2 + y^2 z^2 + z^2 x^2 and

@@ -66,7 +66,7 @@ def take(path, names):
 
 
 def plastic():
-    """The steps of r2 in two dimensions in 128 bits, as src/pointset/generators/recurrence.c makes them."""
+    """The steps of r2 in two dimensions in 128 bits, as src/points/pointset/generators/recurrence.c makes them."""
 
     def multiply(a, b):
         low = (1 << 64) - 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes src/pointset/generators/sobol_table.c from Joe and Kuo's direction numbers.
+"""Writes src/points/pointset/generators/sobol_table.c from Joe and Kuo's direction numbers.
 
-usage: scripts/sobol_table.py _sobol_direction_numbers.npz > src/pointset/generators/sobol_table.c
+usage: scripts/sobol_table.py _sobol_direction_numbers.npz > src/points/pointset/generators/sobol_table.c
 
 The archive is part of Debian's python3-scipy
 (/usr/lib/python3/dist-packages/scipy/stats/_sobol_direction_numbers.npz). It is read without NumPy.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes src/sphere/sets/t_design_table.c: symmetric spherical designs.
+"""Writes src/points/sphere/sets/t_design_table.c: symmetric spherical designs.
 
-usage: scripts/t_design_table.py > src/sphere/sets/t_design_table.c
+usage: scripts/t_design_table.py > src/points/sphere/sets/t_design_table.c
 
 A spherical t-design is a set of points whose plain mean is exact for all polynomials up to degree t (Delsarte,
 Goethals and Seidel 1977). One that has the opposite of each point is exact for odd polynomials anyway, so that

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Writes tests/material/mitsuba_values.h: what Mitsuba 3's own materials evaluate to at pairs of directions, for the
+"""Writes tests/render/material/mitsuba_values.h: what Mitsuba 3's own materials evaluate to at pairs of directions, for the
 test that compares ours with them (needs `pip install mitsuba`).
 
-    bsdf_values.py > tests/material/mitsuba_values.h
+    bsdf_values.py > tests/render/material/mitsuba_values.h
 """
 import random
 import sys

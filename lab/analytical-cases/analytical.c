@@ -9,7 +9,7 @@
 #include <time.h>
 
 #include "cases.h"
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 static const char *const columns[] = {"case",        "derivations",     "points",  "references_differ",
                                       "worst_error", "standard_errors", "outside", "verdict",

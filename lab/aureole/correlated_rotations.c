@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { PATTERNS = 3, COUNTS = 2, FORMS = 3, BLURS = 4, MOST_SEEDS = 12, TAPS = 13, CHANNELS = 3 };
 

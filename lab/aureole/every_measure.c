@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { MOST_MEASURES = 64 };
 

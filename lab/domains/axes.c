@@ -1,6 +1,6 @@
 /* Axes in an order whose prefixes are even, and in shells: the energy over that of as many axes at rest. */
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { ALL = 60, QUICK = 12 };
 

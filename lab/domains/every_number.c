@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { FIRST = 16, LAST = 2048, QUICK = 128 };
 

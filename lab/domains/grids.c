@@ -1,6 +1,6 @@
 /* Rotations that double and keep their points, beside a super-Fibonacci spiral of each size. */
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 static const char *const columns[] = {"set",           "rotations", "energy", "energy_over", "min_angle_over",
                                       "covering_over", NULL};

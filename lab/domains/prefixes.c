@@ -2,8 +2,8 @@
  * rest and of a spiral of that size. */
 #include <math.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { LENGTHS = 7, SIZE = 1024 };
 

@@ -4,7 +4,7 @@
 
 #include <aureole/radiosity.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum {
     KELLER_SCENES = 4,

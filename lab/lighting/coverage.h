@@ -1,7 +1,7 @@
 /* How often intervals hold what is true. */
 #pragma once
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 /* What the runs of one case found. */
 typedef struct lab_tally {

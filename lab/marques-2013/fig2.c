@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/points.h"
 #include "patterns.h"
+#include "program/lab/points.h"
 
 enum { COUNT = 512, QUICK = 128, VIEWS = 2 * MARQUES_PATTERNS, CELL = 128, MARGIN = 6 };
 

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { SET_CAPACITY = 3, MOST_SCRAMBLES = 16 };
 

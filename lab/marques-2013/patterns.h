@@ -5,7 +5,7 @@
 
 #include <aureole/sphere.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { MARQUES_PATTERNS = 9 };
 

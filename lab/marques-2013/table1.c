@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { DIRECTIONS = 512, MORE_DIRECTIONS = 768, SCENES = 3, RIVALS = 3, BATCH = 8, MOST_SCRAMBLES = 96 };
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { MOST_SEEDS = 32, WIDTH = 48, HEIGHT = 32 };
 

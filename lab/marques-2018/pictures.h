@@ -4,7 +4,7 @@
 #ifndef LAB_MARQUES_2018_PICTURES_H
 #define LAB_MARQUES_2018_PICTURES_H
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 /* The bundled studio, seen from the scenes' folders: four soft boxes without a spike, as the paper's probes
  * are. */

@@ -4,7 +4,7 @@
 
 #include <aureole/quadrature.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 typedef struct lab_samples {
     const char *set;

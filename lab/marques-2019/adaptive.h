@@ -1,7 +1,7 @@
 /* Adaptive gathers of the Cornell box: rendering, counting their levels, and their error. */
 #pragma once
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { ADAPTIVE_SEEDS = 8, ADAPTIVE_FIXED = 5 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "adaptive.h"
-#include "lab/points.h"
+#include "program/lab/points.h"
 
 aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed, bool picture,
                            aur_image **image, aur_error *error) {

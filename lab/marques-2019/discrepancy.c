@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { SIZES = 7, BASE = 64, FIRST_RIVAL = 3, SETS = 6 };
 

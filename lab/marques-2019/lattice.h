@@ -1,7 +1,7 @@
 /* Checks of what is said about the lattice of spherical Fibonacci grids. */
 #pragma once
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 /* The values of one statement over all its cases, and those that are out of its range. */
 typedef struct lattice_check {

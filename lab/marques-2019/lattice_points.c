@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "lab/points.h"
 #include "lattice.h"
+#include "program/lab/points.h"
 
 /* The points of a set of the sphere on the plane, u and v in turn; to be freed. */
 static aur_result to_plane(const char *set, size_t size, double **plane, aur_error *error) {

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { FIRST_BASE = 8, LAST_BASE = 256, QUICK_BASE = 40, LEVELS = 3 };
 

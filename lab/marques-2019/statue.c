@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { SIZES = 7, FIRST = 8, SETS = 5, MOST_SEEDS = 16 };
 

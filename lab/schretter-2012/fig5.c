@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { SET_CAPACITY = 6, MOST_REPEATS = 16, BLOCK = 4 };
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 #include "schretter.h"
 
 enum { MOST = 1024 };

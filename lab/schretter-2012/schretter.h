@@ -1,7 +1,7 @@
 /* The rules by which the paper makes golden sequences and sets, and the time that they take. */
 #pragma once
 
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 /* Claims on section 2's integers, section 3's example and eq. 7, and the appendix, against numbers[count] of
  * the sequence. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "lab/points.h"
+#include "program/lab/points.h"
 #include "schretter.h"
 
 enum { NUMBERS = 1 << 16, ROUNDS = 24 };

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/lab.h"
-#include "lab/points.h"
+#include "program/lab/lab.h"
+#include "program/lab/points.h"
 
 enum { PIXELS = 256, BOXES = 64, SETS = 5, MOST = 1024, SIDE = 360 };
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "integrands.h"
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 enum { LARGEST = 1024, EQUAL = 0, OPTIMAL, VORONOI, EXACT, SMOOTH, SMOOTHEST, METHODS, AXES = 64 };
 

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "integrands.h"
-#include "lab/lab.h"
+#include "program/lab/lab.h"
 
 static const char *const columns[] = {
     "domain", "integrand",   "tolerance",          "runs", "interval", "difference",

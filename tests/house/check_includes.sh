@@ -6,56 +6,55 @@ source_tree=$2
 # From the top floor to the ground; rooms on one line stand side by side and do not include each other. A room inside a
 # room stands above the room's own folder, which holds what all of them share.
 floors='
-cli
-lab
-watch
-report
-ask
-render
+program/cli
+program/lab
+program/watch
+program/report
+program/import
+program/mpi
 lighting/daylight
 lighting/irradiance
-lighting
-transport/integrators
-transport/occlusion
-transport/gather
-transport/paths transport/radiosity
-transport/photons
-transport/packets
-transport/lights
-transport
-film
-sampling
-quality/table
-quality/sphere quality/square quality/spectrum
-quality/split quality/rotations
-quality/pairs
-quality
-quadrature/tables
-quadrature/integrate
-quadrature/estimate
-quadrature/exact quadrature/weights
-quadrature/potential quadrature/linear
-quadrature
-scene/load
-scene/shapes scene/lights scene/sensors scene/media scene/phases scene/volumes
-scene
-scene/xml
-assimp
-scene/rad scene/model
-scene/meshes
-material
-sphere/directions
-sphere/sets sphere/nearest
-sphere/repulsion sphere/rotations
-sphere
-image
-pointset/table
-pointset/relax
-pointset/generators pointset/files
-pointset/digits
-pointset
-mpi
-core
+lighting/viewfactors
+render/adaptive
+render/driver
+render/estimators
+render/occlusion
+render/gather
+render/path render/radiosity
+render/photons
+render/trace
+render/vertex
+render/film
+render/sampling
+render/scene/load
+render/scene/shapes render/scene/lights render/scene/sensors render/scene/media render/scene/phases render/scene/volumes
+render/scene
+render/scene/importers/xml
+render/scene/importers/rad render/scene/importers/model
+render/scene/importers/meshes
+render/scene/materials
+render/image
+points/quality/table
+points/quality/sphere points/quality/square points/quality/spectrum
+points/quality/split points/quality/rotations
+points/quality/pairs
+points/quality
+points/quadrature/tables
+points/quadrature/integrate
+points/quadrature/estimate
+points/quadrature/exact points/quadrature/weights
+points/quadrature/potential points/quadrature/linear
+points/quadrature
+points/sphere/directions
+points/sphere/sets points/sphere/nearest
+points/sphere/repulsion points/sphere/rotations
+points/sphere
+points/pointset/table
+points/pointset/relax
+points/pointset/generators points/pointset/files
+points/pointset/digits
+points/pointset
+points/base
 '
 (cd "$source_tree" && grep -rnE '^#include "' src include bench lab scenes tests fuzz --include='*.[ch]' --include='*.cpp') |
   awk -v floors="$floors" '
@@ -84,14 +83,14 @@ core
       if (file ~ /^include\//) { bad("public headers include <aureole/...> only"); next }
       if (file ~ /^(tests|fuzz)\//) {
         # The harness of command lines reads them by the tables of the program.
-        if (file == "fuzz/fuzz_options.c" && target ~ /^cli\//) next
-        if (file == "tests/cli/test_progress.c" && target == "cli/progress.h") next # arithmetic that needs no program
-        if (target ~ /^(cli|lab|bench|scenes)\//) bad("tests run programs, and do not look into them")
+        if (file == "fuzz/fuzz_options.c" && target ~ /^program\/cli\//) next
+        if (file == "tests/program/cli/test_progress.c" && target == "program/cli/progress.h") next # arithmetic that needs no program
+        if (target ~ /^(program|lab|bench|scenes)\//) bad("tests run programs, and do not look into them")
         next
       }
       if (file ~ /^(bench|lab|scenes)\//) {
         inside = room_of(target)
-        if (inside != "" && !(inside == "lab" && file ~ /^lab\//)) bad("tools use <aureole/...> and experimental.h only")
+        if (inside != "" && !(inside == "program/lab" && file ~ /^lab\//)) bad("tools use <aureole/...> and experimental.h only")
         if (target == "experimental.h" && file ~ /^lab\//) bad("the lab uses <aureole/...> only")
         next
       }
@@ -104,14 +103,15 @@ core
       if (there == "") { bad("unknown room of \"" target "\""); next }
       if (floor[there] < floor[here]) bad(here " must not call " there ", which is above it")
       if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
-      if (here == "cli" && there !~ /^(cli|lab|watch|report)$/) bad("the program uses <aureole/...> only")
-      if (here == "lab" && there !~ /^(lab|report)$/) bad("the lab uses <aureole/...> only")
-      if (here == "watch" && there !~ /^(watch|report)$/) bad("watching uses <aureole/...> only")
-      if (here == "report" && there != "report") bad("tables of results use <aureole/...> only")
+      if (here == "program/cli" && there !~ /^program\/(cli|lab|watch|report)$/) bad("the program uses <aureole/...> only")
+      if (here == "program/lab" && there !~ /^program\/(lab|report)$/) bad("the lab uses <aureole/...> only")
+      if (here == "program/watch" && there !~ /^program\/(watch|report)$/) bad("watching uses <aureole/...> only")
+      if (here == "program/report" && there != here) bad("tables of results use <aureole/...> only")
     }
     END { exit status }
   ' || exit 1
 # No C file may stand outside a room.
-for folder in "$source_tree"/src/*/; do
-  grep -qx "$(basename "$folder")" <<<"$floors" || { echo "$folder is not a room"; exit 1; }
+for folder in "$source_tree"/src/*/*/; do
+  room=${folder#"$source_tree"/src/}
+  grep -qE "(^| )${room%/}( |$|/)" <<<"$floors" || { echo "$folder is not a room"; exit 1; }
 done

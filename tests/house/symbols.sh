@@ -29,7 +29,7 @@ sed 's/@.*//' shown.txt | sort | uniq -d | grep . && { echo "both libraries have
 # Besides them the program does, which is a client of the public headers too, and the tests of two rooms.
 while read -r name; do
   grep -qE "\b$name\(" "$source_tree"/tests/house/calls/*.c \
-    "$source_tree"/src/cli/*.c "$source_tree"/tests/{quadrature,lighting}/*.c ||
+    "$source_tree"/src/program/cli/*.c "$source_tree"/tests/{points/quadrature,lighting}/*.c ||
     { echo "no program calls $name"; status=1; }
 done <public.txt
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")

@@ -3,13 +3,13 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "core/random.h"
-#include "core/simd.h"
-#include "core/vector.h"
-#include "core/vector3d.h"
 #include "lighting/daylight/hours.h"
 #include "lighting/daylight/product.h"
-#include "scene/lights/sun_position.h"
+#include "points/base/random.h"
+#include "points/base/simd.h"
+#include "points/base/vector.h"
+#include "points/base/vector3d.h"
+#include "render/scene/lights/sun_position.h"
 
 /* They fill the hemisphere, and the middle of each piece lies in its patch. */
 static void test_patches(void **state) {

@@ -3,9 +3,9 @@
 #include <aureole/statistics.h>
 
 #include "check.h"
-#include "core/random.h"
 #include "lighting/daylight/measures.h"
 #include "lighting/daylight/product.h"
+#include "points/base/random.h"
 
 enum { LANES = AUR_DAYLIGHT_LANES, HOURS = 500 };
 

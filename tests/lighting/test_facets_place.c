@@ -2,9 +2,9 @@
 #include <aureole/statistics.h>
 #include <string.h>
 
-#include "core/text.h"
-#include "lighting/box_tree.h"
+#include "lighting/viewfactors/box_tree.h"
 #include "moved_mesh.h"
+#include "points/base/text.h"
 
 static const double offsets[][3] = {
     {1e5, 1e5, 0}, {2600000, 1200000, 450.25}, {500000.37, 5400000.11, 45.2}, {1e7, 1e7, 1e7}};

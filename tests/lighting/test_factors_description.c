@@ -1,10 +1,10 @@
 /* What is reported of view factors as a whole: by the matrix itself, or by the parts that it is put together
  * from. */
-#include "core/random.h"
-#include "lighting/exchange.h"
-#include "lighting/facet_rays.h"
-#include "lighting/visits.h"
+#include "lighting/viewfactors/exchange.h"
+#include "lighting/viewfactors/facet_rays.h"
+#include "lighting/viewfactors/visits.h"
 #include "mesh_text.h"
+#include "points/base/random.h"
 
 /* Two plates above a floor: some pairs have closed forms, others are behind a plate. */
 static aur_facets *load_plates(void) {

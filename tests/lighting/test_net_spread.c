@@ -1,11 +1,11 @@
 /* What the parts of one set say of the whole: numbers whose variances fall with a known power of the size. */
-#include "lighting/net_spread.h"
+#include "lighting/viewfactors/net_spread.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "check.h"
-#include "core/random.h"
+#include "points/base/random.h"
 
 enum { COUNT = 4000, PARTS = 8 };
 

@@ -1,9 +1,9 @@
 /* Facets in one plane: the first in the file wins. */
-#include "core/random.h"
-#include "core/text.h"
-#include "lighting/facets.h"
+#include "lighting/viewfactors/facets.h"
 #include "moved_mesh.h"
-#include "scene/scene_data.h"
+#include "points/base/random.h"
+#include "points/base/text.h"
+#include "render/scene/scene_data.h"
 
 typedef struct triangle {
     double corners[3][2];

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "core/random.h"
-#include "lighting/exchange.h"
+#include "lighting/viewfactors/exchange.h"
+#include "points/base/random.h"
 
 enum { ROWS = 4, ENTRIES = 14, UPPER = 9, PARTS = 8 };
 

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/simd.h"
-#include "lighting/merged_facets.h"
-#include "lighting/sky_slices.h"
+#include "lighting/viewfactors/merged_facets.h"
+#include "lighting/viewfactors/sky_slices.h"
 #include "mesh_text.h"
+#include "points/base/simd.h"
 
 enum { SLICES = 512, RANDOMIZATIONS = 8 };
 

@@ -2,9 +2,9 @@
 
 #include <string.h>
 
-#include "core/random.h"
-#include "core/vector3d.h"
-#include "transport/packets/packet_rays.h"
+#include "points/base/random.h"
+#include "points/base/vector3d.h"
+#include "render/trace/packet_rays.h"
 
 static void add_light(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight) {
     const aur_coefficients *const c = user;

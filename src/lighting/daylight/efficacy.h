@@ -2,7 +2,7 @@
  * 44(5), 271-289, equations (7) and (8) with the coefficients of table 4, where `water` is in cm. */
 #pragma once
 
-#include "scene/lights/sky_model.h"
+#include "render/scene/lights/sky_model.h"
 
 double aur_efficacy_of_sky(const aur_perez_conditions *conditions, double water);
 double aur_efficacy_of_sun(const aur_perez_conditions *conditions, double water);

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/error.h"
-#include "core/parallel.h"
-#include "core/vector.h"
-#include "core/vector3d.h"
 #include "lighting/daylight/efficacy.h"
 #include "lighting/daylight/product.h"
-#include "scene/lights/sun_position.h"
+#include "points/base/error.h"
+#include "points/base/parallel.h"
+#include "points/base/vector.h"
+#include "points/base/vector3d.h"
+#include "render/scene/lights/sun_position.h"
 
 /* An hour on its way to light: irradiances of the sky and the sun. */
 typedef struct hour_sky {

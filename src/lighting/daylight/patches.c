@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/vector.h"
-#include "core/vector3d.h"
+#include "points/base/vector.h"
+#include "points/base/vector3d.h"
 
 /* Directions a patch side, so that all subdivisions know the sky equally well, nearly. */
 enum { FINENESS = 4 };

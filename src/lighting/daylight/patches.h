@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "scene/lights/sky_model.h"
+#include "render/scene/lights/sky_model.h"
 
 enum { AUR_SKY_SUBDIVISION_MAX = 6, AUR_SKY_ROWS_MAX = 7 * AUR_SKY_SUBDIVISION_MAX + 1 };
 

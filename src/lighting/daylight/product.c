@@ -1,4 +1,4 @@
-#include "core/simd.h"
+#include "points/base/simd.h"
 #define PRODUCT aur_daylight_product_portable
 #include "lighting/daylight/product_body.h"
 

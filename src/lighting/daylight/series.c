@@ -3,7 +3,7 @@
 #include <aureole/text.h>
 #include <string.h>
 
-#include "core/file.h"
+#include "points/base/file.h"
 
 static bool is_npy(const char *path) {
     const char *const dot = strrchr(path, '.');

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/file.h"
-#include "core/text.h"
-#include "scene/lights/sun_position.h"
+#include "points/base/file.h"
+#include "points/base/text.h"
+#include "render/scene/lights/sun_position.h"
 
 enum { LONGEST_YEAR = 8784, DAY = 24, HEADER_LINES = 64, SHOWN = 40, FIELDS = 48 };
 

@@ -2,10 +2,10 @@
  */
 #include <math.h>
 
-#include "core/error.h"
-#include "core/vector.h"
 #include "lighting/daylight/hours.h"
-#include "scene/lights/sun_position.h"
+#include "points/base/error.h"
+#include "points/base/vector.h"
+#include "render/scene/lights/sun_position.h"
 
 /* The sun's height in an hour. */
 typedef struct heights {

@@ -3,8 +3,8 @@
 #include <aureole/text.h>
 #include <stdlib.h>
 
-#include "core/error.h"
 #include "lighting/irradiance/table.h"
+#include "points/base/error.h"
 
 enum { AXES = 3, WIDTH = AXES + 2 * AUR_DAYLIGHT_MEASURES };
 

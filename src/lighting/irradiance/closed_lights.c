@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 
-#include "core/polygon.h"
-#include "core/random.h"
-#include "scene/scene_data.h"
-#include "transport/lights/direct_light.h"
+#include "points/base/polygon.h"
+#include "points/base/random.h"
+#include "render/scene/scene_data.h"
+#include "render/vertex/direct_light.h"
 
 enum { MOST_POLYGONS = 256, MOST_CORNERS = 4, PILOT = 128 /* points on all lights together */ };
 

@@ -10,7 +10,7 @@
 
 #include <aureole/core.h>
 
-#include "scene/scene.h"
+#include "render/scene/scene.h"
 
 typedef struct aur_closed_light aur_closed_light;
 

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/options.h"
-#include "core/parallel.h"
 #include "lighting/irradiance/look.h"
 #include "lighting/irradiance/sensors.h"
-#include "quadrature/estimate/levels.h"
-#include "scene/scene_data.h"
+#include "points/base/options.h"
+#include "points/base/parallel.h"
+#include "points/quadrature/estimate/levels.h"
+#include "render/scene/scene_data.h"
 
 enum {
     REPLICATES = AUR_IRRADIANCE_REPLICATES,

@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 
-#include "core/error.h"
-#include "core/names.h"
-#include "core/random.h"
-#include "transport/lights/shading.h"
+#include "points/base/error.h"
+#include "points/base/names.h"
+#include "points/base/random.h"
+#include "render/vertex/shading.h"
 
 /* Of the paths that take what is known, so many go on; rays that are shorter than so many widths of the
  * texel or triangle that they meet all do, for how the light differs within it is seen from there. */

@@ -1,14 +1,14 @@
 /* What is known beforehand of the light that surfaces reflect: a photon map, or a radiosity solution. Where a
  * path meets such a surface for the first time it takes what is known, and goes on now and then to take away
- * what that is wrong by, as transport/paths/path_onward.h has it for pictures. So the mean is that of paths,
+ * what that is wrong by, as render/path/path_onward.h has it for pictures. So the mean is that of paths,
  * whatever is known. */
 #pragma once
 
 #include <aureole/irradiance.h>
 
-#include "transport/paths/path_group.h"
-#include "transport/photons/irradiance.h"
-#include "transport/radiosity/solution.h"
+#include "render/path/path_group.h"
+#include "render/photons/irradiance.h"
+#include "render/radiosity/solution.h"
 
 typedef struct aur_known_light {
     aur_irradiance_map *map; /* or NULL */

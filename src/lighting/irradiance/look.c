@@ -2,11 +2,11 @@
 
 #include <string.h>
 
-#include "core/random.h"
-#include "core/vector3d.h"
-#include "scene/scene_data.h"
-#include "transport/lights/direct_light.h"
-#include "transport/packets/packet_rays.h"
+#include "points/base/random.h"
+#include "points/base/vector3d.h"
+#include "render/scene/scene_data.h"
+#include "render/trace/packet_rays.h"
+#include "render/vertex/direct_light.h"
 
 enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_look.sums */
 

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/error.h"
-#include "sphere/native.h"
+#include "points/base/error.h"
+#include "points/sphere/native.h"
 
 static aur_result fill(const char *set, const aur_directions_options *options, double *xyz,
                        aur_sensor_rule *rule, aur_error *error) {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/array.h"
+#include "points/base/array.h"
 
 /* Beyond it squares of distances are no floats, and Embree ends the program. */
 static const double FARTHEST = 1e18;

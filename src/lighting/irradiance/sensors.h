@@ -3,7 +3,7 @@
 
 #include <aureole/irradiance.h>
 
-#include "core/error.h"
+#include "points/base/error.h"
 
 struct aur_sensors {
     aur_sensors_view view;

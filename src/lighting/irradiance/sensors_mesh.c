@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/facets.h"
 #include "lighting/irradiance/sensors.h"
-#include "scene/scene_data.h"
+#include "lighting/viewfactors/facets.h"
+#include "render/scene/scene_data.h"
 
 /* Facets without area have no sensor: a warning has told of them. */
 static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur_sensors *sensors,

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/file.h"
-#include "core/options.h"
 #include "lighting/irradiance/sensors.h"
-#include "pointset/files/points_file.h"
-#include "scene/meshes/mesh_data.h"
+#include "points/base/file.h"
+#include "points/base/options.h"
+#include "points/pointset/files/points_file.h"
+#include "render/scene/importers/meshes/mesh_data.h"
 
 static const size_t FILE_LIMIT = (size_t)1 << 34;
 

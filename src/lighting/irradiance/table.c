@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/file.h"
-#include "image/tone.h"
+#include "points/base/file.h"
+#include "render/image/tone.h"
 
 static double value_of(const aur_sensor_table *o, size_t sensor, size_t column) {
     return o->values[o->width * sensor + column];

@@ -3,8 +3,8 @@
 #include <aureole/text.h>
 #include <stdlib.h>
 
-#include "core/options.h"
 #include "lighting/irradiance/table.h"
+#include "points/base/options.h"
 
 typedef enum content { POSITION, NORMAL, VALUE, ERROR, HALF_WIDTH, DIRECTIONS } content;
 

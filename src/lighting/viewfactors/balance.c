@@ -1,0 +1,179 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "lighting/viewfactors/row_system.h"
+
+enum { MOST_ROUNDS = 40 };
+
+static const double GOAL = 2e-15, BALANCED = 1e-12, EXACT = 1e-24;
+
+/* What the rows lack, as parts of their areas: the largest, and by area the mean square. */
+static void find_lack(aur_row_system *s, double *largest, double *mean_square) {
+    const aur_exchange *const g = s->exchange;
+    double squares = 0.0, area = 0.0;
+    *largest = 0.0;
+    for (size_t a = 0; a < g->rows; ++a) {
+        double sum = 0.0;
+        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e)
+            sum += g->values[e];
+        s->lack[a] = g->areas[a] - (sum + g->sky[a] + g->back[a]);
+        if (g->areas[a] == 0.0)
+            continue;
+        const double part = s->lack[a] / g->areas[a];
+        *largest = fmax(*largest, fabs(part));
+        squares += g->areas[a] * part * part;
+        area += g->areas[a];
+    }
+    *mean_square = area > 0.0 ? squares / area : 0.0;
+}
+
+/* Adds a change; what would be negative becomes 0 and stays so. */
+static bool change(double *value, double *weight, double by) {
+    *value += *weight * by;
+    if (*value >= 0.0)
+        return false;
+    *value = 0.0;
+    *weight = 0.0;
+    return true;
+}
+
+/* True when something was cut at 0. */
+static bool apply(aur_row_system *s) {
+    aur_exchange *const g = s->exchange;
+    const double *const m = s->best;
+    bool cut = false;
+    for (size_t a = 0; a < g->rows; ++a) {
+        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e)
+            cut |= change(&g->values[e], &s->weights[e], g->columns[e] == a ? m[a] : m[a] + m[g->columns[e]]);
+        cut |= change(&g->sky[a], &s->losses[a], m[a]);
+        cut |= change(&g->back[a], &s->losses[g->rows + a], m[a]);
+    }
+    return cut;
+}
+
+/* One phase with the given weights, until the rows add up or no more can be had. */
+static aur_result balance_rows(aur_row_system *s, double *largest, aur_error *error) {
+    double mean_square, before = INFINITY;
+    for (size_t round = 0; round < MOST_ROUNDS; ++round) {
+        find_lack(s, largest, &mean_square);
+        if (*largest <= GOAL || (mean_square > 0.25 * before && round > 1))
+            return AUR_OK;
+        before = mean_square;
+        aur_row_system_prepare(s);
+        const aur_result result = aur_row_system_solve(s, EXACT, error);
+        if (result != AUR_OK)
+            return result;
+        if (apply(s))
+            before = INFINITY; /* fewer entries can move now: the next round may begin worse */
+    }
+    find_lack(s, largest, &mean_square);
+    return AUR_OK;
+}
+
+/* What the variances of entries, which are those of counts of rays, are to be multiplied by to be squares of
+ * half an interval. From all rows together, because an entry's own few randomisations would be weights by
+ * chance. */
+static double scale_of_entries(const aur_exchange *g) {
+    double squares = 0.0, counts = 0.0;
+    for (uint64_t e = 0; e < g->starts[g->rows]; ++e) {
+        squares += g->half_widths[e] * g->half_widths[e];
+        counts += g->variances[e];
+    }
+    return squares > 0.0 && counts > 0.0 ? squares / counts : 0.0;
+}
+
+/* What rows lose has variances of its own: it is a sum of many rays, or of half planes, which are spread
+ * evenly, and some rows see sky in all of them. The variance that is usual, in proportion to what a row
+ * loses, counts as one more randomisation beside the row's own. */
+static void weigh_losses(const aur_exchange *g, double scale, const double *losses, const double *half_widths,
+                         double *weights) {
+    const double own = (double)(g->randomizations - 1) / (double)g->randomizations;
+    double squares = 0.0, counts = 0.0;
+    for (size_t a = 0; a < g->rows; ++a) {
+        squares += half_widths[a] * half_widths[a];
+        counts += losses[a] * g->areas[a];
+    }
+    for (size_t a = 0; a < g->rows; ++a) {
+        const double count = losses[a] * g->areas[a];
+        weights[a] =
+            squares > 0.0 && scale > 0.0
+                ? (own * half_widths[a] * half_widths[a] + (1.0 - own) * squares / counts * count) / scale
+                : count;
+    }
+}
+
+/* The weights of sampled entries, or of all. */
+static void choose_weights(aur_row_system *s, bool all) {
+    const aur_exchange *const g = s->exchange;
+    const double scale = scale_of_entries(g);
+    weigh_losses(g, scale, g->sky, g->sky_half_widths, s->losses);
+    weigh_losses(g, scale, g->back, g->back_half_widths, s->losses + g->rows);
+    for (size_t a = 0; a < g->rows; ++a) {
+        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e) {
+            const double b = g->areas[g->columns[e]];
+            s->weights[e] = all ? g->values[e] * g->areas[a] * b / (g->areas[a] + b) : g->variances[e];
+        }
+    }
+}
+
+static aur_result balance_and_settle(aur_row_system *s, double *largest, aur_error *error) {
+    const aur_result result = balance_rows(s, largest, error);
+    return result == AUR_OK ? aur_row_system_settle(s, error) : result;
+}
+
+static aur_result balance_all(aur_row_system *s, aur_balance *balance, aur_error *error) {
+    aur_exchange *const g = s->exchange;
+    const uint64_t entries = g->starts[g->rows];
+    double *const original = malloc((entries + 1) * sizeof *original);
+    if (original == NULL)
+        return aur_fail_memory(error);
+    if (entries > 0)
+        memcpy(original, g->values, entries * sizeof *original);
+    double mean_square, largest;
+    find_lack(s, &largest, &mean_square);
+    balance->before = sqrt(mean_square);
+    choose_weights(s, false);
+    aur_result result = balance_and_settle(s, &largest, error);
+    if (result == AUR_OK && largest > 0.1 * BALANCED) {
+        choose_weights(s, true);
+        result = balance_and_settle(s, &largest, error);
+    }
+    if (result == AUR_OK)
+        result = aur_exchange_find_widths(g, error);
+    find_lack(s, &largest, &mean_square);
+    balance->after = largest;
+    for (size_t a = 0; a < g->rows; ++a)
+        balance->unbalanced += fabs(s->lack[a]) > BALANCED * g->areas[a];
+    double moved = 0.0, total = 0.0;
+    for (uint64_t e = 0; e < entries; ++e) {
+        moved += fabs(g->values[e] - original[e]);
+        total += original[e];
+    }
+    balance->moved = total > 0.0 ? moved / total : 0.0;
+    free(original);
+    return result;
+}
+
+aur_result aur_exchange_balance(aur_exchange *exchange, const aur_parallel_options *parallel,
+                                aur_balance *balance, aur_error *error) {
+    *balance = (aur_balance){0};
+    const size_t rows = exchange->rows;
+    double *const numbers = calloc(9 * rows + 1, sizeof *numbers);
+    aur_row_system s = {.exchange = exchange,
+                        .parallel = parallel,
+                        .weights = malloc((exchange->starts[rows] + 1) * sizeof *s.weights)};
+    aur_result result = AUR_OK;
+    if (numbers == NULL || s.weights == NULL) {
+        result = aur_fail_memory(error);
+    } else {
+        double **const parts[] = {&s.diagonal,  &s.lack,  &s.multipliers, &s.residual,
+                                  &s.direction, &s.image, &s.best};
+        for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+            *parts[i] = numbers + i * rows;
+        s.losses = numbers + 7 * rows;
+        result = balance_all(&s, balance, error);
+    }
+    free(numbers);
+    free(s.weights);
+    return result;
+}

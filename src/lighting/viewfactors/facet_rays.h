@@ -1,0 +1,37 @@
+/* Rays from facets: one pattern of places and directions, shifted at random for every facet and
+ * randomisation. */
+#pragma once
+
+#include "lighting/viewfactors/facets.h"
+
+/* What a ray arrives at, if no patch. */
+#define AUR_TARGET_SKY UINT32_MAX
+#define AUR_TARGET_BACK (UINT32_MAX - 1)
+
+/* Points of the unit cube of four dimensions. Neighbours in the arrays have neighbouring directions, so that
+ * the rays of a packet stay together. */
+typedef struct aur_facet_pattern {
+    size_t count;
+    uint64_t seed;
+    float *place[2];  /* coordinates of the places */
+    float *squared;   /* squared sine of the direction to the normal */
+    float *around[2]; /* cosine and sine of the angle about the normal */
+} aur_facet_pattern;
+
+/* points[count][4] of SET, scrambled where it can be. Errors: those of aur_pointset_create; UNSUPPORTED for
+ * fewer than 4 dimensions. */
+aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double *points, aur_error *error);
+
+/* Barycentric: how far places keep off a facet's edges, where other facets begin. */
+float aur_facet_inset(const aur_facets *facets, size_t facet);
+
+/* `count` points of SET. Errors: those of aur_pointset_create; UNSUPPORTED for fewer than 4 dimensions. */
+aur_result aur_facet_pattern_create(const char *set, size_t count, uint64_t seed, aur_facet_pattern *pattern,
+                                    aur_error *error);
+void aur_facet_pattern_release(aur_facet_pattern *pattern);
+
+/* Traces the rays of one randomisation of the pattern from a patch that has an area, cosine distributed about
+ * its normal from places that are uniform by area: targets[pattern->count] is what each arrives at. With
+ * `along` (else NULL; not 0) all rays go that way. */
+void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t patch,
+                     uint64_t randomization, const double *along, uint32_t *targets);

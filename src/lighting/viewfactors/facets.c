@@ -1,0 +1,302 @@
+/* realpath */
+#define _XOPEN_SOURCE 700
+
+#include "lighting/viewfactors/covers.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "points/base/options.h"
+#include "points/base/text.h"
+#include "render/scene/scene_data.h"
+
+typedef enum source { SOURCE_MESH, SOURCE_SCENE } source;
+
+static aur_result find_source(const char *path, source *kind, aur_error *error) {
+    const char *const dot = strrchr(path, '.');
+    *kind = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT ? SOURCE_MESH : SOURCE_SCENE;
+    if (*kind == SOURCE_MESH || aur_scene_is_name(path) || (dot != NULL && strcasecmp(dot, ".xml") == 0))
+        return AUR_OK;
+    return aur_fail_at(
+        error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+        "facets are read from files whose names end in .obj, .ply, .stl, .off, .xml or .rad, and from "
+        "models such as .glb");
+}
+
+/* The text as the value of an attribute of XML, in which scenes replace $names; a buffer of 6 bytes for each
+ * one suffices. */
+static void escape(const char *text, char *escaped) {
+    static const char special[] = "&<>\"$";
+    static const char *const instead[] = {"&amp;", "&lt;", "&gt;", "&quot;", "\\$"};
+    for (; *text != '\0'; ++text) {
+        const char *const found = strchr(special, *text);
+        if (found == NULL)
+            *escaped++ = *text;
+        else
+            escaped = stpcpy(escaped, instead[found - special]);
+    }
+    *escaped = '\0';
+}
+
+/* A mesh is the one shape of a scene, so that it is read, checked and traced as the meshes of scenes are. */
+static aur_result load_mesh(const char *path, aur_overlap_rule rule, const aur_scene_options *options,
+                            aur_scene **scene, aur_error *error) {
+    static const char *const shapes[AUR_MESH_FORMAT_COUNT] = {"obj", "ply", "stl", "off"};
+    char *const absolute = realpath(path, NULL);
+    if (absolute == NULL)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN, "cannot be opened");
+    char *const escaped = malloc(6 * strlen(absolute) + 1);
+    const size_t capacity = 6 * strlen(absolute) + 400;
+    char *const text = malloc(capacity);
+    aur_result result = AUR_OK;
+    if (escaped == NULL || text == NULL)
+        result = aur_fail_memory(error);
+    if (result == AUR_OK) {
+        escape(absolute, escaped);
+        const int length = snprintf(text, capacity,
+                                    "<scene version=\"3.0.0\"><shape type=\"%s\">"
+                                    "<boolean name=\"face_normals\" value=\"true\"/>"
+                                    "<string name=\"filename\" value=\"%s\"/></shape></scene>",
+                                    shapes[aur_mesh_format_of_name(path)], escaped);
+        result = aur_scene_load_with_points(path, (size_t)length, text, rule, options, scene, error);
+    }
+    if (result != AUR_OK && error != NULL && strcmp(error->file, absolute) == 0)
+        aur_format(error->file, sizeof error->file, "%s", path); /* as the caller knows it */
+    free(absolute);
+    free(escaped);
+    free(text);
+    return result;
+}
+
+static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
+    for (size_t i = 0; i < scene->shape_count; ++i) {
+        const aur_shape *const shape = scene->shapes[i];
+        if (shape->curved != NULL)
+            return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
+                               "shape '%s' is no mesh of triangles: view factors are between plane facets",
+                               shape->descriptor->row.name);
+        if (shape->grouped)
+            return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
+                               "shape '%s' stands in a shape group, whose copies have no facets of their own",
+                               shape->descriptor->row.name);
+    }
+    return AUR_OK;
+}
+
+/* Of the file. */
+static size_t triangles_of(const aur_mesh *mesh) {
+    return mesh->sources != NULL ? mesh->source_count : mesh->triangle_count;
+}
+
+/* Facets in the order of the scene's shapes. */
+static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
+    const aur_scene *const scene = facets->scene;
+    for (size_t i = 0; i < scene->shape_count; ++i) {
+        facets->count += scene->shapes[i]->mesh.triangle_count;
+        facets->source_count += triangles_of(&scene->shapes[i]->mesh);
+    }
+    if (facets->count == 0)
+        return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_FORMAT, "no facet is here");
+    if (facets->count > UINT32_MAX / 4)
+        return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_UNSUPPORTED,
+                           "%zu facets are too many: 2^30 is the most", facets->count);
+    facets->corners = malloc(facets->count * sizeof *facets->corners);
+    facets->planes = malloc(facets->count * sizeof *facets->planes);
+    facets->areas = malloc(facets->count * sizeof *facets->areas);
+    facets->sources = malloc(facets->count * sizeof *facets->sources);
+    facets->source_groups = calloc(facets->source_count, sizeof *facets->source_groups);
+    facets->first = malloc((scene->shape_count + 1) * sizeof *facets->first);
+    facets->groups = calloc(facets->count, sizeof *facets->groups);
+    if (facets->corners == NULL || facets->planes == NULL || facets->areas == NULL ||
+        facets->sources == NULL || facets->source_groups == NULL || facets->first == NULL ||
+        facets->groups == NULL)
+        return aur_fail_memory(error);
+    size_t facet = 0, triangles = 0;
+    for (size_t i = 0; i < scene->shape_count; ++i) {
+        const aur_mesh *const mesh = &scene->shapes[i]->mesh;
+        facets->first[i] = (uint32_t)facet;
+        for (size_t k = 0; k < mesh->triangle_count; ++k, ++facet) {
+            for (size_t c = 0; c < 3; ++c)
+                for (size_t d = 0; d < 3; ++d) {
+                    const double at = mesh->points[3 * (size_t)mesh->indices[3 * k + c] + d];
+                    facets->corners[facet][c][d] = at - scene->origin[d];
+                    facets->reach[d] = fmax(facets->reach[d], fabs(facets->corners[facet][c][d]));
+                }
+            facets->areas[facet] =
+                aur_polygon_plane(3, (const double(*)[3])facets->corners[facet], &facets->planes[facet]);
+            facets->groups[facet] = (uint32_t)i;
+            facets->sources[facet] = (uint32_t)(triangles + (mesh->sources != NULL ? mesh->sources[k] : k));
+        }
+        triangles += triangles_of(mesh);
+    }
+    return AUR_OK;
+}
+
+/* A facet that is thinner than its coordinates are rounded has no normal that means anything. */
+static void leave_out_slivers(aur_facets *facets) {
+    for (size_t i = 0; i < facets->count; ++i) {
+        double longest = 0.0;
+        for (size_t c = 0; c < 3; ++c)
+            for (int d = 0; d < 3; ++d)
+                longest = fmax(longest, fabs(facets->corners[i][c][d] - facets->corners[i][(c + 1) % 3][d]));
+        if (!(facets->areas[i] > 1e-10 * longest * longest)) {
+            facets->areas[i] = 0.0;
+            facets->planes[i] = (aur_plane){{0.0, 0.0, 0.0}, 0.0};
+        }
+    }
+}
+
+/* The ids of a scene's shapes. */
+static aur_result name_shapes(aur_facets *facets, aur_error *error) {
+    const aur_scene *const scene = facets->scene;
+    facets->names = calloc(scene->shape_count, sizeof *facets->names);
+    if (facets->names == NULL)
+        return aur_fail_memory(error);
+    facets->group_count = scene->shape_count;
+    for (size_t i = 0, triangle = 0; i < scene->shape_count; ++i) {
+        for (size_t k = triangles_of(&scene->shapes[i]->mesh); k > 0; --k)
+            facets->source_groups[triangle++] = (uint32_t)i;
+        char unnamed[40];
+        aur_format(unnamed, sizeof unnamed, "shape-%zu", i);
+        const char *name = unnamed;
+        for (size_t k = 0; k < scene->document.id_count; ++k)
+            if (scene->document.ids[k].node->object == scene->shapes[i])
+                name = scene->document.ids[k].id;
+        facets->names[i] = strdup(name);
+        if (facets->names[i] == NULL)
+            return aur_fail_memory(error);
+    }
+    return AUR_OK;
+}
+
+static aur_result make_rows(aur_facets *facets, const aur_facets_options *options, aur_error *error) {
+    const size_t sides = options->both_sides ? 2 : 1;
+    facets->grouped = options->group;
+    facets->patch_count = sides * facets->count;
+    facets->front_rows = options->group ? facets->group_count : facets->source_count;
+    facets->row_count = sides * facets->front_rows;
+    facets->row_areas = calloc(facets->row_count, sizeof *facets->row_areas);
+    facets->rows = malloc(facets->count * sizeof *facets->rows);
+    if (facets->row_areas == NULL || facets->rows == NULL)
+        return aur_fail_memory(error);
+    memcpy(facets->rows, options->group ? facets->groups : facets->sources,
+           facets->count * sizeof *facets->rows);
+    for (size_t i = 0; i < facets->patch_count; ++i)
+        facets->row_areas[aur_facets_row(facets, i)] += facets->areas[aur_facet_of(facets, i)];
+    return AUR_OK;
+}
+
+static aur_result load(const char *path, const aur_facets_options *given, bool uncut, aur_facets **made,
+                       aur_error *error) {
+    *made = NULL;
+    aur_facets_options options = aur_facets_options_default();
+    aur_result result = aur_options_read(given, sizeof options, &options, "aur_facets_options", error);
+    const aur_overlap_rule rule = uncut                ? AUR_OVERLAPS_STAY
+                                  : options.both_sides ? AUR_OVERLAPS_CUT
+                                                       : AUR_OVERLAPS_OF_FRONTS;
+    source kind = SOURCE_MESH;
+    if (result == AUR_OK)
+        result = find_source(path, &kind, error);
+    if (result == AUR_OK && kind == SOURCE_MESH && options.further_count > 0)
+        result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+                             "a mesh is one file: only scenes go on in '%s'", options.further[0]);
+    if (result != AUR_OK)
+        return result;
+    aur_facets *const facets = calloc(1, sizeof *facets);
+    if (facets == NULL || (facets->path = strdup(path)) == NULL) {
+        free(facets);
+        return aur_fail_memory(error);
+    }
+    aur_scene_options scene = aur_scene_options_default();
+    scene.warnings = options.warnings;
+    scene.definition_count = options.definition_count;
+    scene.confine = options.confine;
+    scene.definitions = options.definitions;
+    scene.further_count = options.further_count;
+    scene.further = options.further;
+    result = kind == SOURCE_SCENE
+                 ? aur_scene_load_with_points(path, 0, NULL, rule, &scene, &facets->scene, error)
+                 : load_mesh(path, rule, &scene, &facets->scene, error);
+    if (result == AUR_OK)
+        result = check_shapes(facets->scene, error);
+    if (result == AUR_OK)
+        result = copy_triangles(facets, error);
+    if (result == AUR_OK)
+        leave_out_slivers(facets);
+    if (result == AUR_OK && kind == SOURCE_MESH)
+        result = aur_facets_read_places(facets, error);
+    if (result == AUR_OK && facets->names == NULL)
+        result = name_shapes(facets, error);
+    if (result == AUR_OK)
+        result = make_rows(facets, &options, error);
+    if (result == AUR_OK && rule == AUR_OVERLAPS_OF_FRONTS)
+        result = aur_facets_find_sheets(facets, error);
+    if (result == AUR_OK && rule != AUR_OVERLAPS_STAY)
+        result = aur_facets_find_covers(facets, error);
+    if (result == AUR_OK)
+        result = aur_facets_inspect(facets, &options.warnings, error);
+    if (result != AUR_OK) {
+        aur_facets_destroy(facets);
+        return result;
+    }
+    *made = facets;
+    return AUR_OK;
+}
+
+aur_result aur_facets_load(const char *path, const aur_facets_options *options, aur_facets **facets,
+                           aur_error *error) {
+    return load(path, options, false, facets, error);
+}
+
+aur_result aur_facets_load_uncut(const char *path, const aur_facets_options *options, aur_facets **facets,
+                                 aur_error *error) {
+    return load(path, options, true, facets, error);
+}
+
+void aur_facets_destroy(aur_facets *facets) {
+    if (facets == NULL)
+        return;
+    aur_scene_destroy(facets->scene);
+    for (size_t i = 0; i < facets->group_count; ++i)
+        free(facets->names[i]);
+    free(facets->names);
+    free(facets->path);
+    free(facets->corners);
+    free(facets->planes);
+    free(facets->areas);
+    free(facets->sources);
+    free(facets->source_groups);
+    free(facets->rows);
+    free(facets->opposites);
+    free(facets->opposite_starts);
+    free(facets->cover_starts);
+    free(facets->covers);
+    free(facets->first);
+    free(facets->lines);
+    free(facets->groups);
+    free(facets->row_areas);
+    free(facets);
+}
+
+size_t aur_facets_rows(const aur_facets *facets) {
+    return facets->row_count;
+}
+
+const double *aur_facets_areas(const aur_facets *facets) {
+    return facets->row_areas;
+}
+
+const char *aur_facets_name(const aur_facets *facets, size_t row) {
+    return facets->grouped && row < facets->row_count ? facets->names[row % facets->group_count] : NULL;
+}
+
+void aur_patch_corners(const aur_facets *facets, size_t patch, double corners[3][3]) {
+    memcpy(corners, facets->corners[aur_facet_of(facets, patch)], 9 * sizeof(double));
+    if (patch < facets->count)
+        return;
+    double swap[3];
+    memcpy(swap, corners[1], sizeof swap);
+    memcpy(corners[1], corners[2], sizeof swap);
+    memcpy(corners[2], swap, sizeof swap);
+}

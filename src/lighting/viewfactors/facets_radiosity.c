@@ -1,0 +1,271 @@
+/* Radiosities of facets, by the matrix or by rays that are traced anew for each reflection. */
+#include <aureole/statistics.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lighting/viewfactors/facet_product.h"
+#include "lighting/viewfactors/upper_walk.h"
+#include "lighting/viewfactors/view_factors.h"
+#include "points/base/options.h"
+#include "points/base/progress.h"
+
+/* Rays to the sun are few beside the others, and what it lights ends at edges: they begin at SUN_PLACES times
+ * as many places. */
+enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16, SUN_PLACES = 4 };
+
+/* With a matrix the sum ends where the next reflection is a part of the whole smaller than this. */
+static const double SMALLEST_CHANGE = 1e-7;
+
+typedef struct solution {
+    const aur_facets *facets;
+    const aur_view_factors *factors;
+    const aur_facets_light *light;
+    aur_parallel_options parallel;
+    aur_progress_span *span; /* of all products */
+    size_t rows, randomizations;
+    /* Patterns of half as many rays each, down to FEWEST_RAYS. */
+    aur_facet_pattern patterns[LEVELS];
+    size_t level_count;
+    aur_facet_pattern sun_places;
+    double smallest; /* part of the light at which the sum ends */
+    /* Of rows; what one randomisation has found, and the sums over them. */
+    double *now, *next, *sky, *found, *total, *squares, *sky_total;
+    double *sun; /* [randomizations + 1][rows]: irradiances, the last ones their mean; NULL: there is none */
+} solution;
+
+/* The next product takes `work` after `done` of its randomisation, in units of the first one. The sun's takes
+ * about one too, and those with fewer rays, which the light shrinks to, come to as much as that. */
+static void place_product(const solution *s, size_t randomization, bool of_sun, double done, double work) {
+    const double sun = s->sun != NULL ? 1.0 : 0.0,
+                 others = 1.0 + 1.0 / fmax(1.0 - s->light->reflectance, 0.1), each = of_sun ? sun : others,
+                 first = (of_sun ? 0.0 : sun * (double)s->randomizations) + each * (double)randomization,
+                 all = (sun + others) * (double)s->randomizations;
+    s->span->from = (first + fmin(done, each)) / all;
+    s->span->to = (first + fmin(done + work, each)) / all;
+}
+
+static double mean(const solution *s, const double *values) {
+    double sum = 0.0, area = 0.0;
+    for (size_t i = 0; i < s->rows; ++i) {
+        sum += s->facets->row_areas[i] * values[i];
+        area += s->facets->row_areas[i];
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+/* By the factors as one randomisation has them; by their mean where there is none of this number. */
+static bool multiply(const aur_view_factors *m, size_t randomization, const double *x, double *y) {
+    for (size_t i = 0; i < m->rows; ++i) {
+        double sum = 0.0;
+        for (uint64_t e = m->starts[i]; e < m->starts[i + 1]; ++e)
+            sum += m->values[e] * x[m->columns[e]];
+        y[i] = sum;
+    }
+    aur_upper_walk walk;
+    if (randomization == m->randomizations)
+        return true;
+    if (!aur_upper_walk_begin(m->rows, m->starts, m->columns, &walk))
+        return false;
+    for (const float *off = m->deviations + randomization; aur_upper_walk_advance(&walk);
+         off += m->randomizations) {
+        y[walk.row] += (double)*off / m->areas[walk.row] * x[walk.column];
+        if (walk.column != walk.row)
+            y[walk.column] += (double)*off / m->areas[walk.column] * x[walk.row];
+    }
+    return true;
+}
+
+/* One application of the factors. Every pair of a randomisation and a reflection has rays of its own, so that
+ * the expectation of the product of many is the product of their expectations. */
+static aur_result apply(const solution *s, size_t level, size_t randomization, size_t reflection,
+                        const double *x, double *y, double *sky, aur_error *error) {
+    if (s->factors == NULL)
+        return aur_facet_product(s->facets, &s->patterns[level],
+                                 randomization + s->randomizations * reflection, 1, &s->parallel, NULL, x, y,
+                                 sky, error);
+    const aur_view_factors *const m = s->factors;
+    if (!multiply(m, randomization, x, y))
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < s->rows && sky != NULL; ++i)
+        sky[i] = m->sky[i] + (randomization < m->randomizations && m->areas[i] > 0.0
+                                  ? m->sky_deviations[m->randomizations * i + randomization] / m->areas[i]
+                                  : 0.0);
+    return AUR_OK;
+}
+
+/* What comes from the sun, the sky and the facets' own light after one reflection. */
+static aur_result first_light(const solution *s, size_t randomization, aur_error *error) {
+    const aur_facets_light *const light = s->light;
+    for (size_t i = 0; i < s->rows; ++i)
+        s->now[i] = s->facets->row_areas[i] > 0.0 ? light->emission : 0.0;
+    memcpy(s->found, s->now, s->rows * sizeof *s->found);
+    place_product(s, randomization, false, 0.0, 1.0);
+    aur_result result = apply(s, 0, randomization, 0, s->now, s->next, s->sky, error);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; i < s->rows; ++i)
+        s->next[i] = light->reflectance * (s->next[i] + light->sky * s->sky[i]);
+    for (size_t i = 0; i < s->rows && s->sun != NULL; ++i)
+        s->next[i] += light->reflectance * s->sun[s->rows * randomization + i];
+    return AUR_OK;
+}
+
+static aur_result trace_sun(solution *s, aur_error *error) {
+    const size_t count = s->randomizations, rows = s->rows;
+    if (!(aur_length3(s->light->sun) > 0.0))
+        return AUR_OK;
+    s->sun = calloc((count + 1) * rows + 1, sizeof *s->sun);
+    aur_result result = s->sun != NULL ? AUR_OK : aur_fail_memory(error);
+    for (size_t r = 0; r < count && result == AUR_OK; ++r) {
+        place_product(s, r, true, 0.0, 1.0);
+        result = aur_facet_product(s->facets, &s->sun_places, r + count * (MOST_REFLECTIONS + 1), 1,
+                                   &s->parallel, s->light->sun, NULL, &s->sun[rows * r], NULL, error);
+        for (size_t i = 0; i < rows; ++i)
+            s->sun[rows * count + i] += s->sun[rows * r + i] / (double)count;
+    }
+    return result;
+}
+
+static aur_result solve_once(const solution *s, size_t randomization, aur_error *error) {
+    aur_result result = first_light(s, randomization, error);
+    const double first = mean(s, s->next);
+    double before = 0.0, done = 1.0;
+    for (size_t k = 1; result == AUR_OK && k < MOST_REFLECTIONS; ++k) {
+        const double part = mean(s, s->next), ratio = k > 1 && before > 0.0 ? part / before : 1.0;
+        const double whole = mean(s, s->found) + part;
+        for (size_t i = 0; i < s->rows; ++i)
+            s->found[i] += s->next[i];
+        if (part == 0.0 || (ratio < 1.0 && part * ratio / (1.0 - ratio) <= s->smallest * whole)) {
+            /* What would still come, all in the shape of the last. */
+            for (size_t i = 0; i < s->rows && part > 0.0; ++i)
+                s->found[i] += s->next[i] * ratio / (1.0 - ratio);
+            return AUR_OK;
+        }
+        before = part;
+        size_t level = 0;
+        while (level + 1 < s->level_count && part <= first / (double)(UINT64_C(2) << level))
+            ++level;
+        memcpy(s->now, s->next, s->rows * sizeof *s->now);
+        const double work = 1.0 / (double)(UINT64_C(1) << level);
+        place_product(s, randomization, false, done, work);
+        done += work;
+        result = apply(s, level, randomization, k, s->now, s->next, NULL, error);
+        for (size_t i = 0; i < s->rows; ++i)
+            s->next[i] *= s->light->reflectance;
+    }
+    return result != AUR_OK ? result
+                            : aur_fail(error, AUR_ERROR_ARGUMENT,
+                                       "after %d reflections there is still light: a closed scene that "
+                                       "absorbs (almost) nothing has no radiosities",
+                                       MOST_REFLECTIONS);
+}
+
+/* Without a matrix the solution is the mean over randomisations. With one, it is that of the matrix, and
+ * those of the matrices of single randomisations say what it errs by. */
+static aur_result solve(solution *s, bool intervals, aur_error *error) {
+    const size_t count = intervals || s->factors == NULL ? s->randomizations : 0;
+    for (size_t r = 0; r < count; ++r) {
+        const aur_result result = solve_once(s, r, error);
+        if (result != AUR_OK)
+            return result;
+        for (size_t i = 0; i < s->rows; ++i) {
+            /* Mean and sum of squared deviations, as in Welford 1962. */
+            const double off = s->found[i] - s->total[i];
+            s->total[i] += off / (double)(r + 1);
+            s->squares[i] += off * (s->found[i] - s->total[i]);
+            s->sky_total[i] += s->sky[i] / (double)count;
+        }
+    }
+    if (s->factors == NULL)
+        return AUR_OK;
+    const aur_result result = solve_once(s, s->randomizations, error);
+    memcpy(s->total, s->found, s->rows * sizeof *s->total);
+    memcpy(s->sky_total, s->sky, s->rows * sizeof *s->sky_total);
+    return result;
+}
+
+static aur_result check(const aur_facets *facets, const aur_view_factors *factors,
+                        const aur_facets_light *light, aur_error *error) {
+    const double sun = aur_length3(light->sun);
+    if (!(light->reflectance >= 0.0 && light->reflectance <= 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the reflectance must be in [0,1], not %g",
+                        light->reflectance);
+    if (!(light->sky >= 0.0 && light->emission >= 0.0 && light->sky < INFINITY &&
+          light->emission < INFINITY && sun < INFINITY))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the radiosities of sky and facets and the sun's irradiance must be finite and not "
+                        "negative");
+    if (light->sky + light->emission + sun == 0.0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no light: give sky, emission or sun");
+    if (factors != NULL && factors->rows != facets->row_count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the view factors are of %zu rows, the facets have %zu",
+                        factors->rows, facets->row_count);
+    return AUR_OK;
+}
+
+static aur_result prepare(solution *s, const aur_view_factors_options *options, double *numbers,
+                          aur_error *error) {
+    double **const parts[] = {&s->now, &s->next, &s->sky, &s->found, &s->total, &s->squares, &s->sky_total};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+        *parts[i] = numbers + i * s->rows;
+    s->smallest =
+        s->factors != NULL ? SMALLEST_CHANGE : fmax(SMALLEST_CHANGE, 0.02 / sqrt((double)options->rays));
+    size_t rays = options->rays / s->randomizations;
+    rays += rays == 0;
+    aur_result result = AUR_OK;
+    if (aur_length3(s->light->sun) > 0.0)
+        result =
+            aur_facet_pattern_create(options->set, SUN_PLACES * rays, options->seed, &s->sun_places, error);
+    while (result == AUR_OK && s->level_count < LEVELS && (s->level_count == 0 || rays >= FEWEST_RAYS)) {
+        result =
+            aur_facet_pattern_create(options->set, rays, options->seed, &s->patterns[s->level_count], error);
+        s->level_count += result == AUR_OK;
+        rays /= 2;
+    }
+    return result;
+}
+
+aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_factors *factors,
+                                      const aur_view_factors_options *given, const aur_facets_light *sources,
+                                      double *radiosity, double *half_widths, double *sky, aur_error *error) {
+    aur_view_factors_options options;
+    aur_facets_light light = aur_facets_light_default();
+    aur_result result = aur_view_factors_read_options(given, &options, error);
+    if (result == AUR_OK)
+        result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
+    if (result == AUR_OK)
+        result = check(facets, factors, &light, error);
+    if (result != AUR_OK)
+        return result;
+    aur_progress_span span = {.whole = options.progress};
+    solution s = {.facets = facets,
+                  .factors = factors,
+                  .light = &light,
+                  .parallel = {.threads = options.threads, .progress = aur_progress_within(&span)},
+                  .span = &span,
+                  .rows = facets->row_count,
+                  .randomizations = factors != NULL ? factors->randomizations : options.randomizations};
+    double *const numbers = calloc(7 * s.rows + 1, sizeof *numbers);
+    result = numbers != NULL ? prepare(&s, &options, numbers, error) : aur_fail_memory(error);
+    if (result == AUR_OK)
+        result = trace_sun(&s, error);
+    if (result == AUR_OK)
+        result = solve(&s, half_widths != NULL, error);
+    if (result == AUR_OK && !(mean(&s, s.total) > 0.0) && light.reflectance > 0.0)
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "no row sees the sky or the sun: there is no light");
+    const double n = (double)s.randomizations;
+    const double student = aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence);
+    for (size_t i = 0; i < s.rows && result == AUR_OK; ++i) {
+        radiosity[i] = s.total[i];
+        if (half_widths != NULL)
+            half_widths[i] = student * sqrt(s.squares[i] / (n * (n - 1.0)));
+        if (sky != NULL)
+            sky[i] = s.sky_total[i];
+    }
+    for (size_t i = 0; i < s.level_count; ++i)
+        aur_facet_pattern_release(&s.patterns[i]);
+    aur_facet_pattern_release(&s.sun_places);
+    free(s.sun);
+    free(numbers);
+    return result;
+}

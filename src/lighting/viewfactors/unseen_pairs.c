@@ -1,0 +1,143 @@
+#include "lighting/viewfactors/unseen_pairs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lighting/viewfactors/contour.h"
+#include "points/base/array.h"
+
+/* Rounding of closed forms, as a part of a patch's light. */
+static const double SMALLEST_REST = 1e-11;
+
+typedef struct filling {
+    const aur_facets *facets;
+    aur_visits *visits;
+    aur_closed_pairs *pairs;
+    double
+        *exchanges; /* of patches: what closed forms have; then what the candidates of one patch could have */
+    double *possible;
+    bool open; /* some light may leave the mesh */
+} filling;
+
+static int compare_patches(const void *left, const void *right) {
+    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
+static bool is_closed(const filling *work, size_t i, size_t k) {
+    const bool first = aur_pair_stands_with(work->facets, i, k);
+    const aur_closed_row *const row = &work->pairs->rows[first ? i : k];
+    const uint32_t other = (uint32_t)(first ? k : i);
+    return row->count > 0 &&
+           bsearch(&other, row->patches, row->count, sizeof *row->patches, compare_patches) != NULL;
+}
+
+/* The rays of the patch that arrived where no closed form says, the sky and backs included. */
+static double count_sampled(const filling *work, size_t i) {
+    const aur_visits *const visits = work->visits;
+    const aur_visits_row *const row = &visits->rows[i];
+    const size_t width = visits->randomizations;
+    double sum = 0.0;
+    for (size_t r = 0; r < width; ++r)
+        sum += visits->sky[width * i + r] + visits->back[width * i + r];
+    for (size_t k = 0; k < row->count; ++k)
+        for (size_t r = 0; r < width && !is_closed(work, i, row->patches[k]); ++r)
+            sum += (double)row->hits[width * k + r];
+    return sum;
+}
+
+/* Whether rays of others arrived at the patch without a closed form. */
+static bool is_met(const filling *work, size_t i) {
+    const aur_visits *const visits = work->visits;
+    const size_t width = visits->randomizations;
+    for (size_t k = visits->starts[i]; k < visits->starts[i + 1]; ++k) {
+        const uint16_t *const hits =
+            &visits->rows[visits->sources[k]].hits[width * (size_t)visits->places[k]];
+        for (size_t r = 0; r < width; ++r)
+            if (hits[r] > 0 && !is_closed(work, i, visits->sources[k]))
+                return true;
+    }
+    return false;
+}
+
+/* The exchange of two patches with nothing between them. */
+static double free_exchange(const aur_facets *facets, size_t i, size_t k) {
+    double corners[2][3][3], first[4][3], second[4][3];
+    aur_patch_corners(facets, i, corners[0]);
+    aur_patch_corners(facets, k, corners[1]);
+    const aur_plane planes[2] = {aur_patch_plane(facets, i), aur_patch_plane(facets, k)};
+    const size_t counts[2] = {aur_polygon_clip(3, (const double(*)[3])corners[0], &planes[1], first),
+                              aur_polygon_clip(3, (const double(*)[3])corners[1], &planes[0], second)};
+    if (counts[0] == 0 || counts[1] == 0)
+        return 0.0;
+    return aur_contour_exchange(counts[0], (const double(*)[3])first, counts[1], (const double(*)[3])second);
+}
+
+/* Puts the pair into its row, whose patches ascend. */
+static bool insert(const filling *work, size_t i, size_t k, double exchange) {
+    const bool first = aur_pair_stands_with(work->facets, i, k);
+    aur_closed_row *const row = &work->pairs->rows[first ? i : k];
+    const uint32_t other = (uint32_t)(first ? k : i);
+    size_t capacity = row->count, same = row->count, at = row->count;
+    if (!aur_array_reserve(&row->patches, &capacity, row->count + 1, sizeof *row->patches) ||
+        !aur_array_reserve(&row->exchanges, &same, row->count + 1, sizeof *row->exchanges))
+        return false;
+    for (; at > 0 && row->patches[at - 1] > other; --at) {
+        row->patches[at] = row->patches[at - 1];
+        row->exchanges[at] = row->exchanges[at - 1];
+    }
+    row->patches[at] = other;
+    row->exchanges[at] = exchange;
+    ++row->count;
+    return true;
+}
+
+static bool fill_patch(const filling *work, size_t i, double rest) {
+    const aur_facets *const facets = work->facets;
+    const double area = facets->areas[aur_facet_of(facets, i)];
+    double sum = 0.0;
+    for (size_t k = 0; k < facets->patch_count; ++k) {
+        const size_t other = aur_facet_of(facets, k);
+        const bool candidate = i != k && facets->areas[other] > 0.0 && !is_closed(work, i, k);
+        work->possible[k] = candidate ? free_exchange(facets, i, k) : 0.0;
+        sum += work->possible[k];
+    }
+    const double sky = work->open ? fmax(0.0, area - sum) : 0.0;
+    if (!(sum + sky > 0.0))
+        return true;
+    for (size_t k = 0; k < facets->patch_count; ++k) {
+        const double exchange = rest * work->possible[k] / (sum + sky);
+        if (exchange > 0.0 && !insert(work, i, k, exchange))
+            return false;
+        work->exchanges[k] += exchange; /* which the other one has now, too */
+    }
+    for (size_t r = 0; r < work->visits->randomizations; ++r)
+        work->visits->sky[work->visits->randomizations * i + r] =
+            (double)work->visits->rays * rest * sky / (sum + sky) / area;
+    return true;
+}
+
+aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_visits *visits, aur_closed_pairs *pairs,
+                                 aur_error *error) {
+    const size_t count = facets->patch_count;
+    double *const numbers = calloc(2 * count, sizeof *numbers);
+    if (numbers == NULL)
+        return aur_fail_memory(error);
+    filling work = {facets, visits, pairs, numbers, numbers + count, facets->open};
+    for (size_t i = 0; i < count * visits->randomizations; ++i)
+        work.open |= visits->sky[i] > 0.0;
+    for (size_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < pairs->rows[i].count; ++k) {
+            work.exchanges[i] += pairs->rows[i].exchanges[k];
+            work.exchanges[pairs->rows[i].patches[k]] += pairs->rows[i].exchanges[k];
+        }
+    bool good = true;
+    for (size_t i = 0; good && i < count; ++i) {
+        const double area = facets->areas[aur_facet_of(facets, i)], rest = area - work.exchanges[i];
+        if (work.exchanges[i] > 0.0 && rest > SMALLEST_REST * area && count_sampled(&work, i) == 0.0 &&
+            !is_met(&work, i))
+            good = fill_patch(&work, i, rest);
+    }
+    free(numbers);
+    return good ? AUR_OK : aur_fail_memory(error);
+}

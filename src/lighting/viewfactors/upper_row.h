@@ -1,0 +1,17 @@
+/* The rows of an exchange matrix before they are put together. */
+#pragma once
+
+#include "lighting/viewfactors/exchange.h"
+
+/* The entries of a row from the diagonal on. */
+typedef struct aur_upper_row {
+    size_t count;
+    uint32_t *columns;
+    double *closed, *sampled, *half_widths;
+    float *deviations; /* [count][randomizations] */
+    uint64_t closed_pairs, sampled_pairs;
+} aur_upper_row;
+
+/* Fills the matrix from its upper triangle, rows[exchange->rows]. Its areas are set. False when there is no
+ * memory. The rows' deviations are released. */
+bool aur_exchange_mirror(aur_upper_row *rows, aur_exchange *exchange);

@@ -1,0 +1,259 @@
+/* The view factors of facets: rays, closed forms, and the balance of both. */
+#include <aureole/view_factors.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lighting/viewfactors/exchange.h"
+#include "lighting/viewfactors/sky_slices.h"
+#include "lighting/viewfactors/unseen_pairs.h"
+#include "lighting/viewfactors/view_factors.h"
+#include "points/base/options.h"
+
+enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 2048, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
+
+/* Most of what a city's radiosities err by is the sky's: with three half planes for two rays they reach .1 %
+ * in the least time (docs/view-factors.md). */
+static size_t usual_half_planes(const aur_view_factors_options *options) {
+    const size_t most = MOST_RAYS * options->randomizations, wanted = (3 * options->rays + 1) / 2;
+    return wanted < most ? wanted : most;
+}
+
+aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
+                                         aur_view_factors_options *options, aur_error *error) {
+    *options = aur_view_factors_options_default();
+    const aur_result result =
+        aur_options_read(given, sizeof *options, options, "aur_view_factors_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (options->rays == 0)
+        options->rays = DEFAULT_RAYS;
+    if (options->randomizations == 0)
+        options->randomizations = DEFAULT_RANDOMIZATIONS;
+    if (options->set == NULL)
+        options->set = "sobol";
+    if (options->confidence == 0.0)
+        options->confidence = 0.95;
+    if (!(options->confidence > 0.0 && options->confidence < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be in (0,1), not %g",
+                        options->confidence);
+    if (options->randomizations < 2 || options->randomizations > MOST_RANDOMIZATIONS)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 2 to %d randomisations, not %zu",
+                        MOST_RANDOMIZATIONS, options->randomizations);
+    if (options->rays < options->randomizations || options->rays > MOST_RAYS * options->randomizations)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "there must be 1 to %d rays for each of %zu randomisations, %zu to %zu in all, not %zu",
+            MOST_RAYS, options->randomizations, options->randomizations, MOST_RAYS * options->randomizations,
+            options->rays);
+    if (options->half_planes == 0)
+        options->half_planes = usual_half_planes(options);
+    if (options->half_planes > MOST_RAYS * options->randomizations)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be at most %zu half planes, not %zu",
+                        MOST_RAYS * options->randomizations, options->half_planes);
+    return AUR_OK;
+}
+
+/* Exchanges become factors. */
+static void finish(aur_exchange *g, aur_view_factors *made) {
+    made->columns = g->columns;
+    made->starts = g->starts;
+    made->values = g->values;
+    made->half_widths = g->half_widths;
+    made->areas = g->areas;
+    made->sky = g->sky;
+    made->sky_half_widths = g->sky_half_widths;
+    made->back = g->back;
+    made->rows = g->rows;
+    made->randomizations = g->randomizations;
+    made->deviations = g->deviations;
+    made->sky_deviations = g->loss_deviations; /* and behind them those of backs */
+    g->deviations = NULL;
+    g->loss_deviations = NULL;
+    g->columns = NULL;
+    g->starts = NULL;
+    g->values = g->half_widths = g->areas = g->sky = g->sky_half_widths = g->back = NULL;
+    double total = 0.0;
+    for (size_t a = 0; a < made->rows; ++a) {
+        const double area = made->areas[a] > 0.0 ? made->areas[a] : 1.0;
+        for (uint64_t e = made->starts[a]; e < made->starts[a + 1]; ++e) {
+            total += made->values[e];
+            made->values[e] /= area;
+            made->half_widths[e] /= area;
+        }
+        made->sky[a] /= area;
+        made->sky_half_widths[a] /= area;
+        made->back[a] /= area;
+    }
+    made->description.closed_share = total > 0.0 ? fmin(g->closed_total / total, 1.0) : 0.0;
+}
+
+static aur_result copy_names(const aur_facets *facets, aur_view_factors *made, aur_error *error) {
+    if (!facets->grouped)
+        return AUR_OK;
+    for (size_t i = 0; i < facets->group_count; ++i)
+        if (strlen(facets->names[i]) > made->name_width)
+            made->name_width = strlen(facets->names[i]);
+    made->name_width += made->name_width == 0;
+    made->names = calloc(made->rows, made->name_width);
+    if (made->names == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < made->rows; ++i) {
+        const char *const name = aur_facets_name(facets, i);
+        memcpy(&made->names[made->name_width * i], name, strlen(name));
+    }
+    return AUR_OK;
+}
+
+/* One or two rays in a row may have slipped through where facets meet, by the rounding of their origins: of
+ * backs with fewer than `least` of the light nothing is said. */
+static void warn(const aur_facets *facets, const aur_view_factors *made, const aur_balance *balance,
+                 double least, const aur_warnings *warnings) {
+    const aur_location place = {.file = facets->path};
+    size_t count = 0;
+    double most = 0.0;
+    for (size_t a = 0; a < made->rows; ++a) {
+        count += made->back[a] > least;
+        most = fmax(most, made->back[a]);
+    }
+    if (count > 0)
+        aur_warn_at(warnings, place,
+                    "%zu rows see backs of facets, up to %.3g of what leaves them: the surfaces are open, or "
+                    "inside out, or see on both sides",
+                    count, most);
+    if (balance->unbalanced > 0)
+        aur_warn_at(
+            warnings, place,
+            "%zu rows cannot be made to add up to 1 with symmetric exchanges, the worst is off by %.3g",
+            balance->unbalanced, balance->after);
+}
+
+/* Replaces what rays say of the sky by what half planes do, which find it better in less time. A mesh that no
+ * ray has left is closed, but for the gaps by which rounding leaves its facets. */
+static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_options *options,
+                              const aur_parallel_options *parallel, aur_visits *visits, aur_error *error) {
+    const size_t count = visits->randomizations, numbers = visits->patch_count * count;
+    bool open = false;
+    for (size_t i = 0; i < numbers; ++i)
+        open |= visits->sky[i] > 0.0;
+    if (!open)
+        return AUR_OK;
+    aur_sky_slices *slices;
+    aur_result result =
+        aur_sky_slices_create(facets, options->set, (options->half_planes + count - 1) / count, count,
+                              options->seed, &slices, error);
+    if (result == AUR_OK)
+        result = aur_sky_slices_measure(slices, parallel, visits->sky, error);
+    for (size_t i = 0; i < numbers && result == AUR_OK; ++i)
+        visits->sky[i] *= (double)visits->rays;
+    aur_sky_slices_destroy(slices);
+    return result;
+}
+
+static aur_result compute(const aur_facets *facets, const aur_view_factors_options *options,
+                          aur_view_factors *made, aur_error *error) {
+    const aur_parallel_options parallel = {.threads = options->threads, .progress = options->progress};
+    aur_facet_pattern pattern = {0};
+    aur_visits visits = {0};
+    aur_closed_pairs closed = {.patch_count = facets->patch_count,
+                               .rows = calloc(facets->patch_count, sizeof *closed.rows)};
+    aur_exchange exchange = {0};
+    aur_balance balance = {0};
+    const uint64_t before = aur_rays_traced;
+    aur_result result = closed.rows != NULL ? AUR_OK : aur_fail_memory(error);
+    if (result == AUR_OK)
+        result = aur_facet_pattern_create(options->set, options->rays / options->randomizations,
+                                          options->seed, &pattern, error);
+    if (result == AUR_OK)
+        result = aur_visits_trace(facets, &pattern, options->randomizations, &parallel, &visits, error);
+    if (result == AUR_OK && !options->rays_only)
+        result = measure_sky(facets, options, &parallel, &visits, error);
+    if (result == AUR_OK && !options->rays_only) {
+        aur_closed_pairs_release(&closed);
+        result = aur_closed_pairs_find(facets, &visits, &parallel, &closed, error);
+        if (result == AUR_OK)
+            result = aur_unseen_pairs_fill(facets, &visits, &closed, error);
+    }
+    if (result == AUR_OK)
+        result =
+            aur_exchange_assemble(facets, &visits, &closed, options->confidence, &parallel, &exchange, error);
+    const size_t rays = visits.rays * visits.randomizations;
+    aur_visits_release(&visits); /* the most memory, and what follows takes as much */
+    aur_closed_pairs_release(&closed);
+    if (result == AUR_OK)
+        result = aur_exchange_balance(&exchange, &parallel, &balance, error);
+    if (result == AUR_OK) {
+        made->description =
+            (aur_view_factors_description){.size = sizeof made->description,
+                                           .rays = aur_rays_traced - before,
+                                           .closed_pairs = exchange.closed_pairs,
+                                           .sampled_pairs = exchange.sampled_pairs,
+                                           .largest_row_error = balance.after,
+                                           .raw_row_error = balance.before,
+                                           .moved = balance.moved,
+                                           .unseen = -log(0.5 - 0.5 * options->confidence) / (double)rays};
+        finish(&exchange, made);
+        result = copy_names(facets, made, error);
+        warn(facets, made, &balance, 2.5 / (double)rays, &options->warnings);
+    }
+    aur_facet_pattern_release(&pattern);
+    aur_exchange_release(&exchange);
+    return result;
+}
+
+aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_factors_options *given,
+                                   aur_view_factors **factors, aur_error *error) {
+    *factors = NULL;
+    aur_view_factors_options options;
+    aur_result result = aur_view_factors_read_options(given, &options, error);
+    if (result != AUR_OK)
+        return result;
+    aur_view_factors *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory(error);
+    result = compute(facets, &options, made, error);
+    if (result != AUR_OK) {
+        aur_view_factors_destroy(made);
+        return result;
+    }
+    *factors = made;
+    return AUR_OK;
+}
+
+void aur_view_factors_destroy(aur_view_factors *factors) {
+    if (factors == NULL)
+        return;
+    free(factors->starts);
+    free(factors->columns);
+    free(factors->values);
+    free(factors->half_widths);
+    free(factors->areas);
+    free(factors->sky);
+    free(factors->sky_half_widths);
+    free(factors->back);
+    free(factors->deviations);
+    free(factors->sky_deviations);
+    free(factors->names);
+    free(factors);
+}
+
+aur_result aur_view_factors_get_matrix(const aur_view_factors *factors, aur_view_factors_matrix *matrix,
+                                       aur_error *error) {
+    const aur_view_factors_matrix own = {.size = sizeof own,
+                                         .rows = factors->rows,
+                                         .starts = factors->starts,
+                                         .columns = factors->columns,
+                                         .values = factors->values,
+                                         .half_widths = factors->half_widths,
+                                         .areas = factors->areas,
+                                         .sky = factors->sky,
+                                         .sky_half_widths = factors->sky_half_widths,
+                                         .back = factors->back};
+    return aur_description_write(&own, sizeof own, matrix, "aur_view_factors_matrix", error);
+}
+
+aur_result aur_view_factors_describe(const aur_view_factors *factors,
+                                     aur_view_factors_description *description, aur_error *error) {
+    const aur_view_factors_description *const own = &factors->description;
+    return aur_description_write(own, sizeof *own, description, "aur_view_factors_description", error);
+}

@@ -1,0 +1,43 @@
+/* Files that are replaced whole or not at all, and reading a whole file. */
+#pragma once
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "points/base/error.h"
+
+/* A file that is being written beside its destination. "-" is standard output. */
+typedef struct aur_file_writer {
+    FILE *stream;    /* write here; buffered */
+    char *path;      /* what is replaced: links are followed */
+    bool nameless;   /* the file has no name before the commit */
+    bool unsynced;   /* may be set before the commit: a loss of power may damage the file */
+    char *temporary; /* the name before the commit of a file that has one; else NULL */
+} aur_file_writer;
+
+/* Opens `path` for replacement by a file with the same mode, owner and group, as far as these may be given.
+ * Where the system has files without a name the new one has none until it is complete, so that a killed
+ * process leaves nothing behind. Pipes, devices and links to nothing are written as they are. On failure
+ * nothing is left behind and *writer is zero. */
+aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error);
+
+/* Flushes, syncs and renames. On any failure (a full disk, say) the temporary file is removed, the
+ * destination is as it was, and AUR_ERROR_WRITE is returned with the path and the reason. Ends the writer in
+ * every case. */
+aur_result aur_file_commit(aur_file_writer *writer, aur_error *error);
+
+/* Removes the temporary file. Safe on a zero writer and after a commit. */
+void aur_file_abandon(aur_file_writer *writer);
+
+/* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
+ * that is not counted. Refuses files beyond `limit` bytes, and what is neither a regular file nor handed over
+ * by the shell as /dev/fd/N: opening a pipe could block forever, a device might never end. Of a job of
+ * several processes rank 0 reads, and writes, for all (points/base/ranks.h). Errors: OPEN, FORMAT, MEMORY;
+ * ARGUMENT for an output of this process (points/base/file_roles.h). */
+aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+/* The same for a file that this program wrote and may replace, such as a checkpoint: no input. */
+aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+
+/* stat(2), likewise; false where there is no such file. */
+bool aur_file_status(const char *path, struct stat *status);

@@ -1,0 +1,52 @@
+/* Tables whose rows have names: finding one, suggesting the nearest, listing them all in an error's text. */
+#pragma once
+
+#include "points/base/error.h"
+
+/* The names of a table. `at` gives the name of row `index` < count; `table` is what it is given. */
+typedef struct aur_names {
+    size_t count;
+    const char *(*at)(const void *table, size_t index);
+    const void *table;
+} aur_names;
+
+/* The names of an array of strings, which must outlive them. */
+aur_names aur_names_of(size_t count, const char *const *strings);
+
+/* The index of the row called `wanted`, or names.count. */
+size_t aur_names_find(aur_names names, const char *wanted);
+
+/* The nearest name by edit distance, or NULL when none is near enough to suggest. */
+const char *aur_names_nearest(aur_names names, const char *wanted);
+
+enum { AUR_HINT_CAPACITY = 96 };
+
+/* The end of a message about an unknown name, written into `hint` and returned: "; did you mean 'NAME'?",
+ * with the two characters of `quotes` around it, or nothing when no name is near. */
+const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
+                           char hint[AUR_HINT_CAPACITY]);
+
+/* The end of a message about an unknown name, written into `text` and returned: "; did you mean 'NAME'?", or
+ * "; OTHERS: a, b, c" when no name is near. */
+const char *aur_names_suggest(aur_names names, const char *wanted, const char *others,
+                              char text[AUR_ERROR_MESSAGE_CAPACITY]);
+
+enum { AUR_SORTED_NAMES = 256 };
+
+typedef struct aur_sorted_names {
+    aur_names names;
+    size_t order[AUR_SORTED_NAMES];
+} aur_sorted_names;
+
+/* The names by their edit distance from `wanted`, and then in the order of the table; those of a table of
+ * more than AUR_SORTED_NAMES stay as they are. `sorted` must outlive the result. */
+aur_names aur_names_by_distance(aur_names names, const char *wanted, aur_sorted_names *sorted);
+
+/* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
+ * does. */
+size_t aur_names_list(aur_names names, size_t capacity, char *text);
+
+/* AUR_OK with the index of the row called `wanted`, or AUR_ERROR_NAME with "unknown KIND 'WANTED'; did you
+ * mean 'NAME'?" or, when nothing is near, "unknown KIND 'WANTED'; there are: a, b, c". */
+aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
+                            size_t *index, aur_error *error);

@@ -1,0 +1,335 @@
+#include "points/base/ranks.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "points/base/bytes.h"
+
+enum { PIECE = 1 << 20 };
+
+static _Thread_local aur_ranks *here;
+
+aur_ranks *aur_ranks_here(void) {
+    return here;
+}
+
+aur_ranks *aur_ranks_set_aside(void) {
+    aur_ranks *const ranks = here;
+    here = NULL;
+    return ranks;
+}
+
+void aur_ranks_put_back(aur_ranks *ranks) {
+    here = ranks;
+}
+
+size_t aur_ranks_rank(void) {
+    return here != NULL ? here->carrier.rank : 0;
+}
+
+size_t aur_ranks_count(void) {
+    return here != NULL ? here->carrier.count : 1;
+}
+
+/* --- time */
+
+void aur_ranks_pause(long *pause) {
+    enum { FIRST = 50000, LONGEST = 10000000 };
+    *pause = *pause == 0 ? FIRST : *pause < LONGEST / 2 ? 2 * *pause : LONGEST;
+    nanosleep(&(struct timespec){.tv_nsec = *pause}, NULL);
+}
+
+double aur_ranks_seconds(clockid_t clock) {
+    struct timespec time;
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+double aur_ranks_talk_begin(void) {
+    return aur_ranks_seconds(CLOCK_THREAD_CPUTIME_ID);
+}
+
+void aur_ranks_talk_end(aur_ranks *ranks, double start) {
+    ranks->talk_seconds += aur_ranks_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+}
+
+/* --- messages */
+
+void aur_ranks_begin(aur_ranks *ranks) {
+    ranks->step += !aur_ranks_have_failed(ranks);
+}
+
+bool aur_ranks_have_failed(const aur_ranks *ranks) {
+    return ranks->error.result != AUR_OK;
+}
+
+void aur_ranks_fail(aur_ranks *ranks, const char *format, ...) {
+    if (aur_ranks_have_failed(ranks))
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(ranks->error.message, sizeof ranks->error.message, format, arguments);
+    va_end(arguments);
+    ranks->error.result = AUR_ERROR_INTERNAL;
+}
+
+void aur_ranks_lose(aur_ranks *ranks) {
+    ranks->lost = true;
+    aur_ranks_fail(ranks, "a rank no longer answers");
+}
+
+aur_result aur_ranks_failure(const aur_ranks *ranks, aur_error *error) {
+    return aur_fail(error, ranks->error.result, "%s", ranks->error.message);
+}
+
+typedef struct header {
+    uint32_t kind, from;
+    uint64_t step, a, b;
+} header;
+
+void aur_ranks_send(aur_ranks *ranks, size_t to, aur_message_kind kind, uint64_t a, uint64_t b, size_t size,
+                    const void *data) {
+    const header head = {kind, (uint32_t)ranks->carrier.rank, ranks->step, a, b};
+    aur_bytes bytes = {0};
+    aur_bytes_put(&bytes, sizeof head, &head);
+    aur_bytes_put(&bytes, size, data);
+    if (bytes.failed || bytes.size > INT32_MAX)
+        aur_ranks_fail(ranks, "out of memory for a message of %zu bytes", size);
+    else
+        ranks->carrier.send(ranks->carrier.state, to, bytes.size, bytes.data);
+    ranks->sent += bytes.size;
+    aur_bytes_release(&bytes);
+}
+
+bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) {
+    *message = (aur_message){0};
+    size_t size = 0;
+    if (!ranks->carrier.poll(ranks->carrier.state, &from, &size))
+        return false;
+    unsigned char *const data = malloc(size + 1);
+    if (data == NULL) {
+        aur_ranks_fail(ranks, "out of memory for a message of %zu bytes", size);
+        return false;
+    }
+    header head = {0};
+    ranks->carrier.receive(ranks->carrier.state, from, size, data);
+    ranks->received += size;
+    if (size >= sizeof head) {
+        memcpy(&head, data, sizeof head);
+        size -= sizeof head;
+        memmove(data, data + sizeof head, size);
+    }
+    data[size] = '\0';
+    *message = (aur_message){.kind = head.kind,
+                             .from = (uint32_t)from,
+                             .step = head.step,
+                             .a = head.a,
+                             .b = head.b,
+                             .size = size,
+                             .data = data};
+    return true;
+}
+
+/* Whether a message may be taken for what it says; else it is gone. */
+static bool accept(aur_ranks *ranks, aur_message *message) {
+    const bool asks = message->kind == AUR_MESSAGE_WANT || message->kind == AUR_MESSAGE_STOP;
+    ranks->left += message->kind == AUR_MESSAGE_LEAVE;
+    if (message->kind == AUR_MESSAGE_LEAVE)
+        aur_ranks_fail(ranks, "rank %u has left the job%s%s", (unsigned)message->from,
+                       message->size > 0 ? ": " : "", (const char *)message->data);
+    else if (message->step != ranks->step && !(asks && message->step < ranks->step))
+        aur_ranks_fail(ranks,
+                       "rank %u does something else than rank %zu: were all started with the same words?",
+                       (unsigned)message->from, ranks->carrier.rank);
+    /* Who asked while the work came to its end has no answer. */
+    if (!aur_ranks_have_failed(ranks) && message->step == ranks->step)
+        return true;
+    free(message->data);
+    message->data = NULL;
+    return false;
+}
+
+bool aur_ranks_receive(aur_ranks *ranks, size_t from, aur_message *message) {
+    while (!aur_ranks_have_failed(ranks)) {
+        if (ranks->kept_count > 0) { /* of rank 0, to another one, which hears from nobody else */
+            *message = ranks->kept[0];
+            memmove(ranks->kept, ranks->kept + 1, --ranks->kept_count * sizeof *ranks->kept);
+        } else if (!aur_ranks_receive_any(ranks, from, message)) {
+            return false;
+        }
+        if (accept(ranks, message))
+            return true;
+    }
+    return false;
+}
+
+/* While a rank waits for its parent in a broadcast, rank 0 may be ahead of it, or have left. */
+static void listen_to_root(aur_ranks *ranks) {
+    aur_message message;
+    if (!aur_ranks_receive_any(ranks, 0, &message))
+        return;
+    /* Rank 0 may have left in good order: then what is waited for is still on its way. */
+    if (message.kind == AUR_MESSAGE_LEAVE && message.step <= ranks->step) {
+        (void)accept(ranks, &message);
+    } else if (aur_array_reserve(&ranks->kept, &ranks->kept_capacity, ranks->kept_count + 1,
+                                 sizeof *ranks->kept)) {
+        ranks->kept[ranks->kept_count++] = message;
+    } else {
+        aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->carrier.rank);
+        free(message.data);
+    }
+}
+
+/* Waits for a message of one rank. */
+static bool wait_for(aur_ranks *ranks, size_t from, aur_message_kind kind, aur_message *message) {
+    const bool aside = from != 0 && ranks->carrier.rank != 0;
+    long pause = 0;
+    for (;;) {
+        const bool there = aside ? aur_ranks_receive_any(ranks, from, message) && accept(ranks, message)
+                                 : aur_ranks_receive(ranks, from, message);
+        if (there)
+            break;
+        if (aur_ranks_have_failed(ranks))
+            return false;
+        if (aside)
+            listen_to_root(ranks);
+        aur_ranks_pause(&pause);
+    }
+    if (message->kind == kind)
+        return true;
+    aur_ranks_fail(ranks, "rank %zu does something else than rank %zu: were all started with the same words?",
+                   from, ranks->carrier.rank);
+    free(message->data);
+    return false;
+}
+
+/* --- what all ranks do together */
+
+/* Ranks form a binomial tree: the parent's number lacks the lowest bit. */
+static void send_on(aur_ranks *ranks, bool last, size_t size, const void *data) {
+    const size_t rank = ranks->carrier.rank, count = ranks->carrier.count;
+    for (size_t bit = 1; rank + bit < count && (rank & bit) == 0; bit *= 2)
+        aur_ranks_send(ranks, rank + bit, AUR_MESSAGE_PIECE, last, 0, size, data);
+}
+
+bool aur_ranks_spread(aur_ranks *ranks, bool last, size_t size, const void *data) {
+    if (aur_ranks_have_failed(ranks))
+        return false;
+    send_on(ranks, last, size, data);
+    return !aur_ranks_have_failed(ranks);
+}
+
+bool aur_ranks_take(aur_ranks *ranks, aur_message *piece) {
+    const size_t rank = ranks->carrier.rank;
+    if (aur_ranks_have_failed(ranks) || !wait_for(ranks, rank & (rank - 1), AUR_MESSAGE_PIECE, piece))
+        return false;
+    send_on(ranks, piece->a != 0, piece->size, piece->data);
+    return true;
+}
+
+static bool spread_all(aur_ranks *ranks, size_t size, const char *data) {
+    size_t done = 0;
+    do {
+        const size_t piece = size - done < PIECE ? size - done : PIECE;
+        if (!aur_ranks_spread(ranks, done + piece == size, piece, data + done))
+            return false;
+        done += piece;
+    } while (done < size);
+    return true;
+}
+
+static bool take_all(aur_ranks *ranks, aur_bytes *bytes) {
+    aur_message piece;
+    bool last = false;
+    while (!last) {
+        if (!aur_ranks_take(ranks, &piece))
+            return false;
+        last = piece.a != 0;
+        aur_bytes_put(bytes, piece.size + last, piece.data); /* with the zero byte */
+        free(piece.data);
+    }
+    if (bytes->failed)
+        aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->carrier.rank);
+    else
+        --bytes->size;
+    return !bytes->failed;
+}
+
+aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_error *error) {
+    const double start = aur_ranks_talk_begin();
+    aur_ranks_begin(ranks);
+    aur_bytes bytes = {0};
+    const bool root = ranks->carrier.rank == 0;
+    const bool good = root ? spread_all(ranks, *size, *data) : take_all(ranks, &bytes);
+    aur_ranks_talk_end(ranks, start);
+    if (!good) {
+        aur_bytes_release(&bytes);
+        return aur_ranks_failure(ranks, error);
+    }
+    if (!root) {
+        *data = (char *)bytes.data;
+        *size = bytes.size;
+    }
+    return AUR_OK;
+}
+
+void aur_ranks_agree(size_t size, void *data) {
+    if (here == NULL)
+        return;
+    char *own = data;
+    size_t own_size = size;
+    if (aur_ranks_broadcast(here, &own, &own_size, NULL) != AUR_OK || here->carrier.rank == 0)
+        return;
+    if (own_size == size)
+        memcpy(data, own, size);
+    else
+        aur_ranks_fail(here, "rank 0 does something else than rank %zu", here->carrier.rank);
+    free(own);
+}
+
+static bool take_parts(aur_ranks *ranks, size_t from, aur_bytes *bytes) {
+    aur_message piece;
+    bool last = false;
+    while (!last) {
+        if (!wait_for(ranks, from, AUR_MESSAGE_PART, &piece))
+            return false;
+        last = piece.a != 0;
+        aur_bytes_put(bytes, piece.size, piece.data);
+        free(piece.data);
+    }
+    return !bytes->failed;
+}
+
+aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur_ranks_add add, void *context,
+                            aur_error *error) {
+    const double start = aur_ranks_talk_begin();
+    aur_result result = AUR_OK;
+    aur_ranks_begin(ranks);
+    if (ranks->carrier.rank != 0) {
+        size_t done = 0;
+        do {
+            const size_t piece = size - done < PIECE ? size - done : PIECE;
+            aur_ranks_send(ranks, 0, AUR_MESSAGE_PART, done + piece == size, 0, piece,
+                           (const char *)data + done);
+            done += piece;
+        } while (done < size);
+    }
+    for (size_t r = 1; ranks->carrier.rank == 0 && r < ranks->carrier.count && result == AUR_OK; ++r) {
+        aur_bytes bytes = {0};
+        if (take_parts(ranks, r, &bytes))
+            result = add(context, r, bytes.size, bytes.data);
+        else if (bytes.failed)
+            aur_ranks_fail(ranks, "rank 0 is out of memory");
+        aur_bytes_release(&bytes);
+        if (aur_ranks_have_failed(ranks))
+            result = AUR_ERROR_INTERNAL;
+    }
+    aur_ranks_talk_end(ranks, start);
+    if (aur_ranks_have_failed(ranks))
+        return aur_ranks_failure(ranks, error);
+    return result == AUR_OK ? AUR_OK
+                            : aur_fail(error, result, "what the ranks have found cannot be put together");
+}

@@ -1,0 +1,188 @@
+/* Joining a job of several processes, leaving it, and what it has cost. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "points/base/ranks.h"
+#include "points/base/simd.h"
+#include "points/base/text.h"
+
+size_t aur_ranks_started(void) {
+    /* Slurm's count is of every task, so it counts where Slurm has also said how the tasks find each other.
+     */
+    static const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
+    const size_t known = getenv("PMIX_RANK") != NULL || getenv("PMI_RANK") != NULL ? 3 : 2;
+    uint64_t count = 0;
+    for (size_t i = 0; i < known; ++i) {
+        const char *const text = getenv(counts[i]);
+        if (text != NULL && aur_read_integer(text, INT32_MAX, &count) != NULL && count > 1)
+            return (size_t)count;
+    }
+    return 1;
+}
+
+static aur_result add_seconds(void *context, size_t rank, size_t size, const void *data) {
+    double added;
+    (void)rank;
+    if (size != sizeof added)
+        return AUR_ERROR_INTERNAL;
+    memcpy(&added, data, sizeof added);
+    *(double *)context += added;
+    return AUR_OK;
+}
+
+void aur_ranks_share_seconds(double *wall, double *cpu) {
+    aur_ranks *const ranks = aur_ranks_here();
+    if (ranks == NULL)
+        return;
+    aur_ranks_gather(ranks, sizeof *cpu, cpu, add_seconds, cpu, NULL);
+    double both[2] = {*wall, *cpu};
+    aur_ranks_agree(sizeof both, both);
+    *wall = both[0];
+    *cpu = both[1];
+}
+
+/* --- joining and leaving */
+
+typedef struct greeting {
+    char version[32], isa[16], rays[16], host[AUR_RANK_HOST_CAPACITY];
+} greeting;
+
+typedef struct welcome {
+    const greeting *own;
+    char refused[AUR_ERROR_MESSAGE_CAPACITY];
+} welcome;
+
+static aur_result compare_greeting(void *context, size_t rank, size_t size, const void *data) {
+    welcome *const w = context;
+    greeting other;
+    if (size != sizeof other)
+        return AUR_ERROR_INTERNAL;
+    memcpy(&other, data, sizeof other);
+    if (w->refused[0] != '\0')
+        return AUR_OK;
+    if (strcmp(other.version, w->own->version) != 0)
+        snprintf(w->refused, sizeof w->refused, "rank %zu on %s is aureole %s, rank 0 is %s", rank,
+                 other.host, other.version, w->own->version);
+    else if (strcmp(other.isa, w->own->isa) != 0 || strcmp(other.rays, w->own->rays) != 0)
+        snprintf(w->refused, sizeof w->refused,
+                 "rank %zu on %s uses %s, rank 0 on %s %s, whose pictures differ in the last bits: set "
+                 "AUREOLE_ISA=avx2 for all",
+                 rank, other.host, strcmp(other.isa, w->own->isa) != 0 ? other.isa : other.rays, w->own->host,
+                 strcmp(other.isa, w->own->isa) != 0 ? w->own->isa : w->own->rays);
+    return AUR_OK;
+}
+
+static aur_result greet(aur_ranks *ranks, aur_error *error) {
+    greeting own = {0};
+    snprintf(own.version, sizeof own.version, "%s", aur_version());
+    snprintf(own.isa, sizeof own.isa, "%s", aur_isa_name(aur_isa_available()));
+    snprintf(own.rays, sizeof own.rays, "%s", aur_isa_name(aur_isa_of_rays()));
+    gethostname(own.host, sizeof own.host - 1);
+    welcome w = {.own = &own};
+    const aur_result result = aur_ranks_gather(ranks, sizeof own, &own, compare_greeting, &w, error);
+    if (result != AUR_OK)
+        return result;
+    aur_ranks_agree(sizeof w.refused, w.refused);
+    if (w.refused[0] == '\0')
+        return AUR_OK;
+    aur_ranks_fail(ranks, "%s", w.refused);
+    return aur_fail(error, AUR_ERROR_UNSUPPORTED, "%s", w.refused);
+}
+
+aur_result aur_ranks_join_by(const aur_carrier *carrier, aur_error *error) {
+    aur_ranks *const ranks = calloc(1, sizeof *ranks);
+    if (ranks == NULL)
+        return aur_fail_memory(error);
+    ranks->carrier = *carrier;
+    aur_ranks_put_back(ranks);
+    return greet(ranks, error);
+}
+
+aur_result aur_ranks_join(aur_error *error) {
+    aur_carrier carrier;
+    const size_t started = aur_ranks_started();
+    if (aur_ranks_here() != NULL || started < 2)
+        return AUR_OK;
+    const aur_result result = aur_carrier_find(&carrier, error);
+    if (result != AUR_OK)
+        return result;
+    if (carrier.count != started)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "started with %zu ranks by a launcher that this MPI does not know: it sees %zu",
+                        started, carrier.count);
+    return aur_ranks_join_by(&carrier, error);
+}
+
+/* Takes what still comes, so that nobody waits to send it, until every rank has left. */
+static int see_off(aur_ranks *ranks, int status, aur_error *error) {
+    const bool root = ranks->carrier.rank == 0;
+    bool over = false;
+    long pause = 0;
+    while (!over && !(root && ranks->left == ranks->carrier.count - 1)) {
+        aur_message message;
+        if (!aur_ranks_receive_any(ranks, AUR_ANY_RANK, &message)) {
+            aur_ranks_pause(&pause);
+            continue;
+        }
+        over = message.kind == AUR_MESSAGE_BYE;
+        const bool leaves = message.kind == AUR_MESSAGE_LEAVE;
+        ranks->left += leaves;
+        if (leaves && status == 0 && message.a != 0) {
+            status = (int)message.a;
+            aur_fail(error, AUR_ERROR_INTERNAL, "rank %u: %s", (unsigned)message.from,
+                     (const char *)message.data);
+        }
+        free(message.data);
+    }
+    for (size_t to = 1; root && to < ranks->carrier.count; ++to)
+        aur_ranks_send(ranks, to, AUR_MESSAGE_BYE, 0, 0, 0, NULL);
+    return status;
+}
+
+int aur_ranks_leave(int status, const char *said, aur_error *error) {
+    aur_ranks *const ranks = aur_ranks_set_aside();
+    if (ranks == NULL)
+        return status;
+    if (ranks->lost)
+        ranks->carrier.abort(ranks->carrier.state, status);
+    /* Who waits for rank 0 sees by the step whether all was done; where not, nobody may wait for this rank.
+     */
+    const size_t own = ranks->carrier.rank, count = ranks->carrier.count;
+    const bool failed = aur_ranks_have_failed(ranks);
+    aur_ranks_begin(ranks);
+    for (size_t to = 0; to < count; ++to)
+        if (to != own && (own == 0 || to == 0 || failed))
+            aur_ranks_send(ranks, to, AUR_MESSAGE_LEAVE, (uint64_t)status, 0, strlen(said), said);
+    status = see_off(ranks, status, error);
+    ranks->carrier.finish(ranks->carrier.state);
+    for (size_t i = 0; i < ranks->kept_count; ++i)
+        free(ranks->kept[i].data);
+    free(ranks->kept);
+    free(ranks);
+    return status;
+}
+
+static aur_result take_description(void *context, size_t rank, size_t size, const void *data) {
+    aur_rank_description *const all = context;
+    if (size != sizeof *all)
+        return AUR_ERROR_INTERNAL;
+    memcpy(&all[rank], data, sizeof *all);
+    return AUR_OK;
+}
+
+void aur_ranks_describe(aur_rank_description *descriptions) {
+    aur_ranks *const ranks = aur_ranks_here();
+    aur_rank_description own = {.cpu_seconds = aur_ranks_seconds(CLOCK_PROCESS_CPUTIME_ID)};
+    gethostname(own.host, sizeof own.host - 1);
+    if (ranks != NULL) {
+        own.sent = ranks->sent;
+        own.received = ranks->received;
+        own.talk_seconds = ranks->talk_seconds;
+    }
+    if (aur_ranks_rank() == 0)
+        descriptions[0] = own;
+    if (ranks != NULL)
+        aur_ranks_gather(ranks, sizeof own, &own, take_description, descriptions, NULL);
+}

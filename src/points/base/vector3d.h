@@ -1,0 +1,47 @@
+/* Vectors of three doubles, for points, weights and geometry that is computed once. Rays use
+ * points/base/vector.h.
+ */
+#pragma once
+
+#include <math.h>
+#include <stdbool.h>
+
+static inline double aur_dot3(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void aur_cross3(const double a[3], const double b[3], double c[3]) {
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline double aur_length3(const double a[3]) {
+    return sqrt(aur_dot3(a, a));
+}
+
+/* Divides `a` by its length and returns the length; a zero vector stays as it is. */
+static inline double aur_normalize3(double a[3]) {
+    const double length = aur_length3(a);
+    for (int d = 0; d < 3 && length > 0.0; ++d)
+        a[d] /= length;
+    return length;
+}
+
+/* Whether the squared length is 1 within 2e-6; false for NaN. */
+static inline bool aur_is_unit(const double a[3]) {
+    return fabs(aur_dot3(a, a) - 1.0) <= 2e-6;
+}
+
+/* Two unit vectors that make a right-handed frame with the unit vector `z` (Duff et al. 2017). */
+static inline void aur_frame3(const double z[3], double x[3], double y[3]) {
+    const double sign = copysign(1.0, z[2]);
+    const double a = -1.0 / (sign + z[2]);
+    const double b = z[0] * z[1] * a;
+    x[0] = 1.0 + sign * z[0] * z[0] * a;
+    x[1] = sign * b;
+    x[2] = -sign * z[0];
+    y[0] = b;
+    y[1] = sign + z[1] * z[1] * a;
+    y[2] = -z[1];
+}

@@ -1,0 +1,100 @@
+/* Sobol 1967 with the direction numbers of Joe and Kuo 2008, in natural order (not Gray code): the first two
+ * dimensions are a (0,2)-sequence, every aligned run of 2^m points is a (t,m,s)-net. Random access, n up to
+ * 2^53, any dimension: beyond the 1024 of the table the dimensions repeat, at an index that is shuffled
+ * within its net and Owen-scrambled, both by hashes that depend on the repeat (Burley 2020). n that is not a
+ * power of two leaves a net incomplete: a warning. Error O(log^d N / N). */
+#include "points/pointset/digits/digital.h"
+#include "points/pointset/generators/sobol_table.h"
+
+static unsigned degree_of(uint16_t polynomial) {
+    return 31u - (unsigned)__builtin_clz(polynomial);
+}
+
+static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
+    if (dimension == 0) {
+        for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
+            columns[k] = UINT64_C(1) << (63 - k);
+        return;
+    }
+    size_t start = 0;
+    for (size_t j = 0; j + 1 < dimension; ++j)
+        start += degree_of(aur_sobol_polynomials[j]);
+    const unsigned polynomial = aur_sobol_polynomials[dimension - 1];
+    const unsigned degree = degree_of((uint16_t)polynomial);
+    for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k) {
+        if (k < degree) {
+            columns[k] = (uint64_t)aur_sobol_numbers[start + k] << (63 - k);
+            continue;
+        }
+        columns[k] = columns[k - degree] ^ columns[k - degree] >> degree;
+        for (unsigned j = 1; j < degree; ++j)
+            if (polynomial >> (degree - j) & 1u)
+                columns[k] ^= columns[k - j];
+    }
+}
+
+/* Nested uniform scrambling of an index whose lowest bit counts last: blocks of 2^m go to blocks of 2^m. */
+static uint64_t shuffle_index(uint64_t index, uint64_t key) {
+    uint64_t x = aur_reverse64(index);
+    x ^= x * UINT64_C(0xa24baed4963ee406);
+    x += key;
+    x *= key >> 32 | 1u;
+    x ^= x * UINT64_C(0x9fb21c651e98df24);
+    x ^= x * UINT64_C(0xd1342543de82ef94);
+    return aur_reverse64(x);
+}
+
+/* Coordinates beyond the table. */
+static void fill_repeat(const aur_pointset *set, const uint64_t *columns, const aur_block *block, size_t d) {
+    const size_t dimension = block->first_dimension + d;
+    const uint64_t repeat = aur_hash2(UINT64_C(0x736f626f6c), dimension / AUR_SOBOL_DIMENSIONS);
+    const uint64_t fixed = aur_hash2(repeat, dimension);
+    const uint64_t key = aur_scramble_key(block->seed, dimension);
+    double *const out = block->data + d * block->coordinate_stride;
+    for (size_t i = 0; i < block->count; ++i) {
+        const uint64_t word =
+            aur_owen_word(aur_digital_word(columns, shuffle_index(block->first + i, repeat)), fixed);
+        out[i] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
+    }
+}
+
+static void fill(const aur_pointset *set, const aur_block *block) {
+    const size_t table_count =
+        block->first_dimension < AUR_SOBOL_DIMENSIONS ? AUR_SOBOL_DIMENSIONS - block->first_dimension : 0;
+    aur_block part = *block;
+    if (part.dimension_count > table_count)
+        part.dimension_count = table_count;
+    aur_fill_digital_block(set, &part, make_matrix);
+    for (size_t d = part.dimension_count; d < block->dimension_count; ++d) {
+        uint64_t columns[AUR_DIGITAL_COLUMNS];
+        const size_t dimension = (block->first_dimension + d) % AUR_SOBOL_DIMENSIONS;
+        fill_repeat(set, aur_digital_matrix_of(set, dimension, make_matrix, columns), block, d);
+    }
+}
+
+static bool fill_pairs(const aur_pointset *set, const aur_block *block) {
+    return aur_fill_digital_pairs(set, block, make_matrix);
+}
+
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
+    (void)keys;
+    const size_t count = set->dimension < AUR_SOBOL_DIMENSIONS ? set->dimension : AUR_SOBOL_DIMENSIONS;
+    return aur_prepare_digital(set, count, make_matrix, error);
+}
+
+const aur_square_set aur_set_sobol = {
+    .description = {.row = {.name = "sobol",
+                            .summary = "(t,s)-sequence in base 2 of any dimension",
+                            .source = "Sobol 1967; Joe, Kuo 2008; Burley 2020"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
+                    .dimensions = {1, SIZE_MAX},
+                    .maximum_size = UINT64_C(1) << 53,
+                    .best_sizes = AUR_SIZES_POWERS,
+                    .size_base = 2,
+                    .extensible = true,
+                    .binary_net = true},
+    .scramblings = AUR_SCRAMBLES_ALL,
+    .prepare = prepare,
+    .fill = fill,
+    .fill_pairs = fill_pairs,
+};

@@ -1,0 +1,89 @@
+#include "points/pointset/points.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "points/base/array.h"
+#include "points/base/error.h"
+#include "points/base/options.h"
+
+aur_result aur_points_create(aur_domain domain, uint64_t count, size_t dimension, bool weighted,
+                             aur_points **points, aur_error *error) {
+    size_t size = 0;
+    aur_points *const made = calloc(1, sizeof *made);
+    if (made != NULL && count <= SIZE_MAX / sizeof(double) &&
+        aur_size_product((size_t)count * sizeof(double), dimension, &size)) {
+        made->coordinates = malloc(size);
+        made->weights = weighted ? malloc((size_t)count * sizeof(double)) : NULL;
+    }
+    if (made == NULL || made->coordinates == NULL || (weighted && made->weights == NULL)) {
+        aur_points_destroy(made);
+        return aur_fail(error, AUR_ERROR_MEMORY, "%llu points do not fit into memory",
+                        (unsigned long long)count);
+    }
+    made->view = aur_points_view_of(domain, (size_t)count, dimension, made->coordinates);
+    made->view.weights = made->weights;
+    *points = made;
+    return AUR_OK;
+}
+
+void aur_points_destroy(aur_points *points) {
+    if (points == NULL)
+        return;
+    free(points->coordinates);
+    free(points->weights);
+    free(points->lines);
+    free(points);
+}
+
+const aur_points_view *aur_points_look(const aur_points *points) {
+    return &points->view;
+}
+
+bool aur_points_weighted(const aur_points_view *points) {
+    for (size_t i = 0; i < points->count && points->weights != NULL; ++i)
+        if (!(fabs(points->weights[i] * (double)points->count - 1.0) <= 1e-12))
+            return true;
+    return false;
+}
+
+bool aur_points_are_above(const aur_points_view *points) {
+    bool above = points->domain == AUR_DOMAIN_SPHERE || points->domain == AUR_DOMAIN_HEMISPHERE;
+    for (size_t i = 0; i < points->count && above; ++i)
+        above = aur_point_at(points, i)[2] >= 0.0;
+    return above || points->domain == AUR_DOMAIN_AXES;
+}
+
+void aur_points_warn_of_prefix(const aur_points_view *points, uint64_t used, const char *path,
+                               const aur_warnings *warnings) {
+    if (used < points->count)
+        aur_warn_at(
+            warnings, (aur_location){.file = path},
+            "only the first %llu of the file's %zu points are used: they need not be as even as a set "
+            "of that size",
+            (unsigned long long)used, points->count);
+}
+
+void aur_points_warn_of_guess(const aur_points_view *points, const char *path, const aur_warnings *warnings) {
+    if (points->guessed)
+        aur_warn_at(warnings, (aur_location){.file = path},
+                    "nothing in the file says what domain its points are of; they are taken for the %s: give "
+                    "the domain if they are of another (sphere, axes, cube)",
+                    aur_domain_name(points->domain));
+}
+
+aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *view, aur_error *error) {
+    *view = aur_points_view_of(AUR_DOMAIN_SQUARE, 0, 0, NULL);
+    const aur_result result = aur_options_read(given, sizeof *view, view, "aur_points_view", error);
+    if (result != AUR_OK)
+        return result;
+    if (aur_domain_name(view->domain) == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain %d", (int)view->domain);
+    if (view->stride == 0)
+        view->stride = view->dimension;
+    if (view->stride < view->dimension)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a stride of %zu is too short for points of %zu coordinates", view->stride,
+                        view->dimension);
+    return AUR_OK;
+}

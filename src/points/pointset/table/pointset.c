@@ -1,0 +1,123 @@
+/* The table of the sets of the square, and making one of them ready from its text. */
+#include <aureole/pointset.h>
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/names.h"
+#include "points/base/options.h"
+#include "points/base/text.h"
+#include "points/pointset/sets.h"
+
+static const aur_square_set *const sets[] = {
+#define ROW(name) &aur_set_##name,
+    AUR_SQUARE_SETS(ROW)
+#undef ROW
+};
+
+enum { SET_COUNT = sizeof sets / sizeof sets[0] };
+
+static const char *name_of(const void *table, size_t index) {
+    (void)table;
+    return sets[index]->description.row.name;
+}
+
+static aur_result find_set(const char *name, const aur_square_set **kind, aur_error *error) {
+    size_t index;
+    const aur_result result = aur_names_choose((aur_names){SET_COUNT, name_of, NULL}, "set of the square",
+                                               name, (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *kind = sets[index];
+    return result;
+}
+
+/* A size that is no power of its base leaves a net incomplete. */
+static void warn_incomplete_net(const aur_pointset *set) {
+    uint64_t rest = set->size;
+    while (set->net_base != 0 && rest % set->net_base == 0)
+        rest /= set->net_base;
+    if (set->net_base != 0 && rest != 1)
+        aur_warn_at(&set->options->warnings, (aur_location){0},
+                    "set '%s': %" PRIu64 " points are not a power of %" PRIu64 ", so the net is incomplete",
+                    set->kind->description.row.name, set->size, set->net_base);
+}
+
+static aur_result make(aur_pointset *set, aur_parameters *keys, aur_error *error) {
+    aur_result result = find_set(keys->plugin, &set->kind, error);
+    if (result == AUR_OK && set->dimension == 0)
+        set->dimension = set->kind->description.dimensions[1] < 2 ? 1 : 2;
+    if (result == AUR_OK)
+        result = aur_pointset_check(set, error);
+    if (result == AUR_OK)
+        set->net_base = set->kind->description.size_base;
+    if (result == AUR_OK && set->kind->prepare != NULL)
+        result = set->kind->prepare(set, keys, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(keys, error);
+    if (result == AUR_OK)
+        warn_incomplete_net(set);
+    return result;
+}
+
+/* What follows "file:" is a path, whatever characters it has. */
+static aur_result parse(const char *text, aur_parameters *keys, aur_error *error) {
+    static const char prefix[] = "file:";
+    if (strncmp(text, prefix, sizeof prefix - 1) != 0)
+        return aur_parameters_parse(keys, "set", text, error);
+    const aur_location nowhere = {0};
+    aur_result result = aur_parameters_init(keys, "set", "file", nowhere, error);
+    if (result != AUR_OK)
+        return result;
+    result =
+        aur_parameters_add_text(keys, AUR_PARAMETER_TEXT, "PATH", text + sizeof prefix - 1, nowhere, error);
+    if (result != AUR_OK)
+        aur_parameters_release(keys);
+    return result;
+}
+
+aur_result aur_pointset_create(const char *text, const aur_pointset_options *options, aur_pointset **pointset,
+                               aur_error *error) {
+    *pointset = NULL;
+    aur_pointset_options own = aur_pointset_options_default(0);
+    aur_parameters keys;
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_pointset_options", error);
+    if (result == AUR_OK)
+        result = parse(text, &keys, error);
+    if (result != AUR_OK)
+        return result;
+    aur_pointset *const set = calloc(1, sizeof *set);
+    if (set == NULL) {
+        aur_parameters_release(&keys);
+        return aur_fail_memory(error);
+    }
+    set->size = own.count;
+    set->dimension = own.dimension;
+    set->scramble = own.scramble;
+    set->seed = own.seed;
+    set->options = &own;
+    result = make(set, &keys, error);
+    set->options = NULL;
+    aur_parameters_release(&keys);
+    if (result != AUR_OK) {
+        aur_pointset_destroy(set);
+        return result;
+    }
+    *pointset = set;
+    return AUR_OK;
+}
+
+void aur_pointset_destroy(aur_pointset *pointset) {
+    if (pointset == NULL)
+        return;
+    free(pointset->data);
+    free(pointset);
+}
+
+size_t aur_pointset_dimension(const aur_pointset *pointset) {
+    return pointset->dimension;
+}
+
+uint64_t aur_pointset_size(const aur_pointset *pointset) {
+    return pointset->size;
+}

@@ -1,0 +1,157 @@
+#include <aureole/estimate.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "points/base/array.h"
+#include "points/base/error.h"
+#include "points/base/options.h"
+#include "points/base/parallel.h"
+#include "points/base/random.h"
+#include "points/quadrature/estimate/levels.h"
+
+enum { MOST_REPLICATES = 64, MOST_VALUES = 4096 };
+
+static aur_result check(const aur_estimate_options *o, aur_error *error) {
+    if (o->dimension < 1)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "points must have 1 dimension or more, not 0");
+    if (o->values < 1 || o->values > MOST_VALUES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the functional must have 1 to %d values, not %zu",
+                        MOST_VALUES, o->values);
+    if (!(o->absolute >= 0.0 && o->relative >= 0.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the errors wanted must be 0 or more, not %g and %g",
+                        o->absolute, o->relative);
+    if (!(o->confidence > 0.0 && o->confidence < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the confidence must be between 0 and 1 (exclusive), not %g", o->confidence);
+    if (o->replicates < 4 || o->replicates > MOST_REPLICATES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the replicates must be 4 to %d, not %zu", MOST_REPLICATES,
+                        o->replicates);
+    if (o->first < 1 || o->evaluations / o->replicates < o->first)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "%zu replicates of %zu points, at least 1 each, do not fit into %llu evaluations",
+                        o->replicates, o->first, (unsigned long long)o->evaluations);
+    return AUR_OK;
+}
+
+/* What an estimate works with. */
+typedef struct work {
+    const aur_estimate_options *options;
+    aur_functional functional;
+    void *user;
+    aur_levels levels;
+    double *values; /* of one level: replicates * options->values */
+    double *points, *weights;
+    size_t capacity; /* doubles of the points */
+    aur_estimate_report report;
+} work;
+
+static aur_result generate(const work *w, size_t count, size_t replicate, aur_error *error) {
+    const aur_estimate_options *const o = w->options;
+    const char *const set = o->set != NULL ? o->set : "sobol";
+    const aur_pointset_options plain = {.size = sizeof plain, .count = count, .dimension = o->dimension};
+    aur_pointset_options options = plain;
+    options.seed = aur_hash4(o->seed, 0x65737469, w->report.levels, replicate);
+    options.scramble = AUR_SCRAMBLE_OWEN;
+    aur_pointset *made = NULL;
+    aur_result result = aur_pointset_create(set, &options, &made, error);
+    if (result == AUR_ERROR_UNSUPPORTED) {
+        options.scramble = AUR_SCRAMBLE_SHIFT;
+        result = aur_pointset_create(set, &options, &made, error);
+    }
+    if (result == AUR_OK)
+        result = aur_pointset_points(made, 0, count, count * o->dimension, w->points, error);
+    aur_pointset_destroy(made);
+    return result;
+}
+
+static aur_result reserve(work *w, size_t count, aur_error *error) {
+    size_t wanted;
+    if (!aur_size_product(count, w->options->dimension + 1, &wanted) ||
+        !aur_array_reserve(&w->points, &w->capacity, wanted, sizeof *w->points))
+        return aur_fail_memory(error);
+    w->weights = w->points + count * w->options->dimension;
+    return AUR_OK;
+}
+
+static aur_result evaluate_level(work *w, size_t count, aur_error *error) {
+    const aur_estimate_options *const o = w->options;
+    aur_result result = reserve(w, count, error);
+    for (size_t r = 0; r < o->replicates && result == AUR_OK; ++r) {
+        double *const values = w->values + r * o->values;
+        result = generate(w, count, r, error);
+        if (result != AUR_OK)
+            return result;
+        for (size_t i = 0; i < count; ++i)
+            w->weights[i] = 1.0 / (double)count;
+        const aur_estimate_points points = {r, w->report.levels, count, o->dimension, w->points, w->weights};
+        result = w->functional(w->user, &points, values, error);
+        for (size_t v = 0; v < o->values && result == AUR_OK; ++v)
+            if (!isfinite(values[v]))
+                result = aur_fail(error, AUR_ERROR_ARGUMENT,
+                                  "value %zu of the functional is %g in randomisation %zu", v, values[v], r);
+        w->report.evaluations += count;
+        if (result == AUR_OK &&
+            aur_progress_stops(&o->progress, "estimating", w->report.evaluations, o->evaluations))
+            result = aur_fail(error, AUR_ERROR_CANCELLED, "estimating: cancelled");
+    }
+    if (result != AUR_OK)
+        return result;
+    aur_levels_add(&w->levels, count, w->values);
+    ++w->report.levels;
+    return AUR_OK;
+}
+
+static aur_estimated estimated(const work *w, size_t value) {
+    const aur_moments moments = aur_levels_moments(&w->levels, value);
+    return (aur_estimated){moments.mean, aur_moments_standard_error(&moments),
+                           aur_moments_interval(&moments, w->options->confidence)};
+}
+
+static aur_result estimate(work *w, aur_error *error) {
+    const aur_estimate_options *const o = w->options;
+    const bool to_error = o->absolute > 0.0 || o->relative > 0.0;
+    const uint64_t most = o->evaluations / o->replicates; /* of one replicate */
+    uint64_t used = 0;
+    for (uint64_t count = to_error ? o->first : most; used + count <= most; count *= 2) {
+        const aur_result result = evaluate_level(w, (size_t)count, error);
+        if (result != AUR_OK)
+            return result;
+        used += count;
+        const aur_estimated first = estimated(w, 0);
+        w->report.reached =
+            to_error && first.half_width <= fmax(o->absolute, o->relative * fabs(first.value));
+        if (w->report.reached)
+            return AUR_OK;
+    }
+    return AUR_OK;
+}
+
+aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,
+                        aur_estimated *results, aur_estimate_report *report, aur_error *error) {
+    aur_estimate_options own = aur_estimate_options_default(0, 0);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_estimate_options", error);
+    if (result == AUR_OK)
+        result = check(&own, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t count = own.replicates * own.values;
+    work w = {.options = &own, .functional = functional, .user = user, .report = {.size = sizeof w.report}};
+    w.values = calloc(2 * count, sizeof *w.values);
+    if (w.values == NULL)
+        return aur_fail_memory(error);
+    w.levels = (aur_levels){.replicates = own.replicates, .values = own.values, .sums = w.values + count};
+    result = estimate(&w, error);
+    for (size_t v = 0; v < own.values && result == AUR_OK; ++v)
+        results[v] = estimated(&w, v);
+    free(w.values);
+    free(w.points);
+    return result == AUR_OK && report != NULL
+               ? aur_description_write(&w.report, sizeof w.report, report, "aur_estimate_report", error)
+               : result;
+}
+
+aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
+                                     aur_error *error) {
+    const aur_estimate_options own = aur_estimate_options_default(dimension, values);
+    return aur_description_write(&own, sizeof own, options, "aur_estimate_options", error);
+}

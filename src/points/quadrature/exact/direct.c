@@ -1,0 +1,209 @@
+/* The Gram matrix of the rows of A, scaled by the roots of the weights, is factored row by row, degree after
+ * degree: what is found for one degree stays for the next. Rows that depend on those before are left out;
+ * where they contradict them, no weights are exact. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/parallel.h"
+#include "points/quadrature/exact/system.h"
+
+/* A row whose squared distance from those before is this part of its square depends on them. */
+static const double dependent = 1e-11;
+/* What a dependent row may miss by rounding. */
+static const double contradiction = 1e-7;
+
+typedef struct factor {
+    const aur_exact_system *system;
+    const aur_transform_kernel *kernel;
+    const aur_basis *basis;
+    size_t count, rank, capacity; /* points; rows that count, and how many there can be */
+    double *rows;                 /* of count each: row l^2 is order 0, l^2 + 2m - 1 and l^2 + 2m order m */
+    double *lower;                /* of capacity each */
+    double *diagonal;             /* reciprocals of the diagonal of the rows that count */
+    size_t *kept;                 /* their numbers */
+    double *y;                    /* the solution of lower y = right */
+    double *roots;                /* of the weights to stay near to */
+    double *gram, *right, *best;
+    double *storage;
+} factor;
+
+static double *row_at(const factor *f, size_t row) {
+    return f->rows + row * f->count;
+}
+
+/* The two rows of order m = l from those of l - 1. */
+static void fill_sectoral(const factor *f, size_t l) {
+    const aur_polar_points *const p = &f->system->points;
+    const bool first = l == 1;
+    const double *const cosine = row_at(f, first ? 0 : (l - 1) * (l - 1) + 2 * (l - 1) - 1);
+    const double *const sine = first ? NULL : row_at(f, (l - 1) * (l - 1) + 2 * (l - 1));
+    double *const new_cosine = row_at(f, l * l + 2 * l - 1), *const new_sine = row_at(f, l * l + 2 * l);
+    for (size_t i = 0; i < f->count; ++i) {
+        const double s = first ? 0.0 : sine[i], scale = f->basis->start[l] * p->sine[i];
+        new_cosine[i] = scale * (cosine[i] * p->cosine[i] - s * p->azimuth_sine[i]);
+        new_sine[i] = scale * (cosine[i] * p->azimuth_sine[i] + s * p->cosine[i]);
+    }
+}
+
+static void fill_degree(const factor *f, size_t l) {
+    if (l == 0) {
+        memcpy(f->rows, f->roots, f->count * sizeof *f->rows);
+        return;
+    }
+    for (size_t k = 0; k < 2 * l - 1; ++k) { /* the orders below l */
+        const size_t m = (k + 1) / 2;
+        const aur_basis_step step = f->basis->steps[aur_basis_at(f->basis->degree, m) + l - m];
+        const double *const z = f->system->points.z, *const here = row_at(f, (l - 1) * (l - 1) + k);
+        const double *const before = l > m + 1 ? row_at(f, (l - 2) * (l - 2) + k) : here;
+        const double part = l > m + 1 ? step.before : 0.0;
+        double *const next = row_at(f, l * l + k);
+        for (size_t i = 0; i < f->count; ++i)
+            next[i] = (step.scale * z[i] + step.shift) * here[i] - part * before[i];
+    }
+    fill_sectoral(f, l);
+}
+
+/* The column that row `pivot` makes, in the rows from `first` on. */
+static void fill_column(const factor *f, size_t column, size_t pivot, size_t first, size_t count) {
+    double *const lower = f->lower + first * f->capacity;
+    f->kernel->dots(f->count, row_at(f, pivot), count, f->count, row_at(f, first), 1, f->gram);
+    f->kernel->dots(column, f->lower + pivot * f->capacity, count, f->capacity, lower, f->capacity,
+                    lower + column);
+    for (size_t r = 0; r < count; ++r) {
+        double *const entry = lower + r * f->capacity + column;
+        *entry = (f->gram[r] - *entry) * f->diagonal[column];
+    }
+}
+
+static double dot(const factor *f, size_t count, const double *a, const double *b) {
+    double sum;
+    f->kernel->dots(count, a, 1, 0, b, 1, &sum);
+    return sum;
+}
+
+/* Takes the rows of degree l in. False where they contradict those before. */
+static bool add_degree(factor *f, size_t l) {
+    fill_degree(f, l);
+    const size_t first = l * l, last = (l + 1) * (l + 1);
+    for (size_t column = 0; column < f->rank; ++column)
+        fill_column(f, column, f->kept[column], first, last - first);
+    for (size_t r = first; r < last; ++r) {
+        const double *const row = row_at(f, r);
+        double *const lower = f->lower + r * f->capacity;
+        const double square = dot(f, f->count, row, row);
+        const double rest = square - dot(f, f->rank, lower, lower);
+        const double right = (r == 0 ? 1.0 : 0.0) - dot(f, f->count, row, f->roots);
+        const double missing = right - dot(f, f->rank, lower, f->y);
+        if (rest <= dependent * square || f->rank == f->capacity) {
+            if (fabs(missing) > contradiction)
+                return false;
+            continue;
+        }
+        f->diagonal[f->rank] = 1.0 / sqrt(rest);
+        f->y[f->rank] = missing * f->diagonal[f->rank];
+        f->kept[f->rank] = r;
+        if (r + 1 < last)
+            fill_column(f, f->rank, r, r + 1, last - r - 1);
+        ++f->rank;
+    }
+    return true;
+}
+
+/* Adds to the weights what the solution y of the first `rank` rows gives; y is overwritten. */
+static void add_solution(const factor *f, size_t rank, double *y, double *weights) {
+    for (size_t k = rank; k-- > 0;) {
+        const double *const lower = f->lower + f->kept[k] * f->capacity;
+        const double value = y[k] * f->diagonal[k];
+        y[k] = value;
+        for (size_t j = 0; j < k; ++j)
+            y[j] -= value * lower[j];
+    }
+    memset(f->gram, 0, f->count * sizeof *f->gram);
+    for (size_t k = 0; k < rank; ++k) {
+        const double *const row = row_at(f, f->kept[k]), value = y[k];
+        for (size_t i = 0; i < f->count; ++i)
+            f->gram[i] += value * row[i];
+    }
+    for (size_t i = 0; i < f->count; ++i)
+        weights[i] += f->roots[i] * f->gram[i];
+}
+
+/* The same for what the weights still miss. */
+static void refine(const factor *f, size_t rank, double *weights) {
+    double *const part = f->best;
+    for (size_t i = 0; i < f->count; ++i)
+        part[i] = f->roots[i] > 0.0 ? weights[i] / f->roots[i] : 0.0;
+    for (size_t k = 0; k < rank; ++k) {
+        const double *const lower = f->lower + f->kept[k] * f->capacity;
+        const double right = (f->kept[k] == 0 ? 1.0 : 0.0) - dot(f, f->count, row_at(f, f->kept[k]), part);
+        f->right[k] = (right - dot(f, k, lower, f->right)) * f->diagonal[k];
+    }
+    add_solution(f, rank, f->right, weights);
+}
+
+static bool allocate(factor *f, size_t degree, aur_error *error) {
+    const size_t row_count = (degree + 1) * (degree + 1);
+    const size_t doubles = row_count * (f->count + f->capacity) + 4 * f->capacity + 3 * f->count + row_count;
+    f->storage = malloc(doubles * sizeof *f->storage);
+    if (f->storage == NULL) {
+        aur_fail_memory(error);
+        return false;
+    }
+    f->rows = f->storage;
+    f->lower = f->rows + row_count * f->count;
+    f->diagonal = f->lower + row_count * f->capacity;
+    f->y = f->diagonal + f->capacity;
+    f->right = f->y + f->capacity;
+    f->kept = (size_t *)(void *)(f->right + f->capacity);
+    f->roots = f->right + 2 * f->capacity;
+    f->best = f->roots + f->count;
+    f->gram = f->best + f->count; /* of a degree's rows, or of the points */
+    for (size_t i = 0; i < f->count; ++i)
+        f->roots[i] = sqrt(f->system->near[i]);
+    return true;
+}
+
+static aur_result solve(factor *f, size_t degree, bool search, double *weights, aur_exact_found *found,
+                        aur_error *error) {
+    size_t rank = 0;
+    bool exact = true;
+    for (size_t l = 0; l <= degree && exact; ++l) {
+        exact = add_degree(f, l);
+        if (!exact || (!search && l < degree))
+            continue;
+        if (aur_exact_factoring_stops(f->system, &f->system->progress, l, degree, search))
+            return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
+        memcpy(f->right, f->y, f->rank * sizeof *f->y);
+        memcpy(f->best, f->system->near, f->count * sizeof *f->best);
+        add_solution(f, f->rank, f->right, f->best);
+        if (aur_exact_positive(f->system, f->best, found) || !search) {
+            memcpy(weights, f->best, f->count * sizeof *weights);
+            found->degree = l;
+            found->exact = true;
+            rank = f->rank;
+        }
+    }
+    for (int pass = 0; pass < 2 && found->exact; ++pass)
+        refine(f, rank, weights);
+    return AUR_OK;
+}
+
+aur_result aur_exact_direct(const aur_exact_system *system, size_t degree, bool search, double *weights,
+                            aur_exact_found *found, aur_error *error) {
+    aur_basis basis;
+    aur_result result = aur_basis_create(degree, system->lowest, system->exponent, &basis, error);
+    if (result != AUR_OK)
+        return result;
+    factor f = {.system = system,
+                .kernel = aur_transform_kernel_best(),
+                .basis = &basis,
+                .count = system->points.count,
+                .capacity = system->places};
+    result = AUR_ERROR_MEMORY;
+    if (allocate(&f, degree, error))
+        result = solve(&f, degree, search, weights, found, error);
+    free(f.storage);
+    aur_basis_release(&basis);
+    return result;
+}

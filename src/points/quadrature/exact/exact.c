@@ -1,0 +1,361 @@
+#include <aureole/exact.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/options.h"
+#include "points/base/vector.h"
+#include "points/quadrature/check.h"
+#include "points/quadrature/exact/measured.h"
+
+/* Points this far below the rim still belong to a domain: rounding. */
+static const double rim = 1e-9;
+
+static aur_result check_options(aur_exact_options *o, double *lowest, aur_error *error) {
+    const bool sphere = o->domain == AUR_DOMAIN_SPHERE;
+    if (!sphere && o->domain != AUR_DOMAIN_HEMISPHERE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "exact weights are for the sphere, the hemisphere, caps and axes, not for the domain "
+                        "'%s'",
+                        aur_domain_name(o->domain));
+    const double most = sphere ? 180.0 : 90.0;
+    const bool wide = o->cap_degrees > 90.0 && o->cap_degrees <= 180.0;
+    if (!(o->cap_degrees >= 0.0 && o->cap_degrees <= most))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the cap must be between 0 and %g degrees, not %g%s", most,
+                        o->cap_degrees, wide ? ": wider ones are for the domain sphere" : "");
+    if (o->cap_degrees == 0.0)
+        o->cap_degrees = most;
+    const aur_result result = aur_lobe_check(&o->lobe, error);
+    if (result != AUR_OK)
+        return result;
+    const bool ggx = o->lobe.kind == AUR_LOBE_GGX;
+    if (o->lobe.exponent > AUR_EXACT_EXPONENT_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the exponent of a lobe of exact weights must be between 0 and %g, not %g",
+                        AUR_EXACT_EXPONENT_MAX, o->lobe.exponent);
+    if ((ggx || o->lobe.exponent > 0.0) && o->cap_degrees != 90.0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe is for the whole hemisphere");
+    const size_t most_degree = ggx ? AUR_EXACT_GGX_DEGREE_MAX : AUR_BASIS_DEGREE_MAX;
+    if (o->degree != AUR_DEGREE_LARGEST && o->degree > most_degree)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %zu, not %zu", most_degree,
+                        o->degree);
+    *lowest = o->cap_degrees == 180.0  ? -1.0
+              : o->cap_degrees == 90.0 ? 0.0
+                                       : cos(o->cap_degrees / 180.0 * AUR_PI);
+    return AUR_OK;
+}
+
+static int compare(const void *a, const void *b) {
+    const double *const x = *(const double *const *)a, *const y = *(const double *const *)b;
+    for (int d = 0; d < 3; ++d)
+        if (x[d] != y[d])
+            return x[d] < y[d] ? -1 : 1;
+    return 0;
+}
+
+/* Below the surface a GGX lobe is 0. */
+static bool hidden(const aur_exact_options *o, const double *direction) {
+    return o->lobe.kind == AUR_LOBE_GGX && direction[2] < 0.0;
+}
+
+/* Fills near[count], unless they are given equal ones which points at one place share, and returns the number
+ * of different places of points that have weight. */
+static size_t share(size_t count, const double *xyz, const aur_exact_options *o, const double **order,
+                    double *near) {
+    const double *const given = o->near;
+    size_t used = 0, places = 0;
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        if (!hidden(o, xyz + 3 * i) && (given == NULL || given[i] > 0.0))
+            order[used++] = xyz + 3 * i;
+    qsort(order, used, sizeof *order, compare);
+    for (size_t first = 0, next; first < used; first = next) {
+        for (next = first + 1; next < used && compare(&order[first], &order[next]) == 0; ++next) {
+        }
+        for (size_t k = first; k < next; ++k)
+            near[(size_t)(order[k] - xyz) / 3] = 1.0 / (double)(next - first);
+        ++places;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        near[i] = given != NULL && !hidden(o, xyz + 3 * i) ? given[i] : near[i];
+        sum += near[i];
+    }
+    for (size_t i = 0; i < count; ++i)
+        near[i] /= sum;
+    return places;
+}
+
+static aur_result check_points(size_t count, const double *xyz, const aur_exact_options *o, double lowest,
+                               aur_error *error) {
+    if (count == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "weights need at least one point");
+    const aur_result result = aur_check_directions(count, xyz, error);
+    bool some = false;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+        const bool below = hidden(o, xyz + 3 * i);
+        if (xyz[3 * i + 2] < lowest - rim && !below)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu (z = %g) lies outside the %s", i + 1,
+                            xyz[3 * i + 2], o->cap_degrees == 90.0 ? "hemisphere" : "cap");
+        if (o->near != NULL && !(o->near[i] >= 0.0 && o->near[i] < INFINITY))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g",
+                            i + 1, o->near[i]);
+        some = some || (!below && (o->near == NULL || o->near[i] > 0.0));
+    }
+    if (result == AUR_OK && !some)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        o->near != NULL ? "all weights to stay near to are 0"
+                                        : "no point lies above the surface");
+    return result;
+}
+
+static size_t least_of(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+/* The degrees that so many places can have: a polynomial of degree k that vanishes at all of them exists for
+ * (k+1)^2 > places, and its square has a positive integral. */
+static size_t degree_bound(size_t places) {
+    return least_of(2 * (size_t)sqrt((double)places) - 1, AUR_BASIS_DEGREE_MAX);
+}
+
+/* A search for the largest degree by solving for one after the other. */
+typedef struct ladder {
+    const aur_exact_system *system;
+    double *best, *trial;
+    aur_exact_found *found;
+    aur_error *error;
+    aur_result result;
+    aur_progress progress;
+    size_t tried, degree;  /* how many degrees; the present one */
+    double done, reported; /* work of those before: steps, each as long as there are functions; the share */
+} ladder;
+
+/* Searches take some seven degrees of some ninety steps each. */
+static int report(void *user, const char *what, uint64_t done, uint64_t total) {
+    enum { USUAL_TRIALS = 6, USUAL_STEPS = 90, WHOLE = 10000 };
+    ladder *const l = user;
+    const double functions = (double)((l->degree + 1) * (l->degree + 1)), steps = (double)done;
+    const double now = l->done + functions * steps,
+                 trials = l->tried < USUAL_TRIALS ? (double)(USUAL_TRIALS - l->tried) : 0.0,
+                 left = functions * (fmax(USUAL_STEPS - steps, 0.25 * USUAL_STEPS) + trials * USUAL_STEPS);
+    (void)total;
+    l->reported = fmax(l->reported, l->degree > 0 ? now / (now + left) : 0.0);
+    return l->progress.function(l->progress.user, what, (uint64_t)(WHOLE * l->reported), WHOLE);
+}
+
+static bool climbs(ladder *l, size_t degree) {
+    aur_exact_found found;
+    l->degree = degree;
+    if (l->result == AUR_OK)
+        l->result = aur_exact_iterate(l->system, degree, AUR_EXACT_SEARCH_STEPS, l->trial, &found, l->error);
+    if (l->result == AUR_OK && degree > 0) {
+        l->done += (double)((degree + 1) * (degree + 1)) * (double)found.iterations;
+        ++l->tried;
+    }
+    if (l->result != AUR_OK || !found.exact || found.least <= 0.0)
+        return false;
+    double *const trial = l->trial;
+    l->trial = l->best;
+    l->best = trial;
+    *l->found = found;
+    return true;
+}
+
+/* Bisection from a first guess, and two degrees more: weights next to the limit need not be positive for all
+ * lower degrees. */
+static aur_result search(const aur_exact_system *system, size_t bound, double *weights,
+                         aur_exact_found *found, aur_error *error) {
+    const size_t count = system->points.count;
+    double *const storage = malloc(2 * count * sizeof *storage);
+    if (storage == NULL)
+        return aur_fail_memory(error);
+    ladder l = {.best = storage,
+                .trial = storage + count,
+                .found = found,
+                .error = error,
+                .progress = system->progress};
+    aur_exact_system reporting = *system;
+    if (system->progress.function != NULL)
+        reporting.progress = (aur_progress){report, &l};
+    l.system = &reporting;
+    climbs(&l, 0);
+    size_t low = 0, high = bound + 1, next = (size_t)sqrt((double)system->places / 1.3);
+    for (size_t step = 1; low + 1 < high && l.result == AUR_OK;) {
+        if (next >= high || next <= low)
+            next = low + (high - low) / 2;
+        if (climbs(&l, next)) {
+            low = next;
+            next = low + step; /* sets differ little above the guess: small steps first */
+            step *= 2;
+        } else {
+            high = next;
+            next = low + (high - low) / 2;
+        }
+    }
+    for (size_t more = low + 2; more <= low + 3 && more <= bound && l.result == AUR_OK; ++more)
+        climbs(&l, more);
+    memcpy(weights, l.best, count * sizeof *weights);
+    free(storage);
+    return l.result;
+}
+
+static aur_result judge(const aur_exact_options *o, const aur_exact_system *system,
+                        const aur_exact_found *found, aur_error *error) {
+    const size_t count = system->points.count;
+    if (!found->exact)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "no weights of these %zu points at %zu places were found that integrate all %zu polynomials of "
+            "degree %zu to %g: ask for the largest degree that has some",
+            count, system->places, (found->degree + 1) * (found->degree + 1), found->degree,
+            AUR_EXACT_TOLERANCE);
+    if (found->least <= 0.0 && !o->negative)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
+                        "the largest degree with positive ones",
+                        found->degree, found->least * (double)count);
+    return AUR_OK;
+}
+
+/* By the factorisation; where rounding hid that a degree has no exact weights, by the next lower one. */
+static aur_result factor(const aur_exact_system *system, size_t degree, bool search, double *weights,
+                         aur_exact_found *found, aur_error *error) {
+    for (;;) {
+        aur_result result = aur_exact_direct(system, degree, search, weights, found, error);
+        if (result != AUR_OK || !found->exact)
+            return result;
+        result = aur_exact_residual(system, found->degree, weights, found, error);
+        found->exact = found->residual <= AUR_EXACT_TOLERANCE;
+        if (result != AUR_OK || found->exact || !search || found->degree == 0)
+            return result;
+        degree = found->degree - 1;
+    }
+}
+
+/* Most searches end at low degrees, which need fewer nodes. */
+static aur_result weigh_ggx(const aur_exact_options *o, const aur_exact_system *system, const double *xyz,
+                            size_t degree, bool search, double *weights, aur_exact_found *found,
+                            aur_error *error) {
+    for (size_t first = 16;; first *= 2) {
+        const size_t last = search ? least_of(degree, first) : degree;
+        aur_exact_nodes nodes;
+        aur_result result = aur_exact_ggx_nodes(&o->lobe, last, &nodes, error);
+        if (result != AUR_OK)
+            return result;
+        result = aur_exact_measured(system, xyz, &nodes, last, search, weights, found, error);
+        free(nodes.xyz);
+        if (result != AUR_OK || last == degree || found->degree + AUR_EXACT_PATIENCE < last)
+            return result;
+    }
+}
+
+static aur_result solve(const aur_exact_options *o, const aur_exact_system *system, const double *xyz,
+                        double *weights, aur_exact_report *report, aur_error *error) {
+    const bool largest = o->degree == AUR_DEGREE_LARGEST;
+    const size_t bound = degree_bound(system->places);
+    aur_exact_found found = {.degree = largest ? 0 : o->degree};
+    aur_result result = AUR_OK;
+    if (!largest && o->degree > bound)
+        return judge(o, system, &found, error);
+    if (o->lobe.kind == AUR_LOBE_GGX)
+        result = weigh_ggx(o, system, xyz, largest ? least_of(bound, AUR_EXACT_GGX_DEGREE_MAX) : o->degree,
+                           largest, weights, &found, error);
+    else if (system->points.count <= AUR_EXACT_DIRECT_POINTS)
+        result = factor(system, largest ? bound : o->degree, largest, weights, &found, error);
+    else if (largest)
+        result = search(system, bound, weights, &found, error);
+    else
+        result = aur_exact_iterate(system, o->degree, AUR_EXACT_STEPS, weights, &found, error);
+    if (result == AUR_OK && found.exact)
+        aur_exact_positive(system, weights, &found);
+    if (result == AUR_OK)
+        result = judge(o, system, &found, error);
+    size_t hidden_count = 0;
+    for (size_t i = 0; i < system->points.count; ++i)
+        hidden_count += hidden(o, xyz + 3 * i);
+    const size_t weighed = system->points.count - hidden_count;
+    const double count = (double)weighed;
+    if (report != NULL)
+        *report = (aur_exact_report){.degree = found.degree,
+                                     .residual = found.residual,
+                                     .least = found.least * count,
+                                     .largest = found.largest * count,
+                                     .points = weighed,
+                                     .places = system->places,
+                                     .iterations = found.iterations};
+    return result;
+}
+
+/* Both ends of each axis have the half of its weight: with them odd polynomials integrate to 0, as they must.
+ */
+static aur_result weigh_axes(size_t count, const double *xyz, const aur_exact_options *options,
+                             double *weights, aur_exact_report *report, aur_error *error) {
+    double *const ends = count <= SIZE_MAX / 64 ? malloc((10 * count + 1) * sizeof *ends) : NULL;
+    if (ends == NULL)
+        return aur_fail_memory(error);
+    double *const found = ends + 6 * count, *const near = found + 2 * count;
+    for (size_t i = 0; i < 3 * count; ++i)
+        ends[3 * count + i] = -(ends[i] = xyz[i]);
+    for (size_t i = 0; i < count && options->near != NULL; ++i)
+        near[count + i] = near[i] = options->near[i];
+    aur_exact_options whole = *options;
+    whole.domain = AUR_DOMAIN_SPHERE;
+    whole.near = options->near != NULL ? near : NULL;
+    aur_exact_report of_ends;
+    const aur_result result = aur_weights_exact(2 * count, ends, &whole, 2 * count, found, &of_ends, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        weights[i] = found[i] + found[count + i];
+    of_ends.points /= 2;
+    of_ends.places /= 2;
+    if (result == AUR_OK && report != NULL)
+        *report = of_ends;
+    free(ends);
+    return result;
+}
+
+aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
+                             size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
+    aur_exact_options own = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    double lowest = -1.0;
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
+    const bool axes = own.domain == AUR_DOMAIN_AXES;
+    if (result == AUR_OK && axes && own.cap_degrees != 0.0)
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "a cap is for the sphere and the hemisphere");
+    if (result == AUR_OK && axes)
+        result = aur_check_capacity(count, capacity, error);
+    if (result == AUR_OK && axes)
+        return weigh_axes(count, xyz, &own, weights, report, error);
+    if (result == AUR_OK)
+        result = check_options(&own, &lowest, error);
+    if (result == AUR_OK)
+        result = check_points(count, xyz, &own, lowest, error);
+    if (result == AUR_OK)
+        result = aur_check_capacity(count, capacity, error);
+    if (result != AUR_OK)
+        return result;
+    double *const storage = calloc(6 * count, sizeof *storage);
+    const double **const order = malloc(count * sizeof *order);
+    if (storage == NULL || order == NULL) {
+        result = aur_fail_memory(error);
+    } else {
+        double *const near = storage + 4 * count, *const found = near + count;
+        const aur_exact_system system = {.points = aur_polar_points_make(count, xyz, storage),
+                                         .places = share(count, xyz, &own, order, near),
+                                         .near = near,
+                                         .lowest = lowest,
+                                         .exponent = own.lobe.exponent,
+                                         .threads = own.threads,
+                                         .progress = own.progress};
+        result = solve(&own, &system, xyz, found, report, error);
+        if (result == AUR_OK)
+            memcpy(weights, found, count * sizeof *weights);
+    }
+    free(storage);
+    free(order);
+    return result;
+}
+
+aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error) {
+    const aur_exact_options own = aur_exact_options_default(domain);
+    return aur_description_write(&own, sizeof own, options, "aur_exact_options", error);
+}

@@ -1,0 +1,51 @@
+/* The weights nearest to given ones that integrate all polynomials to a degree exactly: A w = b, where a row
+ * of A has one function of the basis at all points and b is 1 for the first function and 0 for the others,
+ * and the sum of (w - near)^2 / near is least. */
+#pragma once
+
+#include "points/quadrature/exact/transform.h"
+
+typedef struct aur_exact_system {
+    aur_polar_points points;
+    const double *near; /* of sum 1, not negative; points of weight 0 keep it */
+    size_t places;      /* different ones, of points that have weight */
+    double lowest, exponent;
+    size_t threads;
+    aur_progress progress;
+} aur_exact_system;
+
+/* Weights are exact when no function is integrated worse than this, the function's root mean square being 1:
+ * far above rounding, far below what a missing degree costs. */
+#define AUR_EXACT_TOLERANCE 1e-10
+
+typedef struct aur_exact_found {
+    bool exact;    /* there are such weights; else nothing else is set but `degree` and `residual` */
+    size_t degree; /* asked for, or the largest with positive weights */
+    double least, largest;
+    double residual;
+    size_t iterations; /* 0: by a factorisation */
+} aur_exact_found;
+
+/* Whether every point that has weight keeps a positive one; fills least and largest. */
+bool aur_exact_positive(const aur_exact_system *system, const double *weights, aur_exact_found *found);
+
+/* found->residual: the largest |A w - b|. */
+aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, const double *weights,
+                              aur_exact_found *found, aur_error *error);
+
+/* Reports that a factorisation comes to a degree, in the time of which, its cube, the degrees before count; a
+ * search ends where there are as many functions as places. True: it is to stop. */
+bool aur_exact_factoring_stops(const aur_exact_system *system, const aur_progress *progress, size_t at,
+                               size_t degree, bool search);
+
+/* By a factorisation that grows degree by degree, so that every degree is tried: O(points * degree^4) time.
+ * `search`: `degree` is only the last one to try. */
+enum { AUR_EXACT_DIRECT_POINTS = 2048 };
+aur_result aur_exact_direct(const aur_exact_system *system, size_t degree, bool search, double *weights,
+                            aur_exact_found *found, aur_error *error);
+
+/* By at most so many steps of conjugate gradients, of O(points + degree^3) on the sphere and O(points *
+ * degree^2) elsewhere. */
+enum { AUR_EXACT_STEPS = 600, AUR_EXACT_SEARCH_STEPS = 150 };
+aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, size_t steps, double *weights,
+                             aur_exact_found *found, aur_error *error);

@@ -1,0 +1,83 @@
+/* The inside of a pair of patterns, and solving at one angle for many turns. The patterns, their blocks of
+ * the matrix and their own z are made once; what depends on the angle is in an aur_oswa_angle. */
+#pragma once
+
+#include <stdbool.h>
+
+#include "points/quadrature/potential/potential.h"
+#include "points/quadrature/potential/potential_table.h"
+
+/* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
+struct aur_oswa {
+    /* Its set and its weights are those below; smoothness is filled in. */
+    aur_oswa_options options;
+    aur_weights_options weights;
+    char *set;
+    size_t count[2];
+    aur_lobe lobe[2];        /* that the weights are for */
+    aur_lobe sampled[2];     /* that the points follow */
+    double *uniform[2];      /* even directions of the hemisphere; owns what the next three point to */
+    double *pattern[2];      /* warped, about +z; GGX: unused. Of a pattern without samples all is NULL */
+    double *kernel[2];       /* count * count, lower triangle: the constant blocks; GGX: [1] is NULL */
+    double *own[2];          /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
+    aur_potential *whole[2]; /* of each lobe about +z, unclipped; GGX: [1] is NULL */
+    aur_potential_table *published_z; /* NULL: z is exact */
+};
+
+/* Checks the caller's options and copies them, with all defaults filled in, to *own, whose set is the
+ * caller's and whose weights are *weights. */
+aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
+                                 aur_weights_options *weights, aur_error *error);
+
+/* Without `solves` the patterns alone, which is all that a table of weights needs to be read. */
+aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur_oswa **oswa,
+                               aur_error *error);
+
+/* How many lobes weights are for: the first one too only where it has samples. */
+static inline size_t aur_oswa_lobes(const aur_oswa *oswa) {
+    return oswa->count[0] > 0 ? 2 : 1;
+}
+
+/* What is looked at: the angle of the view, and how rough a GGX lobe is (else of no meaning). */
+typedef struct aur_oswa_view {
+    double radians, alpha;
+} aur_oswa_view;
+
+/* The angle, with the roughness of the options. */
+aur_oswa_view aur_oswa_view_at(const aur_oswa *oswa, double radians);
+
+/* What depends on the view but not on the turns. */
+typedef struct aur_oswa_angle {
+    aur_oswa_view view;
+    double mass;              /* of the mirror lobe */
+    aur_lune lune;            /* clipped COSINE_POWER */
+    aur_potential *potential; /* GGX */
+} aur_oswa_angle;
+
+aur_result aur_oswa_angle_init(const aur_oswa *oswa, aur_oswa_view view, aur_oswa_angle *angle,
+                               aur_error *error);
+void aur_oswa_angle_release(aur_oswa_angle *angle);
+
+/* Whether samples below the surface take no part. */
+bool aur_oswa_hides(const aur_oswa *oswa);
+
+/* Which samples are above the surface, where that matters; xyz[3 * size] are their places. */
+void aur_oswa_visible(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], double *xyz,
+                      bool *visible);
+
+/* aur_oswa_points for any roughness. */
+aur_result aur_oswa_place(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], bool mirrored,
+                          size_t capacity, double *xyz, aur_error *error);
+
+/* The height above the surface of sample `index` of the pattern about the mirror direction. */
+double aur_oswa_height(const aur_oswa *oswa, aur_oswa_view view, double turns, size_t index);
+
+/* Doubles of scratch memory that a solve needs. */
+size_t aur_oswa_scratch(const aur_oswa *oswa);
+/* The weights of each lobe with only the samples `taken`, which must be visible but for rounding; the others
+ * get 0. */
+aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
+                             const bool *taken, double *scratch, double *weights, aur_error *error);
+
+/* A hash of the patterns: two programs that make a set differently do not share a table. */
+uint64_t aur_oswa_hash(const aur_oswa *oswa);

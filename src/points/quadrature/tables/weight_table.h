@@ -1,0 +1,100 @@
+/* The inside of a table of OSWA weights, and what its builder, its files and renderers that keep its rows in
+ * another layout need. A table does not change once it is built or read. */
+#pragma once
+
+#include "points/base/vector.h"
+#include "points/quadrature/tables/oswa.h"
+
+/* Of `count` numbers of two rows, (1 - part) times the first and `part` times the second. */
+typedef void aur_weight_blend(size_t count, const float *below, const float *above, float part,
+                              float *target);
+aur_weight_blend aur_weight_blend_portable, aur_weight_blend_avx2, aur_weight_blend_avx512;
+
+/* A row holds the weights of all lobes at one angle. Each rotation has rows of its own, at each roughness
+ * anew: a *slot* is one of these pairs, numbered roughness by roughness. Where samples can be hidden, the
+ * intervals between angles are cut into pieces where a sample crosses the horizon, so that within a piece the
+ * same samples take part and the weights are smooth; the two ends of a piece then have rows of their own.
+ * Otherwise neighbouring intervals share one. */
+struct aur_weight_table {
+    aur_oswa *oswa; /* the patterns */
+    size_t angle_count, roughness_count, rotation_count, size;
+    bool apart;
+    size_t piece_count;
+    /* Apart: the first piece of each interval, slot by slot, and one past the last. */
+    uint32_t *first;
+    float *start;   /* apart: the angle where each piece begins */
+    float *weights; /* row, lobe, sample */
+    /* Of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply. A row of them
+     * for each roughness. */
+    float *masses;
+    aur_weight_blend *blend; /* for the instructions of this machine */
+};
+
+enum { AUR_WEIGHT_TABLE_MASS_STEPS = 8 };
+
+static inline size_t aur_weight_table_mass_count(const aur_weight_table *table) {
+    return (table->angle_count - 1) * AUR_WEIGHT_TABLE_MASS_STEPS + 1;
+}
+
+static inline size_t aur_weight_table_slots(const aur_weight_table *table) {
+    return table->roughness_count * table->rotation_count;
+}
+
+static inline size_t aur_weight_table_intervals(const aur_weight_table *table) {
+    return aur_weight_table_slots(table) * (table->angle_count - 1);
+}
+
+/* The numbers of a row. */
+static inline size_t aur_weight_table_width(const aur_weight_table *table) {
+    return aur_oswa_lobes(table->oswa) * table->size;
+}
+
+/* The view at an angle and at a roughness of the table. */
+aur_oswa_view aur_weight_table_view(const aur_weight_table *table, size_t roughness, double radians);
+
+static inline double aur_weight_table_angle(const aur_weight_table *table, size_t index) {
+    return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
+}
+
+/* The weights of the first lobe, where it has samples, and, behind them, of the mirror lobe. */
+static inline float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
+    return table->weights + row * aur_weight_table_width(table);
+}
+
+/* The row r at the lower end of where an angle (clamped to [0, pi/2]) lies; the weights there are (1 - *part)
+ * times row r plus *part times row r + 1. `slot` must be in the table. Exported for the renderer, but no
+ * part of the interface. */
+AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
+                                       float *part);
+
+/* A table with patterns but neither pieces nor weights yet; `solves` as for aur_oswa_create_for. */
+aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                   bool solves, aur_weight_table **table, aur_error *error);
+/* Whether the machine has memory for the weights, once piece_count is known, and taking it. */
+aur_result aur_weight_table_check_memory(const aur_weight_table *table, aur_error *error);
+aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error);
+
+/* Reads a table from the bytes of a file: data[size] is a zero, and lines of the header are cut there. `name`
+ * is for messages. On failure *table is NULL. */
+aur_result aur_weight_table_parse(const char *name, size_t size, char *data, const aur_oswa_options *expected,
+                                  aur_weight_table **table, aur_error *error);
+
+/* The bytes of the file of a table, from malloc. Errors: as aur_weight_table_save. */
+aur_result aur_weight_table_print(const aur_weight_table *table, size_t *size, void **data, aur_error *error);
+
+enum { AUR_WEIGHT_TABLE_KEY_CAPACITY = 4096 };
+
+/* All that a table follows from; all fields of the grid count. Errors: ARGUMENT. */
+aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                uint64_t build, char key[AUR_WEIGHT_TABLE_KEY_CAPACITY]);
+
+/* Builds a table as aur_weight_table_build does, or takes it from the cache of earlier runs
+ * (points/base/cache_file.h), where it is left otherwise. Exported for the renderer, but no part of the
+ * interface.
+ */
+AUR_API aur_result aur_weight_table_find(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                         size_t threads, const aur_progress *progress,
+                                         aur_weight_table **table, aur_error *error);
+
+/* What a file ends with: of all that stands before it. */
+uint64_t aur_weight_table_check_sum(const char *data, size_t size);

@@ -1,0 +1,98 @@
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "points/base/error.h"
+#include "points/base/vector3d.h"
+#include "points/quadrature/potential/potential.h"
+
+/* The density that a strategy draws a direction with. */
+static double drawn_density(const aur_strategy *strategy, const double direction[3]) {
+    const double *const axis = strategy->axis;
+    if (strategy->sampled.kind == AUR_LOBE_GGX || aur_is_default_axis(axis))
+        return aur_lobe_pdf(&strategy->sampled, direction);
+    /* A cos^m lobe asks for the angle to its axis only. */
+    const double cosine = aur_dot3(direction, axis);
+    const double local[3] = {sqrt(fmax(0.0, 1.0 - cosine * cosine)), 0.0, cosine};
+    return aur_lobe_pdf(&strategy->sampled, local);
+}
+
+/* How much of the sample is the strategy's own, over the density that it was drawn from: h/(n q). */
+static double share(aur_mis_heuristic heuristic, size_t strategy_count, const aur_strategy *strategies,
+                    size_t own, const double direction[3]) {
+    double all = 0.0, mine = 0.0;
+    for (size_t t = 0; t < strategy_count; ++t) {
+        const double drawn = (double)strategies[t].count * drawn_density(&strategies[t], direction);
+        all += heuristic == AUR_MIS_POWER ? drawn * drawn : drawn;
+        mine = t == own ? drawn : mine;
+    }
+    return (heuristic == AUR_MIS_POWER ? mine : 1.0) / all;
+}
+
+static aur_result check_strategies(aur_mis_heuristic heuristic, size_t strategy_count,
+                                   const aur_strategy *strategies, const aur_potential *target, size_t count,
+                                   aur_error *error) {
+    if (heuristic != AUR_MIS_BALANCE && heuristic != AUR_MIS_POWER)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "no such heuristic: %d", (int)heuristic);
+    if (target->density.kind == AUR_DENSITY_NODES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "point masses have no density to weigh samples by");
+    size_t left = count; /* samples that no strategy so far has drawn */
+    for (size_t t = 0; t < strategy_count && left != SIZE_MAX; ++t) {
+        const aur_strategy *const strategy = &strategies[t];
+        const aur_result result = aur_lobe_check(&strategy->sampled, error);
+        if (result != AUR_OK)
+            return result;
+        if (!aur_is_default_axis(strategy->axis) && !aur_is_unit(strategy->axis))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the axis (%g, %g, %g) of strategy %zu is not a unit vector", strategy->axis[0],
+                            strategy->axis[1], strategy->axis[2], t);
+        left = strategy->count <= left ? left - strategy->count : SIZE_MAX;
+    }
+    return left == 0 ? AUR_OK
+                     : aur_fail(error, AUR_ERROR_ARGUMENT,
+                                "the strategies' samples are not %zu, as many as there are weights", count);
+}
+
+aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, const aur_strategy *strategies,
+                           const aur_potential *target, size_t count, const double *xyz, double *weights,
+                           aur_error *error) {
+    const aur_result result = check_strategies(heuristic, strategy_count, strategies, target, count, error);
+    if (result != AUR_OK)
+        return result;
+    size_t at = 0;
+    for (size_t t = 0; t < strategy_count; ++t) {
+        for (size_t i = 0; i < strategies[t].count; ++i, ++at) {
+            const double *const u = xyz + 3 * at;
+            double value;
+            const aur_result known = aur_potential_density(target, 1, u, &value, error);
+            if (known != AUR_OK)
+                return known;
+            weights[at] = value == 0.0 ? 0.0 : value * share(heuristic, strategy_count, strategies, t, u);
+            if (!isfinite(weights[at]))
+                return aur_fail(error, AUR_ERROR_ARGUMENT,
+                                "sample %zu has no density of its own: its strategy cannot have drawn it",
+                                at);
+        }
+    }
+    return AUR_OK;
+}
+
+aur_result aur_weights_reweight(const aur_potential *wanted, const aur_potential *fitted, size_t count,
+                                const double *xyz, double *weights, aur_error *error) {
+    if (wanted->density.kind == AUR_DENSITY_NODES || fitted->density.kind == AUR_DENSITY_NODES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "point masses have no density to weigh samples by");
+    for (size_t i = 0; i < count; ++i) {
+        if (weights[i] == 0.0)
+            continue;
+        double values[2];
+        aur_result result = aur_potential_density(wanted, 1, xyz + 3 * i, &values[0], error);
+        if (result == AUR_OK)
+            result = aur_potential_density(fitted, 1, xyz + 3 * i, &values[1], error);
+        if (result != AUR_OK)
+            return result;
+        weights[i] *= values[0] / values[1];
+        if (!isfinite(weights[i]))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "sample %zu: the fitted density is zero there", i);
+    }
+    return AUR_OK;
+}

@@ -1,0 +1,55 @@
+/* Spherical Fibonacci points from their index. */
+#pragma once
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "points/sphere/phase.h"
+
+/* Point j has 1 - z = (j + offset) * step and the azimuth phase + j/Phi. */
+typedef struct aur_fibonacci {
+    double step, offset;
+    uint64_t phase;
+} aur_fibonacci;
+
+/* Azimuths are added: point j turns by (j mod 64)/Phi, from a table, from where point j - (j mod 64) stands,
+ * by one complex product. So any point comes from its index alone, to 4.5e-16, and a sine costs a product. */
+enum { AUR_FIBONACCI_BLOCK = 64, AUR_FIBONACCI_WRAPPED = 7 };
+extern const double aur_golden_cosines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
+extern const double aur_golden_sines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
+
+/* One point, with the bits of the kernels. */
+static inline void aur_fibonacci_point(const aur_fibonacci *set, uint64_t index, double xyz[3]) {
+    const uint64_t k = index % AUR_FIBONACCI_BLOCK;
+    double sine, cosine;
+    aur_phase_sincos(set->phase + (index - k) * AUR_GOLDEN_PHASE, &sine, &cosine);
+    const double turn_cosine = aur_golden_cosines[k], turn_sine = aur_golden_sines[k];
+    const double depth = ((double)index + set->offset) * set->step;
+    const double radius = sqrt(depth * (2.0 - depth));
+    xyz[0] = radius * (cosine * turn_cosine - sine * turn_sine);
+    xyz[1] = radius * (sine * turn_cosine + cosine * turn_sine);
+    xyz[2] = 1.0 - depth;
+}
+
+/* Points first .. first+count-1 as x,y,z triples; `stream` writes past the caches, and
+ * aur_lanes_end_stream is to follow. */
+typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                     double *xyz);
+
+/* The kernel for this processor; all give the same bits. */
+aur_fibonacci_kernel aur_fibonacci_choose_kernel(void);
+
+/* What it chooses from: no kernel fuses a multiplication and an addition. */
+void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                   double *xyz);
+void aur_fibonacci_points_avx2(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                               double *xyz);
+void aur_fibonacci_points_avx512(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                 double *xyz);
+
+/* Whether the caches cannot hold so many points, so that they are better streamed past them. */
+static inline bool aur_fibonacci_streams(size_t count) {
+    return count >= (8 << 20) / (3 * sizeof(double));
+}

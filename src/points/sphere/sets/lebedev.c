@@ -1,0 +1,86 @@
+/* Quadrature of the sphere with octahedral symmetry and positive weights (Lebedev 1976), about a third fewer
+ * points than plain means of the same degree need. scripts/lebedev_table.py solves for the orbits. */
+#include "points/sphere/sets/lebedev.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/error.h"
+
+/* A node and its weight. */
+typedef struct node {
+    double xyz[3], weight;
+} node;
+
+/* The images of an orbit's corner: the signs of what is not zero, for each different order of its
+ * coordinates. The end of what was written. */
+static node *unfold(const aur_lebedev_orbit *orbit, node *to) {
+    static const unsigned char orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
+                                               {1, 0, 2}, {0, 2, 1}, {2, 1, 0}};
+    const node *const begin = to;
+    for (size_t o = 0; o < 6; ++o)
+        for (unsigned signs = 0; signs < 8; ++signs) {
+            node image = {.weight = orbit->weight};
+            bool repeated = false;
+            for (size_t d = 0; d < 3; ++d) {
+                const double x = orbit->corner[orders[o][d]];
+                const bool negative = (signs >> d & 1u) != 0;
+                repeated = repeated || (negative && x == 0.0);
+                image.xyz[d] = negative ? -x : x;
+            }
+            for (const node *before = begin; before < to && !repeated; ++before)
+                repeated = memcmp(before, &image, sizeof image) == 0;
+            if (!repeated)
+                *to++ = image;
+        }
+    return to;
+}
+
+static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
+                          void **data, aur_error *error) {
+    (void)parameters;
+    const aur_reference *rule;
+    const aur_result result =
+        aur_reference_find(row->name, AUR_LEBEDEV_COUNT, aur_lebedev_rules, request, &rule, error);
+    if (result != AUR_OK)
+        return result;
+    node *const nodes = malloc(rule->count * sizeof *nodes);
+    if (nodes == NULL)
+        return aur_fail_memory(error);
+    node *to = nodes;
+    for (size_t r = 0; r < rule->rows; ++r)
+        to = unfold(aur_lebedev_orbits + rule->first + r, to);
+    *data = nodes;
+    return AUR_OK;
+}
+
+static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
+    const node *const nodes = (const node *)data + first;
+    for (size_t i = 0; i < count; ++i)
+        memcpy(xyz + 3 * i, nodes[i].xyz, sizeof nodes[i].xyz);
+}
+
+static void weigh(const void *data, uint64_t first, size_t count, double *weights) {
+    const node *const nodes = (const node *)data + first;
+    for (size_t i = 0; i < count; ++i)
+        weights[i] = nodes[i].weight;
+}
+
+static uint64_t size_at(size_t index) {
+    return index < AUR_LEBEDEV_COUNT ? aur_lebedev_rules[index].count : 0;
+}
+
+const aur_native_set aur_native_lebedev = {
+    .description = {.row = {.name = "lebedev",
+                            .summary =
+                                "points with positive weights that are exact for polynomials of degree "
+                                "3 to 23, octahedral symmetry",
+                            .source = "Lebedev 1976"},
+                    .domains = AUR_ON_SPHERE,
+                    .dimensions = {3, 3},
+                    .size_at = size_at,
+                    .maximum_size = 194},
+    .prepare = prepare,
+    .fill = fill,
+    .weigh = weigh,
+};

@@ -1,0 +1,180 @@
+#include "program/cli/complete.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "program/cli/kinds.h"
+
+/* The word that is completed; `kept` of its characters stay as they are, since what comes next begins after
+ * them: "--metric=", "energy,", "finalgather:photons=". */
+typedef struct partial {
+    const char *typed;
+    size_t kept;
+} partial;
+
+static void offer(const partial *word, const char *name, size_t length, const char *help) {
+    const char *const rest = word->typed + word->kept;
+    if (strncmp(name, rest, strlen(rest)) == 0)
+        printf("%.*s%.*s\t%s\n", (int)word->kept, word->typed, (int)length, name, help);
+}
+
+static void offer_name(const partial *word, const char *name, const char *help) {
+    offer(word, name, strlen(name), help);
+}
+
+/* What follows the last one of some characters is what is completed. */
+static partial after_last(partial word, const char *characters) {
+    for (size_t i = word.kept; word.typed[i] != '\0'; ++i)
+        if (strchr(characters, word.typed[i]) != NULL)
+            word.kept = i + 1;
+    return word;
+}
+
+static void offer_verbs(const partial *word, const cli_verb *const *verbs) {
+    for (; *verbs != NULL; ++verbs)
+        offer_name(word, (*verbs)->name, (*verbs)->summary);
+}
+
+/* The keys of a row, or what one of them may be. */
+static void offer_keys(const partial *word, const aur_row *row) {
+    const partial value = after_last(*word, "=");
+    for (size_t i = 0; row != NULL && aur_row_key(row, i) != NULL; ++i) {
+        const aur_key *const key = aur_row_key(row, i);
+        const size_t length = strlen(key->name);
+        char text[128];
+        snprintf(text, sizeof text, "%s=", key->name);
+        if (value.kept == word->kept)
+            offer_name(word, text, key->help);
+        if (value.kept != word->kept + length + 1 || strncmp(word->typed + word->kept, text, length + 1) != 0)
+            continue;
+        for (size_t k = 0; key->words != NULL && key->words[k] != NULL; ++k)
+            offer_name(&value, key->words[k], key->help);
+        for (size_t k = 0; key->type == AUR_KEY_BOOLEAN && k < 2; ++k)
+            offer_name(&value, k == 0 ? "true" : "false", key->help);
+    }
+}
+
+/* A row of a kind, and after NAME: its keys. */
+static void offer_rows(const partial *word, const aur_table *kind) {
+    const char *const name = word->typed + word->kept;
+    const size_t length = strcspn(name, ":");
+    const partial key = name[length] == ':' ? after_last(*word, ":,") : *word;
+    for (size_t i = 0; i < kind->count; ++i) {
+        const aur_row *const row = kind->rows[i];
+        if (key.kept == word->kept)
+            offer_name(word, row->name, row->summary);
+        else if (strlen(row->name) == length && strncmp(row->name, name, length) == 0)
+            offer_keys(&key, row);
+    }
+    if (key.kept != word->kept)
+        offer_keys(&key, kind->common);
+}
+
+/* "file", "folder", a kind, or "file" and a kind. */
+static void offer_content(const partial *word, const char *content) {
+    if (strcmp(content, "folder") == 0)
+        puts(":folder");
+    else if (strncmp(content, "file", 4) == 0)
+        puts(":file");
+    const char *const last = strrchr(content, ' ');
+    const aur_table *const kind = cli_find_table(last != NULL ? last + 1 : content);
+    if (kind != NULL)
+        offer_rows(word, kind);
+}
+
+static void offer_values(partial word, const cli_option *option) {
+    if (option->list)
+        word = after_last(word, ",");
+    for (unsigned i = 0; cli_option_name(option, i) != NULL; ++i) {
+        const char *const name = cli_option_name(option, i);
+        const size_t length = strcspn(name, ":"); /* "phong:M": the parameter is not completed */
+        offer(&word, name, length + (name[length] == ':'), option->key.help);
+    }
+    if (option->content != NULL)
+        offer_content(&word, option->content);
+}
+
+static void offer_options(const partial *word, const cli_verb *verb) {
+    const cli_option *option;
+    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+        char text[64];
+        snprintf(text, sizeof text, "%s%s", option->key.name[1] != '\0' ? "--" : "-", option->key.name);
+        offer_name(word, text, option->key.help);
+    }
+    offer_name(word, "--help", "what the options are");
+}
+
+static void offer_operands(const partial *word, const cli_verb *const *verbs, const cli_verb *verb,
+                           size_t count, const char *before) {
+    const cli_operand *operand = verb->operands;
+    for (size_t i = 0; i < count && operand->word != NULL; ++i)
+        operand += !operand->repeated;
+    const char *const content = operand->word != NULL && operand->content != NULL ? operand->content : "";
+    for (unsigned i = 0; operand->name != NULL && operand->name(i) != NULL; ++i)
+        offer_name(word, operand->name(i), operand->help);
+    const bool topic = strcmp(content, "topic") == 0, row = strcmp(content, "row") == 0;
+    if (topic || strcmp(content, "verb") == 0 || (row && strcmp(before, "verb") == 0))
+        offer_verbs(word, verbs);
+    for (size_t i = 0; topic && cli_table_at(i) != NULL; ++i)
+        offer_name(word, cli_table_at(i)->kind, cli_table_at(i)->summary);
+    offer_content(word, row ? before : content);
+}
+
+/* The option that an argument such as "--seed", "-n" or "-qn" names at its end, or NULL; its value follows
+ * unless it is a flag. */
+static const cli_option *option_of(const cli_verb *verb, const char *text, size_t length) {
+    const bool is_long = text[0] == '-' && text[1] == '-';
+    const cli_option *option;
+    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+        const char *const name = option->key.name;
+        const char letter = name[1] == '\0' ? name[0] : option->letter;
+        if (is_long ? strlen(name) == length - 2 && strncmp(name, text + 2, length - 2) == 0
+                    : length > 1 && letter == text[length - 1])
+            return option;
+    }
+    return NULL;
+}
+
+void cli_complete(const cli_verb *const *verbs, size_t count, char **words) {
+    if (count == 0)
+        return;
+    const partial word = {.typed = words[count - 1]};
+    if (count == 1) {
+        offer_verbs(&word, verbs);
+        offer_name(&word, "--help", "the verbs");
+        offer_name(&word, "--version", "the version of the library");
+        return;
+    }
+    const cli_verb *const *found = verbs;
+    while (*found != NULL && strcmp((*found)->name, words[0]) != 0)
+        ++found;
+    const cli_verb *const verb = *found;
+    if (verb == NULL)
+        return;
+    const char *before = ""; /* the operand before */
+    size_t operands = 0;
+    bool ended = false; /* by "--" */
+    for (size_t i = 1; i + 1 < count; ++i) {
+        const bool dashed = !ended && words[i][0] == '-' && words[i][1] != '\0';
+        const cli_option *const option = dashed ? option_of(verb, words[i], strlen(words[i])) : NULL;
+        ended = ended || strcmp(words[i], "--") == 0;
+        const bool follows = option != NULL && option->value != NULL && !option->value_is_optional;
+        if (follows && ++i + 1 == count) {
+            offer_values(word, option);
+            return;
+        }
+        if (dashed)
+            continue;
+        before = words[i];
+        ++operands;
+    }
+    const size_t length = strcspn(word.typed, "=");
+    const cli_option *const option =
+        !ended && word.typed[length] == '=' ? option_of(verb, word.typed, length) : NULL;
+    if (option != NULL && word.typed[1] == '-')
+        offer_values((partial){word.typed, length + 1}, option);
+    else if (!ended && word.typed[0] == '-')
+        offer_options(&word, verb);
+    else
+        offer_operands(&word, verbs, verb, operands, before);
+}

@@ -1,0 +1,19 @@
+/* A year of weather at sensors: the part of `aureole irradiance` that --weather asks for. */
+#pragma once
+
+#include <aureole/daylight.h>
+
+#include "program/cli/options.h"
+
+typedef struct cli_daylight {
+    const char *weather; /* NULL: none is asked for */
+    aur_daylight_options options;
+} cli_daylight;
+extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
+
+/* False, with a message, where one of these options was given without --weather. */
+bool cli_daylight_check(const cli_call *call);
+
+/* The year at the sensors, written to `output`; `given->options` holds what other options said too. */
+aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,
+                            const char *output, const char *format, bool quiet, aur_error *error);

@@ -1,0 +1,18 @@
+/* The tables of what there is to choose from, for help and completion. */
+#pragma once
+
+#include "program/cli/options.h"
+
+/* The tables of both libraries, one after the other; NULL beyond the last. */
+const aur_table *cli_table_at(size_t index);
+/* The table of a kind, "integrator" or "integrators"; or NULL. */
+const aur_table *cli_find_table(const char *kind);
+
+/* Names of things that differ from a row's in capitals or in '_' for '-' alone become the row's:
+ * "Spherical_Fibonacci:offset=0" is spherical-fibonacci. Names of files that exist stay as they are. */
+void cli_forgive_names(cli_call *call);
+
+/* What `aureole help KIND NAME` prints, of a kind that there is; returns the exit status. */
+int cli_print_thing(const char *kind, const char *name, report_format format);
+/* What `aureole help VERB` prints; returns CLI_SUCCESS. */
+int cli_print_verb_help(const cli_verb *verb);

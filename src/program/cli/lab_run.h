@@ -1,0 +1,18 @@
+/* aureole lab run: the experiments one after the other. */
+#pragma once
+
+#include "program/cli/options.h"
+#include "program/lab/lab.h"
+
+typedef struct cli_lab {
+    lab_options lab;
+    bool all, again, small;
+    cli_common common;
+} cli_lab;
+
+/* "8 s", "12 min", "1 h 5 min". */
+void cli_lab_duration(double seconds, char text[32]);
+/* Writes the page of the results in a folder to FOLDER/index.html, beside its plots for print, of which a
+ * small one has none. Both return the exit status. */
+int cli_lab_report(const char *results, const char *folder, bool small);
+int cli_lab_run(cli_lab *command, size_t count, char **names);

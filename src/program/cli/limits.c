@@ -1,0 +1,79 @@
+/* Limits that a service sets on a run of the program. They hold from where they are read on: nothing large
+ * has been done before. */
+#include <sys/resource.h>
+#include <sys/time.h>
+
+#include <math.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "program/cli/options.h"
+#include "program/cli/quantity.h"
+
+static aur_result limit_memory(const char *text, void *field, aur_error *error) {
+    static const cli_unit units[] = {{"K", 0x1p10}, {"M", 0x1p20}, {"G", 0x1p30}, {"T", 0x1p40}};
+    double bytes = 0.0;
+    (void)field;
+    if (!cli_parse_quantity(text, sizeof units / sizeof units[0], units, &bytes) || bytes >= 0x1p62)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--memory-limit: '%s' is no size: bytes, or 500M or 2G, are wanted", text);
+    struct rlimit limit;
+    getrlimit(RLIMIT_AS, &limit);
+    limit.rlim_cur = (rlim_t)bytes < limit.rlim_max ? (rlim_t)bytes : limit.rlim_max;
+    if (setrlimit(RLIMIT_AS, &limit) == 0)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--memory-limit: the system takes no limit of '%s'", text);
+}
+
+/* No library may be called here. */
+static void end_of_time(int signal_number) {
+    static const char words[] = "aureole: the time limit is over: the program ends here\n";
+    (void)signal_number;
+    enum { STATUS = CLI_FAILURE };
+    if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
+        _exit(STATUS);
+    _exit(STATUS);
+}
+
+static aur_result limit_time(const char *text, void *field, aur_error *error) {
+    double seconds = 0.0;
+    (void)field;
+    const aur_result result = cli_parse_seconds("time-limit", text, &seconds, error);
+    if (result != AUR_OK)
+        return result;
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = end_of_time;
+    sigaction(SIGALRM, &action, NULL);
+    const double most = 1e9, least = 1e-3;
+    const double span = fmin(fmax(seconds, least), most);
+    const struct itimerval timer = {
+        .it_value = {.tv_sec = (time_t)span, .tv_usec = (suseconds_t)(1e6 * (span - floor(span)))}};
+    setitimer(ITIMER_REAL, &timer, NULL);
+    return AUR_OK;
+}
+
+/* The libraries look where the environment says. */
+static aur_result leave_cache(const char *text, void *field, aur_error *error) {
+    (void)text;
+    (void)field;
+    return setenv("AUREOLE_CACHE", "", 1) == 0 ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+const cli_option cli_cache_option[] = {
+    {CLI_FLAG(cli_common, no_cache, "no-cache",
+              "take nothing from the cache folder, and leave nothing there: for pictures and points alike"),
+     .parse = leave_cache},
+    {.key = {0}}};
+
+const cli_option cli_limits_option[] = {
+    {CLI_TEXT(cli_common, no_cache, "memory-limit", "2G", NULL,
+              "take no more address space than this: what needs more is refused, and out of memory an error"),
+     .parse = limit_memory},
+    {CLI_TEXT(cli_common, no_cache, "time-limit", "10min", NULL,
+              "end after this time in any case, with status 3; a checkpoint stays"),
+     .parse = limit_time},
+    {.key = {0}}};

@@ -1,0 +1,26 @@
+/* How listings and help stand on a terminal of 80 columns, and the words of their entries. */
+#pragma once
+
+#include "program/cli/options.h"
+
+enum { CLI_WORDS_CAPACITY = 1024, CLI_HELP_CAPACITY = 2 * CLI_WORDS_CAPACITY + 256 };
+
+/* Prints words from a column on, in lines of at most 80 columns that begin at `indent`. */
+void cli_print_paragraph(size_t column, size_t indent, const char *text);
+/* Prints what is described, and the description in its column. */
+void cli_print_entry(const char *what, int column, const char *help);
+
+/* "-n, --count N[,N...]"; `aligned` long names stand below each other. */
+void cli_write_option(const cli_option *option, bool aligned, char text[CLI_WORDS_CAPACITY]);
+/* The names or the range that a value may have. */
+void cli_list_values(const cli_option *option, char text[CLI_WORDS_CAPACITY]);
+/* The help, the values and the default of an option. */
+void cli_write_option_help(const cli_option *option, char text[CLI_HELP_CAPACITY]);
+/* "photons=integer", and the help, the values and the default of a key. */
+void cli_write_key(const aur_key *key, char text[CLI_WORDS_CAPACITY]);
+void cli_write_key_help(const aur_key *key, char text[CLI_HELP_CAPACITY]);
+
+/* Prints a listing of things, destroys it, and returns the exit status. For people each row is an entry: the
+ * name, which is the first column, what stands in the column "summary" (or the last one), and below it the
+ * other columns that say something. */
+int cli_finish_listing(report_table *table, report_format format);

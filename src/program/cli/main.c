@@ -1,0 +1,115 @@
+/* aureole: finds the verb, reads its options and runs it. Adding a verb is one file, which defines
+ * cli_verb_<name>, and one line here. */
+#include <aureole/text.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/cli/kinds.h"
+#include "program/cli/ranks.h"
+
+#define VERBS(ROW)                                                                                           \
+    ROW(sets)                                                                                                \
+    ROW(points)                                                                                              \
+    ROW(measure)                                                                                             \
+    ROW(nearest)                                                                                             \
+    ROW(voronoi)                                                                                             \
+    ROW(weights)                                                                                             \
+    ROW(render)                                                                                              \
+    ROW(irradiance)                                                                                          \
+    ROW(merge)                                                                                               \
+    ROW(viewfactors)                                                                                         \
+    ROW(compare)                                                                                             \
+    ROW(convert)                                                                                             \
+    ROW(view)                                                                                                \
+    ROW(lab)                                                                                                 \
+    ROW(info)                                                                                                \
+    ROW(completion)                                                                                          \
+    ROW(manual)                                                                                              \
+    ROW(help)
+
+#define DECLARE(name) extern const cli_verb cli_verb_##name;
+VERBS(DECLARE)
+
+#define ADDRESS(name) &cli_verb_##name,
+static const cli_verb *const verbs[] = {VERBS(ADDRESS) NULL};
+
+static const cli_verb *find_verb(const char *name) {
+    for (size_t i = 0; verbs[i] != NULL; ++i)
+        if (strcmp(verbs[i]->name, name) == 0)
+            return verbs[i];
+    return NULL;
+}
+
+static int refuse_verb(const char *name) {
+    enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
+    const char *names[COUNT];
+    for (size_t i = 0; i < COUNT; ++i)
+        names[i] = verbs[i]->name;
+    const char *const nearest = aur_nearest_name(name, COUNT, names);
+    if (nearest != NULL)
+        return cli_bad_usage("unknown verb '%s'; did you mean '%s'?", name, nearest);
+    return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);
+}
+
+/* A result that cannot be delivered (a full disk behind standard output) is a failure. */
+static int finish(int status) {
+    cli_progress_clear();
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        if (status == CLI_SUCCESS)
+            fprintf(stderr, "aureole: cannot write standard output\n");
+        return CLI_FAILURE;
+    }
+    return status;
+}
+
+/* argv[0] is the verb. */
+static int run(const cli_verb *verb, int argc, char **argv) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
+            return cli_print_verb_help(verb);
+    cli_call call = {.verbs = verbs, .options = calloc(1, verb->size + 1)};
+    int status = CLI_BAD_INPUT;
+    if (call.options == NULL)
+        status = cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    else if (cli_read_options(verb, argc, argv, &call)) {
+        cli_forgive_names(&call);
+        status = cli_announce_outputs(&call);
+        if (status == CLI_SUCCESS)
+            status = verb->run(&call);
+    }
+    free(call.options);
+    return finish(status);
+}
+
+/* A parent may leave signals blocked or ignored, which last through exec: services with signalfd block those
+ * that end a program, and an ignored SIGCHLD hides how gnuplot ended. SIGHUP stays ignored, as nohup has it.
+ * A file that becomes larger than its limit is an error of writing, not the end of the program. */
+static void reset_signals(void) {
+    static const int ending[] = {SIGTERM, SIGALRM, SIGCHLD};
+    for (size_t i = 0; i < sizeof ending / sizeof *ending; ++i)
+        signal(ending[i], SIG_DFL);
+    signal(SIGXFSZ, SIG_IGN);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+}
+
+int main(int argc, char **argv) {
+    reset_signals();
+    char *const name = argc < 2 ? "" : argv[1];
+    const bool help = strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0;
+    if (argc < 2 || help) {
+        const int status = run(&cli_verb_help, 1, (char *[]){"help", NULL});
+        return help ? status : cli_bad_usage("a verb is missing: try 'aureole help'");
+    }
+    if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "version") == 0) {
+        printf("aureole %s\n", aur_version());
+        return finish(CLI_SUCCESS);
+    }
+    const cli_verb *const verb = find_verb(name);
+    if (verb == NULL)
+        return refuse_verb(name);
+    return cli_run_ranks(verb, argc - 1, argv + 1, run);
+}

@@ -1,0 +1,348 @@
+/* Reading the command line by a verb's rows, with messages that say what would be right. */
+#include "program/cli/options.h"
+
+#include <aureole/ranks.h>
+#include <aureole/text.h>
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static aur_result choose_json(const char *text, void *field, aur_error *error) {
+    (void)text, (void)error;
+    *(report_format *)field = REPORT_JSON;
+    return AUR_OK;
+}
+
+const cli_option cli_format_option[] = {
+    {CLI_CHOICE(cli_common, format, "format", "FORMAT", "table", "how results are printed"),
+     .key.words = (const char *const[]){"table", "csv", "json", NULL}},
+    {CLI_FLAG(cli_common, format, "json", "the same as --format json"), .parse = choose_json},
+    {.key = {0}}};
+
+const cli_option cli_quiet_option[] = {
+    {CLI_FLAG(cli_common, quiet, "quiet", "no progress bar and no warnings"), .letter = 'q'}, {.key = {0}}};
+
+const cli_option cli_threads_option[] = {
+    {CLI_INTEGER(cli_common, threads, "threads", "N", 0, 4096, "0",
+                 "how many threads work, 0 for one a processor; results do not depend on it"),
+     .letter = 't'},
+    {.key = {0}}};
+
+static aur_result add_definition(const char *text, void *field, aur_error *error) {
+    cli_definitions *const definitions = field; /* begins with its count */
+    char *const equals = strchr(text, '=');
+    if (equals == NULL || equals == text)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: '%s' is not of the form name=value", text);
+    if (definitions->count == CLI_DEFINITION_LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: more than %d definitions", CLI_DEFINITION_LIMIT);
+    *equals = '\0';
+    definitions->items[definitions->count++] = (aur_definition){text, equals + 1};
+    return AUR_OK;
+}
+
+const cli_option cli_definitions_option[] = {
+    {CLI_TEXT(cli_definitions, count, "define", "NAME=VALUE", NULL,
+              "set a <default> of the scene; may be repeated"),
+     .letter = 'D', .parse = add_definition},
+    {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that names a file outside of its folder")},
+    {.key = {0}}};
+
+const cli_option cli_model_light_option[] = {
+    {CLI_CHOICE(
+         cli_definitions, model_light, "model-light", "WHEN", "auto",
+         "add light from all sides to a model: auto where it has no light source but emitting surfaces"),
+     .key.words = (const char *const[]){"auto", "always", "none", NULL}},
+    {.key = {0}}};
+
+const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset) {
+    for (const cli_group *group = verb->groups; group->options != NULL; ++group) {
+        for (const cli_option *option = group->options; option->key.name != NULL; ++option) {
+            if (index-- != 0)
+                continue;
+            if (offset != NULL)
+                *offset = group->offset + option->key.offset;
+            return option;
+        }
+    }
+    /* Every verb has these, whose values are in no struct. */
+    for (const cli_option *option = cli_limits_option; option->key.name != NULL; ++option)
+        if (index-- == 0) {
+            if (offset != NULL)
+                *offset = 0;
+            return option;
+        }
+    return NULL;
+}
+
+const char *cli_given(const cli_call *call, const char *name) {
+    const cli_option *option;
+    for (size_t i = 0; (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+        if (strcmp(option->key.name, name) == 0)
+            return call->texts[i];
+    return NULL;
+}
+
+cli_list cli_split(char *text) {
+    cli_list list = {.count = 1, .text = text};
+    for (char *comma = strchr(text, ','); comma != NULL; comma = strchr(comma + 1, ',')) {
+        *comma = '\0';
+        ++list.count;
+    }
+    return list;
+}
+
+const char *cli_list_at(const cli_list *list, size_t index) {
+    const char *item = list->text;
+    while (index-- > 0)
+        item += strlen(item) + 1;
+    return item;
+}
+
+/* "--spp", or "-n" for an option that has no long name. */
+static bool refuse(const cli_option *option, const char *expected, const char *text, const char *nearest) {
+    cli_bad_usage("%s%s: must be %s, not '%s'%s%s%s", option->key.name[1] != '\0' ? "--" : "-",
+                  option->key.name, expected, text, nearest != NULL ? "; did you mean '" : "",
+                  nearest != NULL ? nearest : "", nearest != NULL ? "'?" : "");
+    return false;
+}
+
+const char *cli_option_name(const cli_option *option, unsigned index) {
+    if (option->name != NULL)
+        return option->name(index);
+    for (unsigned i = 0; option->key.words != NULL && option->key.words[i] != NULL; ++i)
+        if (i == index)
+            return option->key.words[i];
+    return NULL;
+}
+
+/* A name as text, or its place among the names as an enum or bool. */
+static void put_name(const aur_key *key, const char *name, unsigned value, void *field) {
+    if (key->type == AUR_KEY_TEXT)
+        *(const char **)field = name;
+    else if (key->size == sizeof(bool))
+        *(bool *)field = value != 0;
+    else
+        *(unsigned *)field = value;
+}
+
+static bool read_name(const cli_option *option, const char *text, void *field) {
+    const char *names[CLI_NAME_LIMIT];
+    unsigned count = 0;
+    for (const char *name; count < CLI_NAME_LIMIT && (name = cli_option_name(option, count)) != NULL;
+         ++count) {
+        names[count] = name;
+        if (strcmp(name, text) == 0) {
+            put_name(&option->key, name, count, field);
+            return true;
+        }
+    }
+    char expected[AUR_ERROR_MESSAGE_CAPACITY] = "one of ";
+    aur_list_names(count, names, sizeof expected - strlen(expected), expected + strlen(expected));
+    const char *const nearest = aur_nearest_name(text, count, names);
+    return refuse(option, expected, text, nearest);
+}
+
+/* Reads one value, or one item of a list. */
+static bool read_value(const cli_option *option, const char *text, void *field) {
+    if (option->parse != NULL) {
+        aur_error error = {0};
+        return cli_status(option->parse(text, field, &error), &error) == CLI_SUCCESS;
+    }
+    if (cli_option_name(option, 0) != NULL)
+        return read_name(option, text, field);
+    aur_key key = option->key;
+    char expected[AUR_ERROR_MESSAGE_CAPACITY];
+    key.offset = 0;
+    return aur_key_parse(&key, text, field, sizeof expected, expected) ||
+           refuse(option, expected, text, NULL);
+}
+
+static bool read_option(const cli_option *option, char *text, void *field) {
+    if (option->value == NULL) {
+        *(bool *)field = true;
+        return option->parse == NULL || read_value(option, "", field);
+    }
+    if (!option->list)
+        return read_value(option, text, field);
+    const cli_list list = *(cli_list *)field = cli_split(text);
+    for (size_t i = 0; i < list.count; ++i) {
+        uint64_t item[8]; /* only checked here */
+        if (!read_value(option, cli_list_at(&list, i), item))
+            return false;
+    }
+    return true;
+}
+
+/* Defaults are read as if they had been given; a computed one leaves the field at zero. */
+static bool put_defaults(const cli_verb *verb, char *fields) {
+    const cli_option *option;
+    size_t offset;
+    for (size_t i = 0; (option = cli_option_at(verb, i, &offset)) != NULL; ++i) {
+        const char *const text = option->key.default_text;
+        if (text == NULL || option->key.computed)
+            continue;
+        if (option->list)
+            *(cli_list *)(void *)(fields + offset) = (cli_list){1, text};
+        else if (!read_value(option, text, fields + offset))
+            return false;
+    }
+    return true;
+}
+
+/* Whether the text is the help's words for a default that follows from other things: the option counts as not
+ * given. Names of files may be any words.
+ */
+static bool spells_computed_default(const cli_option *option, const char *text) {
+    const aur_key *const key = &option->key;
+    const bool is_file = option->content != NULL && strncmp(option->content, "file", 4) == 0;
+    return key->computed && text != NULL && !is_file && strcmp(text, key->default_text) == 0;
+}
+
+/* What getopt makes of the rows. A long option is LONG_OPTION and its index, a short one its letter. */
+enum { LONG_OPTION = 256 };
+
+typedef struct getopt_options {
+    size_t count;
+    char letters[2 * CLI_OPTION_LIMIT + 2];
+    struct option names[CLI_OPTION_LIMIT + 1];
+} getopt_options;
+
+static getopt_options list_options(const cli_verb *verb) {
+    getopt_options list = {.letters = ":"};
+    size_t letters = 1, names = 0;
+    for (const cli_option *option; (option = cli_option_at(verb, list.count, NULL)) != NULL; ++list.count) {
+        const bool is_long = option->key.name[1] != '\0';
+        const char letter = is_long ? option->letter : option->key.name[0];
+        if (letter != '\0')
+            list.letters[letters++] = letter;
+        if (letter != '\0' && option->value != NULL)
+            list.letters[letters++] = ':';
+        if (is_long)
+            list.names[names++] = (struct option){option->key.name,
+                                                  option->value == NULL       ? no_argument
+                                                  : option->value_is_optional ? optional_argument
+                                                                              : required_argument,
+                                                  NULL, LONG_OPTION + (int)list.count};
+    }
+    return list;
+}
+
+static size_t index_of(const cli_verb *verb, int code) {
+    if (code >= LONG_OPTION)
+        return (size_t)(code - LONG_OPTION);
+    size_t i = 0;
+    for (const cli_option *option; (option = cli_option_at(verb, i, NULL)) != NULL; ++i)
+        if (option->letter == code || (option->key.name[0] == code && option->key.name[1] == '\0'))
+            break;
+    return i;
+}
+
+/* Says what getopt does not like: `text` is the argument that it was reading. */
+static int refuse_option(const cli_verb *verb, const getopt_options *list, int code, const char *text) {
+    const bool is_long = optopt == 0 || optopt >= LONG_OPTION;
+    char given[AUR_ERROR_MESSAGE_CAPACITY];
+    if (is_long)
+        aur_format(given, sizeof given, "%.*s", (int)strcspn(text, "="), text);
+    else
+        aur_format(given, sizeof given, "-%c", optopt);
+    if (code == ':' || optopt >= LONG_OPTION)
+        return cli_bad_usage("%s: option '%s' %s: try 'aureole help %s'", verb->name, given,
+                             code == ':' ? "needs a value" : "takes no value", verb->name);
+    const char *names[CLI_OPTION_LIMIT];
+    char alike[AUR_ERROR_MESSAGE_CAPACITY] = "";
+    size_t count = 0;
+    for (; list->names[count].name != NULL; ++count) {
+        names[count] = list->names[count].name;
+        const size_t used = strlen(alike);
+        if (is_long && strncmp(names[count], given + 2, strlen(given + 2)) == 0)
+            aur_format(alike + used, sizeof alike - used, "%s--%s", used > 0 ? ", " : "", names[count]);
+    }
+    const char *const nearest = is_long ? aur_nearest_name(given + 2, count, names) : NULL;
+    if (alike[0] != '\0')
+        return cli_bad_usage("%s: option '%s' may be %s", verb->name, given, alike);
+    if (nearest != NULL)
+        return cli_bad_usage("%s: unknown option '%s'; did you mean '--%s'?", verb->name, given, nearest);
+    return cli_bad_usage("%s: unknown option '%s': try 'aureole help %s'", verb->name, given, verb->name);
+}
+
+static bool check_operands(const cli_verb *verb, const cli_call *call) {
+    size_t least = 0, most = 0;
+    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand) {
+        least += !operand->optional;
+        most = operand->repeated ? SIZE_MAX : most + 1;
+    }
+    if (call->operand_count < least)
+        cli_bad_usage("%s: %s: try 'aureole help %s'", verb->name, verb->too_few, verb->name);
+    else if (call->operand_count > most && verb->too_many != NULL)
+        cli_bad_usage("%s: %s: try 'aureole help %s'", verb->name, verb->too_many, verb->name);
+    else if (call->operand_count > most)
+        cli_bad_usage("%s: unexpected argument '%s'", verb->name, call->operands[most]);
+    return call->operand_count >= least && call->operand_count <= most;
+}
+
+static aur_result check_folder(const char *path, aur_error *error) {
+    char folder[AUR_ERROR_FILE_CAPACITY];
+    const char *const slash = strrchr(path, '/');
+    if (slash == NULL)
+        snprintf(folder, sizeof folder, ".");
+    else
+        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    struct stat status; /* pipes and devices are written as they are */
+    const bool is_file = strcmp(path, "-") != 0 && (stat(path, &status) != 0 || S_ISREG(status.st_mode));
+    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
+        return AUR_OK;
+    aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
+    snprintf(error->file, sizeof error->file, "%s", path);
+    return AUR_ERROR_WRITE;
+}
+
+aur_result cli_announce_output(const char *path, aur_error *error) {
+    const aur_result result = check_folder(path, error);
+    return result == AUR_OK ? aur_file_announce_output(path, error) : result;
+}
+
+int cli_announce_outputs(const cli_call *call) {
+    aur_error error = {0};
+    aur_result result = AUR_OK;
+    const cli_option *option;
+    for (size_t i = 0; result == AUR_OK && (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+        if (option->writes && call->texts[i] != NULL)
+            result = cli_announce_output(call->texts[i], &error);
+    for (size_t i = 0; result == AUR_OK && i < call->operand_count; ++i)
+        if (i < sizeof call->verb->operands / sizeof *call->verb->operands && call->verb->operands[i].writes)
+            result = cli_announce_output(call->operands[i], &error);
+    return cli_status(result, &error);
+}
+
+bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *call) {
+    const getopt_options list = list_options(verb);
+    char *const fields = call->options;
+    call->verb = verb;
+    if (!put_defaults(verb, fields))
+        return false;
+    opterr = 0;
+    optind = 0;
+    for (int code; (code = getopt_long(argc, argv, list.letters, list.names, NULL)) != -1;) {
+        if (code == '?' || code == ':') {
+            refuse_option(verb, &list, code, argv[optind - 1]);
+            return false;
+        }
+        const size_t index = index_of(verb, code);
+        size_t offset = 0;
+        const cli_option *const option = cli_option_at(verb, index, &offset);
+        if (spells_computed_default(option, optarg)) {
+            call->texts[index] = NULL;
+            memset(fields + offset, 0, option->key.size);
+            continue;
+        }
+        call->texts[index] = optarg != NULL ? optarg : "";
+        static char nothing[] = "";
+        if (!read_option(option, optarg != NULL ? optarg : nothing, fields + offset))
+            return false;
+    }
+    call->operand_count = (size_t)(argc - optind);
+    call->operands = argv + optind;
+    return check_operands(verb, call);
+}

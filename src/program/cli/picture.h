@@ -1,0 +1,25 @@
+/* What the verbs that read pictures share. */
+#pragma once
+
+#include <aureole/image.h>
+
+#include "program/cli/options.h"
+
+/* Which part of a picture is read. */
+typedef struct cli_picture {
+    cli_list channels; /* of no count: all */
+    size_t downsample; /* 1: as it is */
+} cli_picture;
+
+extern const cli_option cli_picture_options[]; /* of a cli_picture */
+
+/* The formats that a picture can be written in, by extension; NULL beyond the last. */
+const char *cli_picture_format(unsigned index);
+
+/* Warns of values that are infinite or NaN, or negative where the format has none, and says what becomes of
+ * them. */
+void cli_warn_of_values(const char *path, const aur_image *image, bool negative, const char *fate);
+
+/* Reads a picture and makes of it what the options ask for. Prints what is wrong and returns the exit
+ * status. */
+int cli_read_picture(const char *path, const cli_picture *options, aur_image **image);

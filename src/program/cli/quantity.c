@@ -1,0 +1,35 @@
+#include "program/cli/quantity.h"
+
+#include <aureole/text.h>
+#include <math.h>
+#include <string.h>
+
+bool cli_parse_quantity(const char *text, size_t unit_count, const cli_unit *units, double *value) {
+    char number[64];
+    const size_t length = strlen(text);
+    double factor = 1.0;
+    size_t cut = 0;
+    for (size_t i = 0; i < unit_count; ++i) {
+        const size_t suffix = strlen(units[i].name);
+        if (suffix > cut && length > suffix && strcmp(text + length - suffix, units[i].name) == 0) {
+            factor = units[i].factor;
+            cut = suffix;
+        }
+    }
+    if (length - cut >= sizeof number)
+        return false;
+    memcpy(number, text, length - cut);
+    number[length - cut] = '\0';
+    if (!aur_parse_double(number, value) || !(*value > 0.0))
+        return false;
+    *value *= factor;
+    return true;
+}
+
+aur_result cli_parse_seconds(const char *option, const char *text, double *seconds, aur_error *error) {
+    static const cli_unit units[] = {{"s", 1.0}, {"min", 60.0}, {"m", 60.0}, {"h", 3600.0}};
+    if (cli_parse_quantity(text, sizeof units / sizeof units[0], units, seconds))
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: '%s' is no time: 30s, 5min or 1h is wanted", option,
+                    text);
+}

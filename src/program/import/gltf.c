@@ -1,0 +1,108 @@
+#include "program/import/gltf.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/import/json.h"
+#include "program/import/stream.h"
+
+void gltf_read(writer *self, const char *name) {
+    enum { HEADER = 20 }; /* of a .glb: 12 bytes of the file and 8 of the chunk that holds the JSON */
+    size_t size;
+    char *data;
+    stream_send(AUR_IMPORT_OPEN, 0, strlen(name), name);
+    if (stream_receive(AUR_IMPORT_ANSWER, &size, &data) == 0)
+        return;
+    char *text = data;
+    if (size > HEADER && memcmp(data, "glTF", 4) == 0) {
+        uint32_t length;
+        memcpy(&length, data + 12, sizeof length);
+        text += HEADER;
+        if (length < size - HEADER)
+            text[length] = '\0';
+    }
+    self->gltf = json_parse(text);
+}
+
+/* The item of one of the file's lists whose number stands somewhere; the first, where none does. */
+static const json_value *item_at(const writer *self, const char *list, const json_value *index) {
+    const double number = json_number(index, index == NULL ? 0.0 : -1.0);
+    return number >= 0.0 && number < 1e9 ? json_item(json_member(self->gltf, list), (size_t)number) : NULL;
+}
+
+static const json_value *root_list(const writer *self) {
+    return json_member(item_at(self, "scenes", json_member(self->gltf, "scene")), "nodes");
+}
+
+static const json_value *node_at(const writer *self, const json_value *index) {
+    return index != NULL ? item_at(self, "nodes", index) : NULL;
+}
+
+const gltf_node *gltf_root(const writer *self, const struct aiNode *root) {
+    const json_value *const list = root_list(self);
+    if (list == NULL)
+        return NULL;
+    return list->count == 1                    ? node_at(self, list->first)
+           : list->count == root->mNumChildren ? self->gltf
+                                               : NULL;
+}
+
+const gltf_node *gltf_child(const writer *self, const gltf_node *node, size_t index) {
+    const json_value *const list = node == self->gltf ? root_list(self) : json_member(node, "children");
+    return node_at(self, json_item(list, index));
+}
+
+/* --- matrices */
+
+static void read_numbers(const json_value *node, const char *name, size_t count, double *values) {
+    const json_value *item = json_member(node, name);
+    item = item != NULL && item->count == count ? item->first : NULL;
+    for (size_t i = 0; item != NULL && i < count; ++i, item = item->next)
+        values[i] = json_number(item, values[i]);
+}
+
+/* Row major. glTF 2.0, 3.5.3: translation times rotation times scale, or columns. */
+static void matrix_of(const json_value *node, double matrix[16]) {
+    double columns[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    read_numbers(node, "matrix", 16, columns);
+    read_numbers(node, "translation", 3, t);
+    read_numbers(node, "rotation", 4, q);
+    read_numbers(node, "scale", 3, s);
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double turned[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
+                              2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                              2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
+    const bool by_columns = json_member(node, "matrix") != NULL;
+    for (size_t i = 0; i < 16; ++i) {
+        const size_t row = i / 4, column = i % 4;
+        const double parts = row == 3      ? (column == 3 ? 1.0 : 0.0)
+                             : column == 3 ? t[row]
+                                           : turned[3 * row + column] * s[column];
+        matrix[i] = by_columns ? columns[4 * column + row] : parts;
+    }
+}
+
+void gltf_refine(const gltf_node *node, double matrix[16]) {
+    double exact[16], largest = 0.0;
+    if (node == NULL || json_member(node, "nodes") != NULL)
+        return;
+    matrix_of(node, exact);
+    for (size_t i = 0; i < 16; ++i)
+        largest = fmax(largest, fabs(matrix[i]));
+    /* If it is another node, what assimp has read stays. */
+    for (size_t i = 0; i < 16; ++i)
+        if (!(fabs(exact[i] - matrix[i]) <=
+              1e-5 * (i % 4 == 3 ? largest : fmin(largest, 1.0 + fabs(matrix[i])))))
+            return;
+    memcpy(matrix, exact, sizeof exact);
+}
+
+float gltf_emissive_strength(const writer *self, unsigned material) {
+    const json_value *const extensions =
+        json_member(json_item(json_member(self->gltf, "materials"), material), "extensions");
+    const json_value *const strength = json_member(extensions, "KHR_materials_emissive_strength");
+    const double value = json_number(json_member(strength, "emissiveStrength"), 1.0);
+    return value >= 0.0 && value <= 1e30 ? (float)value : 1.0f;
+}

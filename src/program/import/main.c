@@ -1,0 +1,83 @@
+/* aureole-import PARENT: reads a model by assimp, and gives it as XML and files to the process that started
+ * it. Standard input is a socket; see render/scene/importers/model/message.h. The library starts it
+ * (render/scene/importers/model/import.c), so that a file which assimp cannot bear ends this process alone.
+ */
+#include <assimp/cimport.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "program/import/confine.h"
+#include "program/import/files.h"
+#include "program/import/gltf.h"
+#include "program/import/stream.h"
+#include "program/import/writer.h"
+
+static bool ends_with(const char *name, const char *ending) {
+    const size_t length = strlen(name), own = strlen(ending);
+    return length >= own && strcasecmp(name + length - own, ending) == 0;
+}
+
+static const struct aiScene *read_scene(const char *name, bool is_gltf) {
+    struct aiFileIO io = {files_open, files_close, is_gltf ? (char *)name : NULL};
+    struct aiPropertyStore *const properties = aiCreatePropertyStore();
+    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
+                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    /* glTF has its corners joined as they are meant. */
+    const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure |
+                           (is_gltf ? 0u : (unsigned)aiProcess_JoinIdenticalVertices);
+    const struct aiScene *const scene = aiImportFileExWithProperties(name, steps, &io, properties);
+    if (scene == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)
+        stream_fail_memory();
+    if (scene == NULL)
+        stream_fail(AUR_ERROR_FORMAT, "%s", aiGetErrorString());
+    if (scene->mRootNode == NULL || scene->mNumMeshes == 0)
+        stream_fail(AUR_ERROR_FORMAT, "it has no triangle");
+    return scene;
+}
+
+static void write_scene(writer *self) {
+    char *xml = NULL;
+    size_t size = 0;
+    self->xml = open_memstream(&xml, &size);
+    self->mesh_file = calloc(self->scene->mNumMeshes, sizeof *self->mesh_file);
+    self->mesh_uses = calloc(self->scene->mNumMeshes, sizeof *self->mesh_uses);
+    self->image_file = calloc(self->scene->mNumTextures + 1, sizeof *self->image_file);
+    if (self->xml == NULL || self->mesh_file == NULL || self->mesh_uses == NULL || self->image_file == NULL)
+        stream_fail_memory();
+    writer_put(self, "<scene version=\"3.0.0\">\n");
+    writer_add_meshes(self);
+    writer_put_materials(self);
+    writer_put_nodes(self);
+    const bool written = ferror(self->xml) == 0;
+    if (fclose(self->xml) != 0 || !written)
+        stream_fail_memory();
+    stream_send_two(AUR_IMPORT_SCENE, sizeof self->made, &self->made, size, xml);
+}
+
+int main(int argc, char **argv) {
+    if (argc != 2) /* started by hand */
+        return 2;
+    confine_self(strtol(argv[1], NULL, 10));
+    char *start;
+    size_t size;
+    const uint32_t first = stream_receive(AUR_IMPORT_START, &size, &start);
+    const char *const name = start + strlen(start) + 1;
+    if (strcmp(start, aur_version()) != 0)
+        stream_fail(AUR_ERROR_UNSUPPORTED,
+                    "the library is of version %s, but the program aureole-import of %s", start,
+                    aur_version());
+    writer self = {
+        .is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb"),
+        .first = first,
+        .made = {.lower = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .upper = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}};
+    self.scene = read_scene(name, self.is_gltf);
+    if (self.is_gltf)
+        gltf_read(&self, name);
+    write_scene(&self);
+    _exit(0); /* nothing is to be cleaned up, and damaged structures may not bear it */
+}

@@ -1,0 +1,255 @@
+/* Materials: metals and roughness become `principled`. What has no such numbers, as OBJ mostly, gets them
+ * from its colours and its exponent. */
+#include <assimp/GltfMaterial.h>
+#include <math.h>
+#include <string.h>
+
+#include "program/import/gltf.h"
+#include "program/import/pictures.h"
+
+static const slot base_slot = {aiTextureType_BASE_COLOR, 0}, diffuse_slot = {aiTextureType_DIFFUSE, 0},
+                  metal_slot = {aiTextureType_METALNESS, 0},
+                  roughness_slot = {aiTextureType_DIFFUSE_ROUGHNESS, 0},
+                  both_slot = {AI_MATKEY_GLTF_PBRMETALLICROUGHNESS_METALLICROUGHNESS_TEXTURE},
+                  normal_slot = {aiTextureType_NORMALS, 0}, emissive_slot = {aiTextureType_EMISSIVE, 0},
+                  opacity_slot = {aiTextureType_OPACITY, 0}, through_slot = {aiTextureType_TRANSMISSION, 0};
+
+float writer_number(const struct aiMaterial *material, const char *key, float otherwise) {
+    float value = otherwise;
+    unsigned count = 1;
+    if (aiGetMaterialFloatArray(material, key, 0, 0, &value, &count) != aiReturn_SUCCESS || !isfinite(value))
+        return otherwise;
+    return value;
+}
+
+bool writer_color(const struct aiMaterial *material, const char *key, float color[4]) {
+    struct aiColor4D found;
+    if (aiGetMaterialColor(material, key, 0, 0, &found) != aiReturn_SUCCESS)
+        return false;
+    const float values[4] = {found.r, found.g, found.b, found.a};
+    for (size_t i = 0; i < 4; ++i)
+        color[i] = isfinite(values[i]) && values[i] > 0.0f ? values[i] : 0.0f;
+    return true;
+}
+
+static slot color_slot(writer *self, const struct aiMaterial *material) {
+    return picture_exists(self, material, base_slot) ? base_slot : diffuse_slot;
+}
+
+static float at_most_one(float value) {
+    return value > 0.0f ? fminf(value, 1.0f) : 0.0f;
+}
+
+/* --- the parts of a material */
+
+static void base_color(writer *self, const struct aiMaterial *material, float color[4]) {
+    color[0] = color[1] = color[2] = picture_exists(self, material, color_slot(self, material)) ? 1.0f : 0.6f;
+    color[3] = writer_number(material, "$mat.opacity", 1.0f);
+    if (!writer_color(material, "$clr.base", color)) {
+        const float opacity = color[3];
+        writer_color(material, "$clr.diffuse", color);
+        /* Many an OBJ has a texture beside black, or no colour. */
+        if (picture_exists(self, material, color_slot(self, material)) &&
+            !(color[0] + color[1] + color[2] > 0.0f))
+            color[0] = color[1] = color[2] = 1.0f;
+        color[3] = opacity;
+    }
+    for (size_t i = 0; i < 4; ++i)
+        color[i] = at_most_one(color[i]);
+}
+
+static bool is_unlit(const struct aiMaterial *material) {
+    int model = 0;
+    return aiGetMaterialIntegerArray(material, AI_MATKEY_SHADING_MODEL, &model, NULL) == aiReturn_SUCCESS &&
+           model == aiShadingMode_Unlit;
+}
+
+static bool uses_vertex_colors(const writer *self, unsigned index) {
+    bool some = false;
+    for (unsigned i = 0; i < self->scene->mNumMeshes; ++i) {
+        const struct aiMesh *const mesh = self->scene->mMeshes[i];
+        if (mesh->mMaterialIndex != index)
+            continue;
+        some = mesh->mColors[0] != NULL;
+        if (!some)
+            return false;
+    }
+    return some;
+}
+
+static void put_color(writer *self, unsigned index, const char *name) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    const slot from = color_slot(self, material);
+    float color[4];
+    base_color(self, material, color);
+    const picture_use use = {from, name, "rgb", false, {color[0], color[1], color[2]}, 0.0f};
+    if (picture_exists(self, material, from))
+        picture_put(self, material, &use);
+    else if (uses_vertex_colors(self, index))
+        writer_put(self,
+                   "<texture type=\"mesh_attribute\" name=\"%s\"><string name=\"name\" "
+                   "value=\"vertex_color\"/></texture>\n",
+                   name);
+    else
+        writer_put(self, "<rgb name=\"%s\" value=\"%.9g %.9g %.9g\"/>\n", name, (double)color[0],
+                   (double)color[1], (double)color[2]);
+}
+
+/* Blinn's exponent, where a material has no roughness: alpha^2 = 2 / (n + 2), and alpha is its square. */
+static float roughness_of(const struct aiMaterial *material) {
+    const float shininess = writer_number(material, "$mat.shininess", 0.0f);
+    const float otherwise = shininess > 0.0f ? powf(2.0f / (shininess + 2.0f), 0.25f) : 1.0f;
+    return at_most_one(writer_number(material, "$mat.roughnessFactor", otherwise));
+}
+
+/* How much passes through: what KHR_materials_transmission says. */
+static float transmission_of(const struct aiMaterial *material) {
+    return at_most_one(writer_number(material, "$mat.transmission.factor", 0.0f));
+}
+
+static void put_principled(writer *self, unsigned index) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    const bool both = picture_exists(self, material, both_slot);
+    const float metal = at_most_one(writer_number(material, "$mat.metallicFactor", 0.0f));
+    const float rough = roughness_of(material), through = transmission_of(material);
+    put_color(self, index, "base_color");
+    picture_put_share(
+        self, material,
+        &(picture_use){
+            both ? both_slot : roughness_slot, "roughness", "green", true, {rough, rough, rough}, 0.0f});
+    picture_put_share(
+        self, material,
+        &(picture_use){both ? both_slot : metal_slot, "metallic", "blue", true, {metal, metal, metal}, 0.0f});
+    if (through > 0.0f)
+        picture_put_share(
+            self, material,
+            &(picture_use){through_slot, "spec_trans", "red", true, {through, through, through}, 0.0f});
+    const float ior = writer_number(material, "$mat.refracti", 0.0f);
+    float highlight[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    if (self->is_gltf && ior > 1.0f && ior < 100.0f)
+        writer_put(self, "<float name=\"eta\" value=\"%.9g\"/>\n", (double)ior);
+    else if (!self->is_gltf && writer_color(material, "$clr.specular", highlight) &&
+             !(highlight[0] + highlight[1] + highlight[2] > 0.0f) && !(metal > 0.0f))
+        writer_put(self, "<float name=\"specular\" value=\"0\"/>\n");
+    const float coat = at_most_one(writer_number(material, "$mat.clearcoat.factor", 0.0f));
+    if (coat > 0.0f) {
+        /* The coat's width is .1 without gloss, .001 with all of it. */
+        const float width = writer_number(material, "$mat.clearcoat.roughnessFactor", 0.0f);
+        writer_put(self,
+                   "<float name=\"clearcoat\" value=\"%.9g\"/><float name=\"clearcoat_gloss\" "
+                   "value=\"%.9g\"/>\n",
+                   (double)coat, (double)at_most_one((0.1f - width * width) / 0.099f));
+    }
+}
+
+/* How the alpha of glTF is meant, or that of others; false: the surface is whole. */
+static bool find_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
+    struct aiString mode;
+    float color[4];
+    base_color(self, material, color);
+    *use = (picture_use){color_slot(self, material),     "opacity", "alpha", false,
+                         {color[3], color[3], color[3]}, 0.0f};
+    if (aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &mode) == aiReturn_SUCCESS) {
+        if (strcmp(mode.data, "MASK") == 0)
+            use->cutoff = writer_number(material, "$mat.gltf.alphaCutoff", 0.5f);
+        return strcmp(mode.data, "OPAQUE") != 0 &&
+               (picture_exists(self, material, use->from) || color[3] < 1.0f);
+    }
+    if (picture_exists(self, material, opacity_slot)) {
+        use->from = opacity_slot;
+        use->channel = "rgb";
+        use->raw = true;
+        return true;
+    }
+    use->from = opacity_slot;
+    return color[3] < 1.0f;
+}
+
+/* Opens a <bsdf> inside of those that are open; the outermost one has the id. */
+static void open_bsdf(writer *self, unsigned index, const char *type, unsigned *open) {
+    writer_put(self, "<bsdf type=\"%s\"", type);
+    if ((*open)++ == 0)
+        writer_put(self, " id=\"material-%u-%u\"", self->first, index);
+    writer_put(self, ">\n");
+}
+
+static void put_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
+    if (use->cutoff > 0.0f && !picture_exists(self, material, use->from))
+        use->factor[0] = use->factor[0] < use->cutoff ? 0.0f : 1.0f;
+    picture_put_share(self, material, use);
+}
+
+static void put_normals(writer *self, const struct aiMaterial *material) {
+    float scale = 1.0f;
+    aiGetMaterialFloatArray(material, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), &scale, NULL);
+    if (fabsf(scale - 1.0f) > 1e-3f)
+        writer_note("the scale %g of a normal texture is left out", (double)scale);
+    picture_put(self, material,
+                &(picture_use){normal_slot, "normalmap", "rgb", true, {1.0f, 1.0f, 1.0f}, 0.0f});
+}
+
+/* What is nested, from the outside: mask, both sides, normals, the rest. */
+static void put_material(writer *self, unsigned index) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    const bool unlit = is_unlit(material);
+    picture_use opacity;
+    unsigned open = 0;
+    if (find_opacity(self, material, &opacity)) {
+        open_bsdf(self, index, "mask", &open);
+        put_opacity(self, material, &opacity);
+    }
+    if (!(transmission_of(material) > 0.0f))
+        open_bsdf(self, index, "twosided", &open);
+    if (picture_exists(self, material, normal_slot) && !unlit) {
+        open_bsdf(self, index, "normalmap", &open);
+        put_normals(self, material);
+    }
+    open_bsdf(self, index, unlit ? "diffuse" : "principled", &open);
+    if (unlit)
+        writer_put(self, "<rgb name=\"reflectance\" value=\"0\"/>\n");
+    else
+        put_principled(self, index);
+    while (open-- > 0)
+        writer_put(self, "</bsdf>\n");
+}
+
+void writer_put_materials(writer *self) {
+    for (unsigned i = 0; i < self->scene->mNumMaterials; ++i)
+        put_material(self, i);
+}
+
+/* --- what shines */
+
+static bool emission_of(writer *self, unsigned index, float color[4]) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    color[0] = color[1] = color[2] = picture_exists(self, material, emissive_slot) ? 1.0f : 0.0f;
+    writer_color(material, "$clr.emissive", color);
+    /* assimp 5.2 does not know it. */
+    const float strength =
+        writer_number(material, "$mat.emissiveIntensity", gltf_emissive_strength(self, index));
+    for (size_t i = 0; i < 3; ++i)
+        color[i] *= strength;
+    return color[0] + color[1] + color[2] > 0.0f;
+}
+
+bool writer_shines(writer *self, unsigned material) {
+    float color[4];
+    return is_unlit(self->scene->mMaterials[material]) || emission_of(self, material, color);
+}
+
+void writer_put_emitter(writer *self, unsigned index) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    float color[4];
+    writer_put(self, "<emitter type=\"area\">");
+    if (is_unlit(material)) {
+        put_color(self, index, "radiance");
+    } else if (emission_of(self, index, color) && picture_exists(self, material, emissive_slot)) {
+        picture_put(
+            self, material,
+            &(picture_use){emissive_slot, "radiance", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
+    } else {
+        writer_put(self, "<rgb name=\"radiance\" value=\"%.9g %.9g %.9g\"/>", (double)color[0],
+                   (double)color[1], (double)color[2]);
+    }
+    writer_put(self, "</emitter>\n");
+}

@@ -1,0 +1,243 @@
+/* The tree of nodes: what stands where. */
+#include <assimp/version.h>
+#include <math.h>
+#include <string.h>
+
+#include "program/import/gltf.h"
+#include "program/import/writer.h"
+
+static const double pi = 3.14159265358979323846;
+
+typedef struct triple {
+    double x, y, z;
+} triple;
+
+static writer_matrix below(const writer_matrix *outer, const struct aiNode *node, const gltf_node *exact) {
+    const struct aiMatrix4x4 t = node->mTransformation;
+    double inner[16] = {(double)t.a1, (double)t.a2, (double)t.a3, (double)t.a4, (double)t.b1, (double)t.b2,
+                        (double)t.b3, (double)t.b4, (double)t.c1, (double)t.c2, (double)t.c3, (double)t.c4,
+                        0.0,          0.0,          0.0,          1.0};
+    gltf_refine(exact, inner);
+    writer_matrix product;
+    for (size_t i = 0; i < 16; ++i) {
+        product.m[i] = 0.0;
+        for (size_t k = 0; k < 4; ++k)
+            product.m[i] += outer->m[i / 4 * 4 + k] * inner[4 * k + i % 4];
+    }
+    return product;
+}
+
+/* `w`: 1 for points, 0 for directions. */
+static triple apply(const writer_matrix *to_world, double x, double y, double z, double w) {
+    const double *const m = to_world->m;
+    return (triple){m[0] * x + m[1] * y + m[2] * z + m[3] * w, m[4] * x + m[5] * y + m[6] * z + m[7] * w,
+                    m[8] * x + m[9] * y + m[10] * z + m[11] * w};
+}
+
+static triple apply_vector(const writer_matrix *to_world, struct aiVector3D v, double w) {
+    return apply(to_world, (double)v.x, (double)v.y, (double)v.z, w);
+}
+
+static triple add_scaled(triple a, double factor, triple b) {
+    return (triple){a.x + factor * b.x, a.y + factor * b.y, a.z + factor * b.z};
+}
+
+static triple normalize(triple v) {
+    const double length = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return length > 0.0 ? (triple){v.x / length, v.y / length, v.z / length} : (triple){0.0, 0.0, -1.0};
+}
+
+static void put_matrix(writer *self, const writer_matrix *to_world) {
+    writer_put(self, "<transform name=\"to_world\"><matrix value=\"");
+    for (size_t i = 0; i < 16; ++i)
+        writer_put(self, "%.17g ", to_world->m[i]);
+    writer_put(self, "\"/></transform>");
+}
+
+static void copy(double to[3], triple from) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+/* --- shapes */
+
+static void widen(writer *self, const struct aiMesh *mesh, const writer_matrix *to_world) {
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
+        const triple p = apply_vector(to_world, mesh->mVertices[i], 1.0);
+        const double at[3] = {p.x, p.y, p.z};
+        for (size_t k = 0; k < 3; ++k) {
+            self->made.lower[k] = fmin(self->made.lower[k], at[k]);
+            self->made.upper[k] = fmax(self->made.upper[k], at[k]);
+        }
+    }
+}
+
+/* A mesh where `to_world` puts it, or in a group (NULL). */
+static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
+    const struct aiMesh *const mesh = self->scene->mMeshes[index];
+    const bool smooth = mesh->mNormals != NULL || !self->is_gltf;
+    writer_put(self,
+               "<shape type=\"ply\"><string name=\"filename\" value=\"*%u\"/>"
+               "<boolean name=\"face_normals\" value=\"%s\"/>",
+               self->mesh_file[index], smooth ? "false" : "true");
+    if (to_world != NULL)
+        put_matrix(self, to_world);
+    writer_put(self, "<ref id=\"material-%u-%u\"/>", self->first, mesh->mMaterialIndex);
+    if (writer_shines(self, mesh->mMaterialIndex))
+        writer_put_emitter(self, mesh->mMaterialIndex);
+    writer_put(self, "</shape>\n");
+}
+
+/* A mesh of many nodes is a group, unless it shines: a light is one shape. */
+static bool is_group(writer *self, unsigned mesh) {
+    return self->mesh_uses[mesh] > 1 && !writer_shines(self, self->scene->mMeshes[mesh]->mMaterialIndex);
+}
+
+static void place_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
+    const struct aiMesh *const mesh = self->scene->mMeshes[index];
+    if (self->mesh_file[index] == NO_FILE)
+        return;
+    widen(self, mesh, to_world);
+    if (writer_shines(self, mesh->mMaterialIndex))
+        self->made.emits = 1;
+    if (!is_group(self, index)) {
+        put_mesh(self, index, to_world);
+        return;
+    }
+    writer_put(self, "<shape type=\"instance\"><ref id=\"group-%u-%u\"/>", self->first, index);
+    put_matrix(self, to_world);
+    writer_put(self, "</shape>\n");
+}
+
+static void count_uses(writer *self, const struct aiNode *node) {
+    for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        ++self->mesh_uses[node->mMeshes[i]];
+    for (unsigned i = 0; i < node->mNumChildren; ++i)
+        count_uses(self, node->mChildren[i]);
+}
+
+static void put_groups(writer *self) {
+    for (unsigned i = 0; i < self->scene->mNumMeshes; ++i) {
+        if (self->mesh_file[i] == NO_FILE || !is_group(self, i))
+            continue;
+        writer_put(self, "<shape type=\"shapegroup\" id=\"group-%u-%u\">", self->first, i);
+        put_mesh(self, i, NULL);
+        writer_put(self, "</shape>\n");
+    }
+}
+
+/* --- lights */
+
+static void put_color(writer *self, const char *name, struct aiColor3D color) {
+    writer_put(self, "<rgb name=\"%s\" value=\"%.9g %.9g %.9g\"/>", name, fmax(0.0, (double)color.r),
+               fmax(0.0, (double)color.g), fmax(0.0, (double)color.b));
+}
+
+static void put_spot(writer *self, triple origin, triple direction) {
+    /* What is upright does not matter, but must be another direction. */
+    const triple up = fabs(direction.y) < 0.9 ? (triple){0.0, 1.0, 0.0} : (triple){1.0, 0.0, 0.0};
+    /* At map coordinates a target one unit away would round the direction. */
+    const triple target =
+        add_scaled(origin, 1.0 + fabs(origin.x) + fabs(origin.y) + fabs(origin.z), direction);
+    writer_put(self,
+               "<transform name=\"to_world\"><lookat origin=\"%.17g, %.17g, %.17g\" "
+               "target=\"%.17g, %.17g, %.17g\" up=\"%g, %g, %g\"/></transform>\n",
+               origin.x, origin.y, origin.z, target.x, target.y, target.z, up.x, up.y, up.z);
+}
+
+static void place_light(writer *self, const struct aiLight *light, const writer_matrix *to_world) {
+    const triple origin = apply_vector(to_world, light->mPosition, 1.0);
+    const triple direction = normalize(apply_vector(to_world, light->mDirection, 0.0));
+    switch (light->mType) {
+    case aiLightSource_DIRECTIONAL:
+        writer_put(self,
+                   "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.17g %.17g %.17g\"/>",
+                   direction.x, direction.y, direction.z);
+        put_color(self, "irradiance", light->mColorDiffuse);
+        break;
+    case aiLightSource_POINT:
+        writer_put(self, "<emitter type=\"point\"><point name=\"position\" value=\"%.17g %.17g %.17g\"/>",
+                   origin.x, origin.y, origin.z);
+        put_color(self, "intensity", light->mColorDiffuse);
+        break;
+    case aiLightSource_SPOT: {
+        /* From the axis, as glTF has it; others mean the whole cone. */
+        const double part = self->is_gltf ? 180.0 / pi : 90.0 / pi;
+        const double outer = fmin(fmax(part * (double)light->mAngleOuterCone, 0.1), 89.9);
+        const double inner = fmin(fmax(part * (double)light->mAngleInnerCone, 0.0), 0.999 * outer);
+        writer_put(self,
+                   "<emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"%.9g\"/>"
+                   "<float name=\"beam_width\" value=\"%.9g\"/>",
+                   outer, inner);
+        put_color(self, "intensity", light->mColorDiffuse);
+        put_spot(self, origin, direction);
+        break;
+    }
+    default:
+        writer_note("the light '%s' is of an unknown kind: it is left out", light->mName.data);
+        return;
+    }
+    writer_put(self, "</emitter>\n");
+    self->made.has_light = 1;
+}
+
+/* --- cameras */
+
+/* Across the picture, in degrees. Up to 5.2 assimp takes glTF's angle, that of the height, times the ratio.
+ */
+static double angle_across(const writer *self, const struct aiCamera *camera) {
+    const double given = (double)camera->mHorizontalFOV, ratio = (double)camera->mAspect;
+    const bool multiplied = self->is_gltf && 100 * aiGetVersionMajor() + aiGetVersionMinor() <= 502;
+    return 180.0 / pi * (multiplied && ratio > 0.0 ? 2.0 * atan(ratio * tan(0.5 * given / ratio)) : given);
+}
+
+/* Without a ratio of sides the angle is that of the height. */
+static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
+    aur_import_camera *const made = &self->made.camera;
+    if (made->is_there != 0) {
+        writer_note("the camera '%s' is left out: the first one is taken", camera->mName.data);
+        return;
+    }
+    /* assimp gives cameras of glTF the place of their node, which the node gives them again. */
+    const struct aiVector3D position = self->is_gltf ? (struct aiVector3D){0} : camera->mPosition;
+    *made = (aur_import_camera){.is_there = 1,
+                                .angle = angle_across(self, camera),
+                                .angle_is_vertical = !(camera->mAspect > 0.0f),
+                                .aspect = (double)camera->mAspect};
+    copy(made->origin, apply_vector(to_world, position, 1.0));
+    copy(made->direction, apply_vector(to_world, camera->mLookAt, 0.0));
+    copy(made->up, apply_vector(to_world, camera->mUp, 0.0));
+    if (camera->mOrthographicWidth > 0.0f)
+        made->half_width = (double)camera->mOrthographicWidth;
+}
+
+/* --- the tree */
+
+/* Lights and cameras stand where the node of their name is. */
+static void place_named(writer *self, const struct aiNode *node, const writer_matrix *to_world) {
+    const struct aiScene *const scene = self->scene;
+    for (unsigned i = 0; i < scene->mNumLights; ++i)
+        if (strcmp(scene->mLights[i]->mName.data, node->mName.data) == 0)
+            place_light(self, scene->mLights[i], to_world);
+    for (unsigned i = 0; i < scene->mNumCameras; ++i)
+        if (strcmp(scene->mCameras[i]->mName.data, node->mName.data) == 0)
+            place_camera(self, scene->mCameras[i], to_world);
+}
+
+static void place_node(writer *self, const struct aiNode *node, const gltf_node *exact,
+                       const writer_matrix *outer) {
+    const writer_matrix to_world = below(outer, node, exact);
+    for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        place_mesh(self, node->mMeshes[i], &to_world);
+    place_named(self, node, &to_world);
+    for (unsigned i = 0; i < node->mNumChildren; ++i)
+        place_node(self, node->mChildren[i], gltf_child(self, exact, i), &to_world);
+}
+
+void writer_put_nodes(writer *self) {
+    const writer_matrix identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    count_uses(self, self->scene->mRootNode);
+    put_groups(self);
+    place_node(self, self->scene->mRootNode, gltf_root(self, self->scene->mRootNode), &identity);
+}

@@ -1,0 +1,191 @@
+#include "program/import/pictures.h"
+
+#include <assimp/GltfMaterial.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/import/files.h"
+#include "program/import/stream.h"
+
+/* A picture that the model holds, as a file: packed as it is, or texels behind the header of a TGA. */
+static unsigned file_of_image(writer *self, unsigned index) {
+    const struct aiTexture *const texture = self->scene->mTextures[index];
+    if (self->image_file[index] != 0)
+        return self->image_file[index] == NO_FILE ? NO_FILE : self->image_file[index] - 1;
+    const size_t texels = 4 * (size_t)texture->mWidth * texture->mHeight;
+    const size_t head = texture->mHeight > 0 ? 18 : 0;
+    const size_t size = texture->mHeight > 0 ? head + texels : texture->mWidth;
+    char *const data = malloc(size + 1);
+    if (data == NULL)
+        stream_fail_memory();
+    const unsigned char header[18] = {[2] = 2,
+                                      [12] = texture->mWidth & 255,
+                                      [13] = texture->mWidth >> 8 & 255,
+                                      [14] = texture->mHeight & 255,
+                                      [15] = texture->mHeight >> 8 & 255,
+                                      [16] = 32,
+                                      [17] = 0x28};
+    memcpy(data, header, head);
+    memcpy(data + head, texture->pcData, size - head);
+    const unsigned file = writer_add_picture_file(self, size, data);
+    free(data);
+    self->image_file[index] = file == NO_FILE ? NO_FILE : file + 1;
+    return file;
+}
+
+/* Which of the pictures that the model holds a path means: "*i", or its name; their number: none. */
+static unsigned find_image(const writer *self, const char *path) {
+    const struct aiScene *const scene = self->scene;
+    if (path[0] == '*') {
+        const unsigned long index = strtoul(path + 1, NULL, 10);
+        return index < scene->mNumTextures ? (unsigned)index : scene->mNumTextures;
+    }
+    unsigned index = 0;
+    while (index < scene->mNumTextures && strcmp(scene->mTextures[index]->mFilename.data, path) != 0)
+        ++index;
+    return index;
+}
+
+/* The name of a picture beside the model, as the model has it, as a path. */
+static void path_of(const writer *self, const char *text, char path[MAXLEN]) {
+    snprintf(path, MAXLEN, "%s", text);
+    if (self->is_gltf)
+        files_decode_address(path);
+    for (char *c = path; *c != '\0'; ++c) /* of Windows */
+        if (*c == '\\')
+            *c = '/';
+    while (strncmp(path, "./", 2) == 0)
+        memmove(path, path + 2, strlen(path + 2) + 1);
+}
+
+typedef struct writer_picture {
+    char *name, *found; /* found: "" for one that cannot be read */
+    struct writer_picture *next;
+} writer_picture;
+
+/* The name under which a picture beside the model can be read, or NULL. */
+static const char *find_picture(writer *self, const char *text) {
+    char path[MAXLEN];
+    path_of(self, text, path);
+    if (path[0] == '\0')
+        return NULL;
+    writer_picture *picture = self->pictures;
+    while (picture != NULL && strcmp(picture->name, path) != 0)
+        picture = picture->next;
+    if (picture == NULL) {
+        picture = calloc(1, sizeof *picture);
+        if (picture == NULL || (picture->name = strdup(path)) == NULL)
+            stream_fail_memory();
+        size_t size;
+        stream_send(AUR_IMPORT_FIND, 0, strlen(path), path);
+        if (stream_receive(AUR_IMPORT_ANSWER, &size, &picture->found) == 0)
+            picture->found[0] = '\0';
+        picture->next = self->pictures;
+        self->pictures = picture;
+    }
+    return picture->found[0] != '\0' ? picture->found : NULL;
+}
+
+bool picture_exists(writer *self, const struct aiMaterial *material, slot from) {
+    struct aiString path;
+    if (aiGetMaterialTextureCount(material, from.type) <= from.index ||
+        aiGetMaterialTexture(material, from.type, from.index, &path, NULL, NULL, NULL, NULL, NULL, NULL) !=
+            aiReturn_SUCCESS)
+        return false;
+    const unsigned held = find_image(self, path.data);
+    return held < self->scene->mNumTextures ? file_of_image(self, held) != NO_FILE
+                                            : find_picture(self, path.data) != NULL;
+}
+
+static void put_filename(writer *self, const char *path) {
+    writer_put(self, "<string name=\"filename\" value=\"");
+    const unsigned held = find_image(self, path);
+    if (held < self->scene->mNumTextures)
+        writer_put(self, "*%u.png", file_of_image(self, held));
+    else
+        writer_put_escaped(self, find_picture(self, path));
+    writer_put(self, "\"/>");
+}
+
+static unsigned uv_set_of(const struct aiMaterial *material, slot from) {
+    unsigned set = 0;
+    struct aiString path;
+    return aiGetMaterialTexture(material, from.type, from.index, &path, NULL, &set, NULL, NULL, NULL, NULL) ==
+                   aiReturn_SUCCESS
+               ? set
+               : 0;
+}
+
+/* That of the first texture that there is: a mesh keeps one set. */
+unsigned writer_uv_set(writer *self, const struct aiMaterial *material) {
+    const slot slots[] = {{aiTextureType_BASE_COLOR, 0},
+                          {aiTextureType_DIFFUSE, 0},
+                          {AI_MATKEY_GLTF_PBRMETALLICROUGHNESS_METALLICROUGHNESS_TEXTURE},
+                          {aiTextureType_METALNESS, 0},
+                          {aiTextureType_DIFFUSE_ROUGHNESS, 0},
+                          {aiTextureType_EMISSIVE, 0},
+                          {aiTextureType_NORMALS, 0},
+                          {aiTextureType_OPACITY, 0},
+                          {aiTextureType_TRANSMISSION, 0}};
+    for (size_t i = 0; i < sizeof slots / sizeof slots[0]; ++i)
+        if (picture_exists(self, material, slots[i]))
+            return uv_set_of(material, slots[i]);
+    return 0;
+}
+
+/* The texture's own map of coordinates. glTF: translation times rotation times scale, which turns from v to
+ * u; assimp turns the other way about the middle, counts v from below, and has another translation for it. */
+static void put_transform(writer *self, const struct aiMaterial *material, slot from) {
+    struct aiUVTransform t;
+    if (aiGetMaterialUVTransform(material, AI_MATKEY_UVTRANSFORM(from.type, from.index), &t) !=
+        aiReturn_SUCCESS)
+        return;
+    const double c = cos(-(double)t.mRotation), s = sin(-(double)t.mRotation);
+    const double sx = (double)t.mScaling.x, sy = (double)t.mScaling.y;
+    const double x = (double)t.mTranslation.x - 0.5 * sx * (1.0 + s - c);
+    const double y = 0.5 * sy * (s + c - 1.0) + 1.0 - sy - (double)t.mTranslation.y;
+    writer_put(
+        self,
+        "<transform name=\"to_uv\"><matrix value=\"%.9g %.9g 0 %.9g %.9g %.9g 0 %.9g 0 0 1 0 0 0 0 1\"/>"
+        "</transform>",
+        c * sx, s * sy, x, -s * sx, c * sy, y);
+}
+
+static const char *wrap_of(enum aiTextureMapMode mode) {
+    return mode == aiTextureMapMode_Mirror ? "mirror" : mode == aiTextureMapMode_Wrap ? "repeat" : "clamp";
+}
+
+void picture_put(writer *self, const struct aiMaterial *material, const picture_use *use) {
+    struct aiString path;
+    unsigned set = 0;
+    enum aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+    if (aiGetMaterialTexture(material, use->from.type, use->from.index, &path, NULL, &set, NULL, NULL, modes,
+                             NULL) != aiReturn_SUCCESS)
+        return;
+    if (set != writer_uv_set(self, material))
+        writer_note("a material uses several sets of texture coordinates: '%s' is put where the first is",
+                    use->name);
+    int filter = 0;
+    aiGetMaterialIntegerArray(material, AI_MATKEY_GLTF_MAPPINGFILTER_MAG(use->from.type, use->from.index),
+                              &filter, NULL);
+    writer_put(self, "<texture type=\"bitmap\" name=\"%s\">", use->name);
+    put_filename(self, path.data);
+    writer_put(self,
+               "<boolean name=\"raw\" value=\"%s\"/><string name=\"channel\" value=\"%s\"/>"
+               "<string name=\"wrap_mode\" value=\"%s\"/><string name=\"filter_type\" value=\"%s\"/>",
+               use->raw ? "true" : "false", use->channel, wrap_of(modes[0]),
+               filter == 9728 ? "nearest" : "bilinear");
+    writer_put(self,
+               "<vector name=\"factor\" value=\"%.9g %.9g %.9g\"/><float name=\"cutoff\" value=\"%.9g\"/>",
+               (double)use->factor[0], (double)use->factor[1], (double)use->factor[2], (double)use->cutoff);
+    put_transform(self, material, use->from);
+    writer_put(self, "</texture>\n");
+}
+
+void picture_put_share(writer *self, const struct aiMaterial *material, const picture_use *use) {
+    if (picture_exists(self, material, use->from))
+        picture_put(self, material, use);
+    else
+        writer_put(self, "<float name=\"%s\" value=\"%.9g\"/>\n", use->name, (double)use->factor[0]);
+}

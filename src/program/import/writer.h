@@ -1,0 +1,60 @@
+/* What the parts of the importer share: the scene that assimp has read, and the XML and the files that are
+ * made of it. */
+#pragma once
+
+#include <assimp/scene.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "points/base/error.h"
+#include "render/scene/importers/model/message.h"
+
+/* What a node of the tree does to coordinates: row major, the last row is 0 0 0 1. */
+typedef struct writer_matrix {
+    double m[16];
+} writer_matrix;
+
+typedef struct writer {
+    const struct aiScene *scene;
+    FILE *xml;
+    bool is_gltf;
+    unsigned first;      /* files before this model: makes ids of several models differ */
+    unsigned files;      /* of this model, so far */
+    unsigned *mesh_file; /* of each mesh: its file, or NO_FILE where there is no triangle */
+    unsigned *mesh_uses; /* how many nodes have it */
+    unsigned
+        *image_file; /* of each picture that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
+    struct json_value *gltf;         /* the JSON of a glTF file, or NULL */
+    struct writer_picture *pictures; /* beside the model, that were asked for */
+    aur_import_scene made;
+} writer;
+
+#define NO_FILE UINT32_MAX
+
+/* To the XML, with decimal points under every locale. */
+void writer_put(writer *self, const char *format, ...) AUR_PRINTF(2, 3);
+/* A text in which XML and variables see nothing of their own. */
+void writer_put_escaped(writer *self, const char *text);
+/* A warning about the model. */
+void writer_note(const char *format, ...) AUR_PRINTF(1, 2);
+/* Adds a mesh's file; its number. */
+unsigned writer_add_mesh_file(writer *self, size_t size, const void *data);
+/* The same of a picture; NO_FILE for one that cannot be read. */
+unsigned writer_add_picture_file(writer *self, size_t size, const void *data);
+
+/* The meshes as PLY files: positions, and what they have of normals, texture coordinates and colours. */
+void writer_add_meshes(writer *self);
+/* <bsdf>s with the ids material-FIRST-i. */
+void writer_put_materials(writer *self);
+/* Whether shapes of the material shine, and the <emitter> inside of one. */
+bool writer_shines(writer *self, unsigned material);
+void writer_put_emitter(writer *self, unsigned material);
+/* Shapes, lights and the first camera, where the nodes put them. */
+void writer_put_nodes(writer *self);
+
+/* A number of a material, or `otherwise`. */
+float writer_number(const struct aiMaterial *material, const char *key, float otherwise);
+/* A colour of a material; false, and `color` as it was, where there is none. */
+bool writer_color(const struct aiMaterial *material, const char *key, float color[4]);
+/* Which of a mesh's texture coordinates its material uses. */
+unsigned writer_uv_set(writer *self, const struct aiMaterial *material);

@@ -1,0 +1,115 @@
+/* The table of experiments: a new one is one file and one line here. */
+#include "program/lab/lab.h"
+
+extern const lab_experiment lab_analytical_cases;
+extern const lab_experiment lab_aureole_correlated_rotations;
+extern const lab_experiment lab_aureole_every_measure;
+extern const lab_experiment lab_domains_axes;
+extern const lab_experiment lab_domains_every_number;
+extern const lab_experiment lab_domains_grids;
+extern const lab_experiment lab_domains_lifts;
+extern const lab_experiment lab_domains_prefixes;
+extern const lab_experiment lab_factors_coverage;
+extern const lab_experiment lab_integrate_coverage;
+extern const lab_experiment lab_irradiance_coverage;
+extern const lab_experiment lab_keller_1994_features;
+extern const lab_experiment lab_keller_1994_figure1;
+extern const lab_experiment lab_keller_1994_floor;
+extern const lab_experiment lab_keller_1994_mirrors;
+extern const lab_experiment lab_keller_1994_table1;
+extern const lab_experiment lab_keller_1994_table2;
+extern const lab_experiment lab_keller_1994_table3;
+extern const lab_experiment lab_marques_2013_closeups;
+extern const lab_experiment lab_marques_2013_fig1;
+extern const lab_experiment lab_marques_2013_fig2;
+extern const lab_experiment lab_marques_2013_fig3;
+extern const lab_experiment lab_marques_2013_fig4;
+extern const lab_experiment lab_marques_2013_gather;
+extern const lab_experiment lab_marques_2013_table1;
+extern const lab_experiment lab_marques_2018_beyond;
+extern const lab_experiment lab_marques_2018_fig7;
+extern const lab_experiment lab_marques_2018_fig8;
+extern const lab_experiment lab_marques_2018_functions;
+extern const lab_experiment lab_marques_2018_gains;
+extern const lab_experiment lab_marques_2018_ggx;
+extern const lab_experiment lab_marques_2018_metal;
+extern const lab_experiment lab_marques_2018_rivals;
+extern const lab_experiment lab_marques_2018_sensitivity;
+extern const lab_experiment lab_marques_2018_slopes;
+extern const lab_experiment lab_marques_2018_table1;
+extern const lab_experiment lab_marques_2018_weights;
+extern const lab_experiment lab_marques_2019_adaptive;
+extern const lab_experiment lab_marques_2019_discrepancy;
+extern const lab_experiment lab_marques_2019_grids;
+extern const lab_experiment lab_marques_2019_lattice;
+extern const lab_experiment lab_marques_2019_shifts;
+extern const lab_experiment lab_marques_2019_statue;
+extern const lab_experiment lab_picture_coverage;
+extern const lab_experiment lab_schretter_2012_fig5;
+extern const lab_experiment lab_schretter_2012_gaps;
+extern const lab_experiment lab_schretter_2012_sets;
+extern const lab_experiment lab_schretter_2012_warp;
+extern const lab_experiment lab_weights_choosing;
+
+/* One a line, whatever their lengths. */
+/* clang-format off */
+static const lab_experiment *const experiments[] = {
+    &lab_analytical_cases,
+    &lab_aureole_correlated_rotations,
+    &lab_aureole_every_measure,
+    &lab_domains_axes,
+    &lab_domains_every_number,
+    &lab_domains_grids,
+    &lab_domains_lifts,
+    &lab_domains_prefixes,
+    &lab_factors_coverage,
+    &lab_integrate_coverage,
+    &lab_irradiance_coverage,
+    &lab_keller_1994_features,
+    &lab_keller_1994_figure1,
+    &lab_keller_1994_floor,
+    &lab_keller_1994_mirrors,
+    &lab_keller_1994_table1,
+    &lab_keller_1994_table2,
+    &lab_keller_1994_table3,
+    &lab_marques_2013_closeups,
+    &lab_marques_2013_fig1,
+    &lab_marques_2013_fig2,
+    &lab_marques_2013_fig3,
+    &lab_marques_2013_fig4,
+    &lab_marques_2013_gather,
+    &lab_marques_2013_table1,
+    &lab_marques_2018_beyond,
+    &lab_marques_2018_fig7,
+    &lab_marques_2018_fig8,
+    &lab_marques_2018_functions,
+    &lab_marques_2018_gains,
+    &lab_marques_2018_ggx,
+    &lab_marques_2018_metal,
+    &lab_marques_2018_rivals,
+    &lab_marques_2018_sensitivity,
+    &lab_marques_2018_slopes,
+    &lab_marques_2018_table1,
+    &lab_marques_2018_weights,
+    &lab_marques_2019_adaptive,
+    &lab_marques_2019_discrepancy,
+    &lab_marques_2019_grids,
+    &lab_marques_2019_lattice,
+    &lab_marques_2019_shifts,
+    &lab_marques_2019_statue,
+    &lab_picture_coverage,
+    &lab_schretter_2012_fig5,
+    &lab_schretter_2012_gaps,
+    &lab_schretter_2012_sets,
+    &lab_schretter_2012_warp,
+    &lab_weights_choosing,
+};
+/* clang-format on */
+
+size_t lab_experiment_count(void) {
+    return sizeof experiments / sizeof experiments[0];
+}
+
+const lab_experiment *lab_experiment_at(size_t index) {
+    return index < lab_experiment_count() ? experiments[index] : NULL;
+}

@@ -1,0 +1,253 @@
+#include "program/lab/publish.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "program/report/page.h"
+
+enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160 };
+
+typedef struct publication {
+    const char *results;
+    FILE *page;
+    bool small;
+    const lab_printer *printer;
+} publication;
+
+static void path_of(const publication *p, const lab_experiment *of, const char *what, char *path,
+                    size_t capacity) {
+    snprintf(path, capacity, "%s/%s/%s%s%s.csv", p->results, of->name, of->name, what != NULL ? "-" : "",
+             what != NULL ? what : "");
+}
+
+static bool has_results(const publication *p, const lab_experiment *of) {
+    char path[AUR_ERROR_FILE_CAPACITY];
+    path_of(p, of, NULL, path, sizeof path);
+    return access(path, R_OK) == 0;
+}
+
+static void put_tag(FILE *page, const char *begin, const char *text, const char *end) {
+    fputs(begin, page);
+    report_escape(page, text);
+    fputs(end, page);
+}
+
+static void put_notes(FILE *page, const char *notes) {
+    if (notes == NULL || *notes == '\0')
+        return;
+    fputs("<ul class=\"notes\">\n", page);
+    while (*notes != '\0') {
+        const size_t length = strcspn(notes, "\n");
+        char *const line = strndup(notes, length);
+        if (line != NULL)
+            put_tag(page, "<li>", line, "</li>\n");
+        free(line);
+        notes += length + (notes[length] == '\n');
+    }
+    fputs("</ul>\n", page);
+}
+
+/* Experiments and their verdicts. */
+static aur_result put_summary(const publication *p, aur_error *error) {
+    static const char *const columns[] = {"experiment", "reproduces", "form",        "rows",   "agree",
+                                          "within",     "differ",     "unpublished", "claims", "hold"};
+    report_table *const summary = report_create(sizeof columns / sizeof columns[0], columns);
+    for (size_t i = 0; i < lab_experiment_count(); ++i) {
+        const lab_experiment *const of = lab_experiment_at(i);
+        char path[AUR_ERROR_FILE_CAPACITY];
+        report_table *facts = NULL;
+        if (!has_results(p, of))
+            continue;
+        path_of(p, of, "run", path, sizeof path);
+        const bool finished = report_load(path, &facts, NULL, NULL) == AUR_OK && report_rows(facts) == 1;
+        report_text(summary, of->name);
+        report_text(summary, of->reproduces);
+        report_text(summary, !finished                                                 ? "unfinished"
+                             : strstr(report_cell(facts, 0, 0), " quick form") != NULL ? "quick"
+                                                                                       : "full");
+        enum { ROWS = 3, CLAIMS = 8 };
+        const bool claims = finished && report_value(facts, 0, report_find(facts, "claims")) > 0.0;
+        for (size_t c = ROWS; c < sizeof columns / sizeof columns[0]; ++c) {
+            const size_t column = finished ? report_find(facts, columns[c]) : SIZE_MAX;
+            const bool told =
+                column != SIZE_MAX && (c == ROWS || (c < CLAIMS ? of->published != NULL : claims));
+            report_text(summary, told ? report_cell(facts, 0, column) : NULL);
+        }
+        report_destroy(facts);
+    }
+    const aur_result result = report_page_table(p->page, summary, "summary.csv", error);
+    report_destroy(summary);
+    return result;
+}
+
+/* The picture, or means of its blocks where a small page is wanted and it is large. */
+static aur_result read_picture(const publication *p, const char *path, aur_image **image, bool *reduced,
+                               aur_error *error) {
+    aur_image *whole = NULL;
+    const aur_result result = aur_image_read(path, &whole, error);
+    *image = whole;
+    if (result != AUR_OK || !p->small || aur_image_width(whole) * aur_image_height(whole) <= SMALL_PIXELS)
+        return result;
+    *reduced = true;
+    const aur_result made = aur_image_downsample(whole, 2, image, error);
+    aur_image_destroy(whole);
+    return made;
+}
+
+/* The pictures of one view, from row `first` of their table on. */
+static aur_result put_view(const publication *p, const lab_experiment *of, const report_table *list,
+                           size_t first, aur_error *error) {
+    enum { VIEW, NAME, PLACE, ROLE, EXPOSURE };
+    const char *const view = report_cell(list, first, VIEW);
+    report_picture pictures[MOST_PICTURES];
+    aur_image *images[MOST_PICTURES];
+    size_t count = 0;
+    bool reduced = false;
+    aur_result result = AUR_OK;
+    for (size_t row = first; row < report_rows(list) && count < MOST_PICTURES && result == AUR_OK; ++row) {
+        if (strcmp(report_cell(list, row, VIEW), view) != 0 || (view[0] == '\0' && row != first))
+            continue;
+        char path[2 * AUR_ERROR_FILE_CAPACITY];
+        const char *const file = report_cell(list, row, PLACE);
+        if (strchr(file, '/') != NULL)
+            return aur_fail(error, AUR_ERROR_FORMAT, "%s: '%s' is no name of a picture", of->name, file);
+        snprintf(path, sizeof path, "%s/%s/%s", p->results, of->name, file);
+        result = read_picture(p, path, &images[count], &reduced, error);
+        pictures[count] =
+            (report_picture){.name = report_cell(list, row, NAME),
+                             .image = images[count],
+                             .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0,
+                             .dropped_bits = p->small ? 4 : 1};
+        count += result == AUR_OK;
+    }
+    char title[256];
+    snprintf(title, sizeof title, "%s%s", view, reduced ? " (means of 2 x 2 pixels)" : "");
+    if (result == AUR_OK)
+        result =
+            report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), count, pictures, error);
+    for (size_t i = 0; i < count; ++i)
+        aur_image_destroy(images[i]);
+    return result;
+}
+
+static aur_result put_pictures(const publication *p, const lab_experiment *of, aur_error *error) {
+    char path[AUR_ERROR_FILE_CAPACITY];
+    report_table *list = NULL;
+    path_of(p, of, "pictures", path, sizeof path);
+    if (access(path, R_OK) != 0)
+        return AUR_OK;
+    aur_result result = report_load(path, &list, NULL, error);
+    if (result == AUR_OK && report_columns(list) != 5)
+        result = aur_fail(error, AUR_ERROR_FORMAT, "%s: not a list of pictures of the lab", path);
+    for (size_t row = 0; result == AUR_OK && row < report_rows(list); ++row) {
+        const char *const view = report_cell(list, row, 0);
+        bool seen = false;
+        for (size_t before = 0; before < row && view[0] != '\0'; ++before)
+            seen = seen || strcmp(report_cell(list, before, 0), view) == 0;
+        if (!seen)
+            result = put_view(p, of, list, row, error);
+    }
+    report_destroy(list);
+    return result;
+}
+
+/* The plot in both formats of print and of pages that show it, with a link to each. */
+static void print_plot(const publication *p, const char *experiment, const report_table *table,
+                       const report_plot *plot) {
+    static const char *const extensions[] = {"pdf", "svg"};
+    for (size_t i = 0; i < 2 && p->printer != NULL; ++i) {
+        char name[128];
+        snprintf(name, sizeof name, "%s-%s.%s", experiment, plot->name, extensions[i]);
+        if (p->printer->print(p->printer->user, name, table, plot))
+            fprintf(p->page, "<p>For print: <a href=\"%s\">%s</a></p>\n", name, name);
+    }
+}
+
+static aur_result put_plots(const publication *p, const lab_experiment *of, const report_table *table,
+                            aur_error *error) {
+    aur_result result = AUR_OK;
+    for (const report_plot *plot = of->plots; plot != NULL && plot->name != NULL && result == AUR_OK;
+         ++plot) {
+        char path[AUR_ERROR_FILE_CAPACITY];
+        report_table *further = NULL;
+        path_of(p, of, plot->table, path, sizeof path);
+        if (plot->table != NULL)
+            result = report_load(path, &further, NULL, error);
+        if (result != AUR_OK)
+            break;
+        const report_table *const drawn = further != NULL ? further : table;
+        report_page_plot(p->page, drawn, plot);
+        print_plot(p, of->name, drawn, plot);
+        report_destroy(further);
+    }
+    return result;
+}
+
+static aur_result put_experiment(const publication *p, const lab_experiment *of, aur_error *error) {
+    char path[AUR_ERROR_FILE_CAPACITY], name[128];
+    report_table *table = NULL;
+    char *notes = NULL;
+    path_of(p, of, NULL, path, sizeof path);
+    aur_result result = report_load(path, &table, &notes, error);
+    if (result != AUR_OK)
+        return result;
+    fprintf(p->page, "<section id=\"%s\"><h2>%s</h2>\n", of->name, of->name);
+    put_tag(p->page, "<p><strong>", of->reproduces, "</strong>: ");
+    put_tag(p->page, "", of->summary, ".</p>\n");
+    put_notes(p->page, notes);
+    result = put_plots(p, of, table, error);
+    snprintf(name, sizeof name, "%s.csv", of->name);
+    if (result == AUR_OK)
+        result = report_page_table(p->page, table, name, error);
+    if (result == AUR_OK)
+        result = put_pictures(p, of, error);
+    fputs("</section>\n", p->page);
+    report_destroy(table);
+    free(notes);
+    return result;
+}
+
+static aur_result put_all(const publication *p, aur_error *error) {
+    report_page_begin(p->page, "Aureole: the papers' experiments");
+    fprintf(p->page,
+            "<p class=\"pale\">Aureole %s. Measured beside published: a published value agrees when it lies "
+            "in our "
+            "interval. Quick forms have fewer samples than the papers; the verdicts that count are those of "
+            "full forms."
+            "</p>\n<nav><ul>",
+            aur_version());
+    for (size_t i = 0; i < lab_experiment_count(); ++i)
+        if (has_results(p, lab_experiment_at(i)))
+            fprintf(p->page, "<li><a href=\"#%s\">%s</a></li>\n", lab_experiment_at(i)->name,
+                    lab_experiment_at(i)->name);
+    fputs("</ul></nav>\n", p->page);
+    aur_result result = put_summary(p, error);
+    for (size_t i = 0; i < lab_experiment_count() && result == AUR_OK; ++i)
+        if (has_results(p, lab_experiment_at(i)))
+            result = put_experiment(p, lab_experiment_at(i), error);
+    return result != AUR_OK ? result : report_page_end(p->page, error);
+}
+
+aur_result lab_publish(const char *results, const char *path, bool small, const lab_printer *printer,
+                       aur_error *error) {
+    char *text = NULL;
+    size_t size = 0, found = 0;
+    publication p = {.results = results, .small = small, .printer = printer};
+    for (size_t i = 0; i < lab_experiment_count(); ++i)
+        found += has_results(&p, lab_experiment_at(i));
+    if (found == 0)
+        return aur_fail(error, AUR_ERROR_OPEN,
+                        "%s: no results of the lab are there: 'aureole lab run --all -o %s' makes them",
+                        results, results);
+    p.page = open_memstream(&text, &size);
+    if (p.page == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = put_all(&p, error);
+    if (fclose(p.page) != 0 && result == AUR_OK)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (result == AUR_OK)
+        result = aur_file_write(path, size, text, error);
+    free(text);
+    return result;
+}

@@ -1,0 +1,179 @@
+/* Runs an experiment: its table, its files, and what it has measured already. */
+#include <aureole/ranks.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "program/lab/run.h"
+
+/* Experiments show how far they are by the time that they are expected to take: of what they do at a time
+ * there is too much. */
+static int show(void *user, const char *what, uint64_t done, uint64_t total) {
+    const lab_run *const run = user;
+    const lab_experiment *const of = run->experiment;
+    const double expected = run->options.quick ? of->quick_seconds : of->seconds;
+    const double part = fmin(lab_run_seconds(run) / fmax(expected, 1.0), 0.99);
+    (void)what;
+    (void)done;
+    (void)total;
+    return run->shown.function(run->shown.user, of->name, (uint64_t)(1e4 * part), 10000);
+}
+
+static void add_columns(report_table *table, const char *const *columns) {
+    for (; *columns != NULL; ++columns)
+        report_column(table, *columns);
+}
+
+/* What a run must share with another one to go on with its results. */
+static void identify(const lab_experiment *experiment, const lab_options *options, char text[512]) {
+    snprintf(text, 512, "aureole %s, %s, %s form, set %s, rows %s", aur_version(), experiment->name,
+             options->quick ? "quick" : "full", options->set != NULL ? options->set : "none",
+             options->rows != NULL ? options->rows : "all");
+}
+
+bool lab_is_finished(const lab_experiment *experiment, const lab_options *options) {
+    char path[AUR_ERROR_FILE_CAPACITY], identity[512];
+    report_table *table = NULL;
+    identify(experiment, options, identity);
+    snprintf(path, sizeof path, "%s/%s/%s-run.csv", options->folder, experiment->name, experiment->name);
+    bool finished = report_load(path, &table, NULL, NULL) == AUR_OK && report_rows(table) == 1 &&
+                    strcmp(report_cell(table, 0, 0), identity) == 0;
+    report_destroy(table);
+    aur_ranks_agree(sizeof finished, &finished);
+    return finished;
+}
+
+/* The folder and the state of the run. */
+static aur_result begin(lab_run *run, aur_error *error) {
+    static const char *const of_pictures[] = {"view", "name", "file", "role", "exposure", NULL};
+    static const char *const of_times[] = {"what", "cpu_seconds", NULL};
+    char path[AUR_ERROR_FILE_CAPACITY], identity[512];
+    snprintf(run->folder, sizeof run->folder, "%s/%s", run->options.folder, run->experiment->name);
+    if (aur_ranks_rank() == 0 && mkdir(run->folder, 0777) != 0 && errno != EEXIST)
+        return aur_fail(error, AUR_ERROR_WRITE, "%s: cannot make the folder: %s", run->folder,
+                        strerror(errno));
+    run->options.folder = run->folder;
+    lab_run_path(run, "run", "csv", path, sizeof path);
+    if (aur_ranks_rank() == 0)
+        unlink(path);
+    identify(run->experiment, &run->options, identity);
+    lab_run_path(run, "unfinished", "txt", path, sizeof path);
+    const aur_result result = lab_kept_open(path, identity, &run->kept, error);
+    if (result != AUR_OK)
+        return result;
+    lab_run_path(run, "pictures", "csv", path, sizeof path);
+    if (!lab_kept_continues(run->kept) || report_load(path, &run->pictures, NULL, NULL) != AUR_OK) {
+        run->pictures = report_create(0, NULL);
+        add_columns(run->pictures, of_pictures);
+        if (aur_ranks_rank() == 0)
+            unlink(path);
+    }
+    run->times = report_create(0, NULL);
+    add_columns(run->times, of_times);
+    add_columns(run->result->table, run->experiment->columns);
+    if (run->experiment->published != NULL) {
+        report_column(run->result->table, "published_over_measured");
+        report_column(run->result->table, "verdict");
+    }
+    run->begin = lab_clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    run->saved = lab_clock_seconds(CLOCK_MONOTONIC);
+    run->shown = run->options.progress;
+    if (run->shown.function != NULL)
+        run->options.progress = (aur_progress){.function = show, .user = run};
+    return AUR_OK;
+}
+
+static void note_verdicts(lab_run *run) {
+    const lab_experiment *const of = run->experiment;
+    const size_t *const v = run->result->verdicts;
+    if (of->published != NULL)
+        lab_note(run,
+                 "of %zu published values %zu agree (lie in our interval), %zu more are within a factor of "
+                 "%g, %zu differ",
+                 v[LAB_AGREES] + v[LAB_WITHIN] + v[LAB_DIFFERS], v[LAB_AGREES], v[LAB_WITHIN], of->factor,
+                 v[LAB_DIFFERS]);
+    if (run->result->claims > 0)
+        lab_note(run, "of %zu claims in words %zu hold", run->result->claims, run->result->claims_held);
+    if (run->options.set != NULL && of->takes_no_set != NULL)
+        lab_note(run, "--set %s is not compared here: %s", run->options.set, of->takes_no_set);
+}
+
+/* Files and the mark that the run is finished, in the end. */
+static aur_result save_all(lab_run *run, aur_error *error) {
+    char path[AUR_ERROR_FILE_CAPACITY], identity[512];
+    aur_result result = lab_run_save(run, run->result->table, NULL, run->result->notes, true, error);
+    for (size_t i = 0; i < run->further_count && result == AUR_OK; ++i)
+        result = lab_run_save(run, run->further[i], run->further_names[i], NULL, true, error);
+    for (size_t i = 0; i < report_rows(run->pictures); ++i)
+        fprintf(run->files, "%s/%s\n", run->folder, report_cell(run->pictures, i, 2));
+    run->result->seconds = lab_run_seconds(run);
+    lab_time(run, "all", run->result->seconds);
+    if (result == AUR_OK)
+        result = lab_run_save(run, run->times, "timings", NULL, true, error);
+    if (result != AUR_OK)
+        return result;
+    report_table *const facts = report_create(0, NULL);
+    static const char *const names[LAB_VERDICTS] = {"agree", "within", "differ", "unpublished"};
+    identify(run->experiment, &run->options, identity);
+    report_fact_text(facts, "run", identity);
+    report_fact_number(facts, "rows", (double)report_rows(run->result->table));
+    for (size_t i = 0; i < LAB_VERDICTS; ++i)
+        report_fact_number(facts, names[i], (double)run->result->verdicts[i]);
+    report_fact_number(facts, "claims", (double)run->result->claims);
+    report_fact_number(facts, "hold", (double)run->result->claims_held);
+    result = lab_run_save(run, facts, "run", NULL, false, error);
+    report_destroy(facts);
+    lab_run_path(run, "unfinished", "txt", path, sizeof path);
+    if (result == AUR_OK && aur_ranks_rank() == 0)
+        unlink(path);
+    return result;
+}
+
+/* Ends a text that was written to memory; false when there was not enough. */
+static bool finish(FILE *stream) {
+    return stream != NULL && fclose(stream) == 0;
+}
+
+aur_result lab_run_experiment(const lab_experiment *experiment, const lab_options *options,
+                              lab_result *result, aur_error *error) {
+    *result = (lab_result){.table = report_create(0, NULL)};
+    size_t note_size, file_size;
+    lab_run run = {.experiment = experiment,
+                   .options = *options,
+                   .result = result,
+                   .notes = open_memstream(&result->notes, &note_size),
+                   .files = open_memstream(&result->files, &file_size)};
+    aur_result outcome = AUR_OK;
+    const bool ready = run.notes != NULL && run.files != NULL;
+    if (ready)
+        outcome = begin(&run, error);
+    if (outcome == AUR_OK && ready)
+        outcome = experiment->run(&run, error);
+    if (outcome == AUR_OK && ready)
+        note_verdicts(&run);
+    const bool noted = finish(run.notes);
+    if (outcome == AUR_OK && ready && noted)
+        outcome = save_all(&run, error);
+    else if (run.kept != NULL && aur_ranks_count() == 1 && report_rows(result->table) > 0)
+        lab_run_save(&run, result->table, NULL, "unfinished: the same command goes on", false, NULL);
+    const bool listed = finish(run.files);
+    if (outcome == AUR_OK && !(ready && noted && listed))
+        outcome = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    lab_kept_close(run.kept);
+    report_destroy(run.pictures);
+    report_destroy(run.times);
+    for (size_t i = 0; i < run.further_count; ++i)
+        report_destroy(run.further[i]);
+    return outcome;
+}
+
+void lab_result_release(lab_result *result) {
+    report_destroy(result->table);
+    free(result->notes);
+    free(result->files);
+    *result = (lab_result){0};
+}

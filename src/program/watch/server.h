@@ -1,0 +1,28 @@
+/* A small server of HTTP/1.1 by GNU libmicrohttpd, in a thread of its own: one request per connection, few
+ * connections at once, each bounded in size and time. */
+#pragma once
+
+#include "program/watch/socket.h"
+
+/* The answer to a request. */
+typedef struct watch_answer {
+    int status;
+    const char *type; /* of the body; NULL: plain text */
+    size_t size;
+    char *body; /* from malloc; the server frees it */
+} watch_answer;
+
+/* Answers a request ("GET", "/target") in the server's thread, or returns false: the request waits, and the
+ * handler is called again after the next watch_server_wake. With `last` it must answer. */
+typedef bool watch_handler(void *user, const char *method, const char *target, bool last,
+                           watch_answer *answer);
+
+typedef struct watch_server watch_server;
+
+/* Begins to serve at `place`, whose port 0 becomes a free one. Errors: OPEN, MEMORY. */
+aur_result watch_server_create(const char *option, watch_place *place, watch_handler *handler, void *user,
+                               watch_server **server, aur_error *error);
+/* Calls the handler again for the requests that wait. From any thread. */
+void watch_server_wake(watch_server *server);
+/* Drops all connections. NULL is allowed. */
+void watch_server_destroy(watch_server *server);

@@ -1,0 +1,111 @@
+#include "program/watch/socket.h"
+
+#include <aureole/text.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+aur_result watch_place_read(const char *option, const char *text, watch_place *place, aur_error *error) {
+    if (text[0] == '\0')
+        return AUR_OK;
+    const char *const colon = strrchr(text, ':');
+    const char *const port = colon != NULL ? colon + 1 : text;
+    const char *host = text;
+    size_t length = colon != NULL ? (size_t)(colon - text) : 0;
+    const bool bracketed = length > 2 && host[0] == '[' && host[length - 1] == ']';
+    if (bracketed) {
+        ++host;
+        length -= 2;
+    }
+    uint64_t number = 0;
+    const bool good = aur_parse_integer(port, 65535, &number) && length < sizeof place->host &&
+                      (colon == NULL || length > 0) &&
+                      (bracketed || colon == NULL || memchr(text, ':', length) == NULL);
+    if (!good)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--%s: '%s' is no place: PORT, HOST:PORT or [HOST]:PORT is wanted, with a port of at "
+                        "most 65535",
+                        option, text);
+    place->port = (unsigned)number;
+    if (colon != NULL) {
+        memcpy(place->host, host, length);
+        place->host[length] = '\0';
+    }
+    return AUR_OK;
+}
+
+void watch_place_write(const watch_place *place, size_t capacity, char *text) {
+    const bool bracketed = strchr(place->host, ':') != NULL;
+    aur_format(text, capacity, "%s%s%s:%u", bracketed ? "[" : "", place->host, bracketed ? "]" : "",
+               place->port);
+}
+
+typedef int socket_action(int socket, const struct sockaddr *address, socklen_t size);
+
+static int bind_and_listen(int socket, const struct sockaddr *address, socklen_t size) {
+    enum { QUEUE = 16 };
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    return bind(socket, address, size) != 0 ? -1 : listen(socket, QUEUE);
+}
+
+/* Does something at the first of a host's addresses where it can be done. */
+static aur_result open_socket(const char *option, const watch_place *place, bool passive,
+                              socket_action *action, const char *failed, int *out, aur_error *error) {
+    char port[12], name[WATCH_HOST_CAPACITY + 16];
+    aur_format(port, sizeof port, "%u", place->port);
+    watch_place_write(place, sizeof name, name);
+    const struct addrinfo wanted = {.ai_socktype = SOCK_STREAM, .ai_flags = passive ? AI_PASSIVE : 0};
+    struct addrinfo *found = NULL;
+    const int unknown = getaddrinfo(place->host, port, &wanted, &found);
+    if (unknown != 0)
+        return aur_fail(error, AUR_ERROR_OPEN, "--%s: %s: %s", option, name,
+                        unknown == EAI_SYSTEM ? strerror(errno) : gai_strerror(unknown));
+    int result = -1, why = 0;
+    for (const struct addrinfo *at = found; at != NULL && result < 0; at = at->ai_next) {
+        const int made = socket(at->ai_family, at->ai_socktype, at->ai_protocol);
+        if (made >= 0 && fcntl(made, F_SETFD, FD_CLOEXEC) == 0 &&
+            action(made, at->ai_addr, at->ai_addrlen) == 0) {
+            result = made;
+            continue;
+        }
+        why = errno;
+        if (made >= 0)
+            close(made);
+    }
+    freeaddrinfo(found);
+    if (result < 0)
+        return aur_fail(error, AUR_ERROR_OPEN, "--%s: %s %s: %s", option, failed, name, strerror(why));
+    *out = result;
+    return AUR_OK;
+}
+
+aur_result watch_listen(const char *option, watch_place *place, int *listener, aur_error *error) {
+    const aur_result result =
+        open_socket(option, place, true, bind_and_listen, "cannot listen at", listener, error);
+    struct sockaddr_storage address;
+    socklen_t size = sizeof address;
+    if (result != AUR_OK || getsockname(*listener, (struct sockaddr *)&address, &size) != 0)
+        return result;
+    if (address.ss_family == AF_INET)
+        place->port = ntohs(((const struct sockaddr_in *)&address)->sin_port);
+    else if (address.ss_family == AF_INET6)
+        place->port = ntohs(((const struct sockaddr_in6 *)&address)->sin6_port);
+    return AUR_OK;
+}
+
+/* Neither connecting nor sending waits for ever. */
+static int connect_soon(int socket, const struct sockaddr *address, socklen_t size) {
+    const struct timeval patience = {.tv_sec = 10};
+    setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    return connect(socket, address, size);
+}
+
+aur_result watch_connect(const char *option, const watch_place *place, int *connection, aur_error *error) {
+    return open_socket(option, place, false, connect_soon, "cannot connect to", connection, error);
+}

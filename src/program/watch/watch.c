@@ -1,0 +1,406 @@
+#include "program/watch/watch.h"
+
+#include <aureole/text.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "program/watch/display.h"
+#include "program/watch/page.h"
+#include "program/watch/server.h"
+
+enum { TOKEN_BYTES = 16, TOKEN_LENGTH = 2 * TOKEN_BYTES, TEXT_CAPACITY = 256, MOST_PAGES = 16 };
+
+/* Seconds between two words on the progress, the part of the time that developing pictures may take, and how
+ * long a page that says nothing more is waited for in the end, and one that does. */
+static const double PAUSE = 0.2, DEVELOPING_PART = 0.05, SILENCE = 3.0, GOODBYE = 60.0;
+
+/* A page that somebody has open. */
+typedef struct open_page {
+    uint64_t id;
+    bool has_all; /* the picture that the render has ended with */
+} open_page;
+
+struct watch_session {
+    char token[TOKEN_LENGTH + 1], address[WATCH_HOST_CAPACITY + TOKEN_LENGTH + 32], title[TEXT_CAPACITY];
+    watch_server *server;
+    watch_display *display;
+    bool display_lost; /* and said so */
+    atomic_bool stop;
+    /* Of the thread that reports progress: */
+    watch_source source;
+    char pending[TEXT_CAPACITY];  /* what is known of the picture, until it is told with all else */
+    double told, developed, cost; /* when it was last told and developed, and the seconds that this took */
+    pthread_mutex_t lock;         /* guards what follows */
+    uint64_t serial;              /* of the state */
+    char what[TEXT_CAPACITY], known[TEXT_CAPACITY], ended[TEXT_CAPACITY];
+    double share;
+    bool wanted;           /* a page asks for a newer picture */
+    aur_image *fresh;      /* which the server's thread takes over */
+    const aur_image *last; /* what the render has ended with; its owner's */
+    double asked;          /* the time of the last request */
+    size_t page_count;
+    open_page pages[MOST_PAGES];
+    /* Of the server's thread: */
+    aur_image *kept;        /* what it has taken over */
+    const aur_image *shown; /* that, or what the render has ended with */
+    uint64_t version;
+    size_t layer_count;
+    watch_layer layers[WATCH_LAYER_LIMIT];
+};
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* --- answers, in the server's thread */
+
+static bool answer_text(watch_answer *answer, int status, const char *type, char *body, size_t size) {
+    *answer = body != NULL || status != 200 ? (watch_answer){status, type, size, body}
+                                            : (watch_answer){.status = 500};
+    return true;
+}
+
+static bool answer_status(watch_answer *answer, int status) {
+    return answer_text(answer, status, NULL, NULL, 0);
+}
+
+static void take_over(watch_session *watch) {
+    pthread_mutex_lock(&watch->lock);
+    aur_image *const fresh = watch->fresh;
+    watch->fresh = NULL;
+    const aur_image *const newest = watch->last != NULL ? watch->last : fresh;
+    pthread_mutex_unlock(&watch->lock);
+    if (fresh != NULL) {
+        aur_image_destroy(watch->kept);
+        watch->kept = fresh;
+    }
+    if (newest == NULL || newest == watch->shown)
+        return;
+    watch->shown = newest;
+    watch->layer_count = watch_layers(newest, watch->layers);
+    ++watch->version;
+}
+
+static void put_layers(aur_json *json, const watch_session *watch) {
+    aur_json_name(json, "layers");
+    aur_json_open(json, '[', false);
+    for (size_t l = 0; l < watch->layer_count; ++l) {
+        const watch_layer *const layer = &watch->layers[l];
+        aur_json_open(json, '{', false);
+        aur_json_name(json, "name");
+        aur_json_string(json, layer->name);
+        aur_json_name(json, "channels");
+        aur_json_open(json, '[', false);
+        for (size_t c = 0; c < layer->channel_count; ++c)
+            aur_json_string(json, aur_image_channel_name(watch->shown, layer->channel + c));
+        aur_json_close(json, ']');
+        aur_json_close(json, '}');
+    }
+    aur_json_close(json, ']');
+}
+
+static char *state_text(watch_session *watch, size_t *size) {
+    char *text = NULL;
+    aur_json json = {.stream = open_memstream(&text, size)};
+    if (json.stream == NULL)
+        return NULL;
+    aur_json_open(&json, '{', false);
+    pthread_mutex_lock(&watch->lock);
+    const char *const texts[][2] = {{"what", watch->what}, {"known", watch->known}, {"ended", watch->ended}};
+    for (size_t i = 0; i < 3; ++i) {
+        aur_json_name(&json, texts[i][0]);
+        aur_json_string(&json, texts[i][1]);
+    }
+    aur_json_name(&json, "serial");
+    aur_json_integer(&json, watch->serial);
+    aur_json_name(&json, "share");
+    aur_json_number(&json, watch->share);
+    pthread_mutex_unlock(&watch->lock);
+    aur_json_name(&json, "version");
+    aur_json_integer(&json, watch->version);
+    aur_json_name(&json, "width");
+    aur_json_integer(&json, watch->shown != NULL ? aur_image_width(watch->shown) : 0);
+    aur_json_name(&json, "height");
+    aur_json_integer(&json, watch->shown != NULL ? aur_image_height(watch->shown) : 0);
+    put_layers(&json, watch);
+    aur_json_close(&json, '}');
+    if (fclose(json.stream) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* With the lock held. Where there are too many pages the last one is forgotten. */
+static open_page *page_of(watch_session *watch, uint64_t id) {
+    for (size_t i = 0; i < watch->page_count; ++i)
+        if (watch->pages[i].id == id)
+            return &watch->pages[i];
+    watch->page_count += watch->page_count < MOST_PAGES;
+    open_page *const page = &watch->pages[watch->page_count - 1];
+    *page = (open_page){.id = id};
+    return page;
+}
+
+/* "state/PAGE/SERIAL": what is newer than the state of that number. */
+static bool answer_state(watch_session *watch, const char *text, bool last, watch_answer *answer) {
+    char id_text[24] = "";
+    uint64_t id = 0, seen = 0;
+    const size_t length = strcspn(text, "/");
+    if (length >= sizeof id_text || text[length] != '/' ||
+        !aur_parse_integer(memcpy(id_text, text, length), UINT64_MAX, &id) ||
+        !aur_parse_integer(text + length + 1, UINT64_MAX, &seen))
+        return answer_status(answer, 404);
+    pthread_mutex_lock(&watch->lock);
+    page_of(watch, id);
+    watch->asked = now();
+    watch->wanted = true;
+    const bool news = watch->serial > seen || last;
+    pthread_mutex_unlock(&watch->lock);
+    if (!news)
+        return false;
+    take_over(watch);
+    size_t size = 0;
+    char *const body = state_text(watch, &size);
+    return answer_text(answer, 200, "application/json", body, size);
+}
+
+static bool answer_picture(watch_session *watch, const char *text, watch_answer *answer) {
+    uint64_t layer = 0;
+    take_over(watch);
+    pthread_mutex_lock(&watch->lock);
+    watch->asked = now();
+    pthread_mutex_unlock(&watch->lock);
+    if (!aur_parse_integer(text, WATCH_LAYER_LIMIT, &layer) || layer >= watch->layer_count)
+        return answer_status(answer, 404);
+    size_t size = 0;
+    char *const body = watch_picture(watch->shown, &watch->layers[layer], &size);
+    return answer_text(answer, 200, "application/json", body, size);
+}
+
+static bool answer_goodbye(watch_session *watch, const char *text, watch_answer *answer) {
+    uint64_t id = 0;
+    if (!aur_parse_integer(text, UINT64_MAX, &id))
+        return answer_status(answer, 404);
+    pthread_mutex_lock(&watch->lock);
+    page_of(watch, id)->has_all = true;
+    pthread_mutex_unlock(&watch->lock);
+    return answer_text(answer, 200, NULL, strdup("Goodbye.\n"), strlen("Goodbye.\n"));
+}
+
+/* What comes after "/TOKEN/", or NULL. How long it takes tells nothing of the token. */
+static const char *after_token(const watch_session *watch, const char *target) {
+    unsigned char difference = 0;
+    if (strlen(target) < TOKEN_LENGTH + 2 || target[TOKEN_LENGTH + 1] != '/')
+        return NULL;
+    for (size_t i = 0; i < TOKEN_LENGTH; ++i)
+        difference |= (unsigned char)(target[1 + i] ^ watch->token[i]);
+    return difference == 0 ? target + TOKEN_LENGTH + 2 : NULL;
+}
+
+static bool handle(void *user, const char *method, const char *target, bool last, watch_answer *answer) {
+    watch_session *const watch = user;
+    const char *const what = after_token(watch, target);
+    const bool reads = strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0;
+    const bool acts = what != NULL && (strcmp(what, "stop") == 0 || strncmp(what, "bye/", 4) == 0);
+    if (what == NULL)
+        return answer_status(answer, 404);
+    if (acts ? strcmp(method, "POST") != 0 : !reads)
+        return answer_status(answer, 405);
+    if (what[0] == '\0') {
+        size_t size = 0;
+        char *const body = watch_page(watch->title, &size);
+        return answer_text(answer, 200, "text/html; charset=utf-8", body, size);
+    }
+    if (strncmp(what, "state/", 6) == 0)
+        return answer_state(watch, what + 6, last, answer);
+    if (strncmp(what, "picture/", 8) == 0)
+        return answer_picture(watch, what + 8, answer);
+    if (!acts)
+        return answer_status(answer, 404);
+    if (what[0] == 'b')
+        return answer_goodbye(watch, what + 4, answer);
+    atomic_store(&watch->stop, true);
+    return answer_text(answer, 200, NULL, strdup("Stopping.\n"), strlen("Stopping.\n"));
+}
+
+/* --- making */
+
+static aur_result make_token(watch_session *watch, aur_error *error) {
+    unsigned char bytes[TOKEN_BYTES];
+    if (getrandom(bytes, sizeof bytes, 0) != (ssize_t)sizeof bytes)
+        return aur_fail(error, AUR_ERROR_INTERNAL, "--serve: the system has no random numbers");
+    for (size_t i = 0; i < TOKEN_BYTES; ++i)
+        aur_format(watch->token + 2 * i, 3, "%02x", bytes[i]);
+    return AUR_OK;
+}
+
+static aur_result begin_serving(watch_session *watch, const char *where, aur_error *error) {
+    watch_place place = {.host = "127.0.0.1"};
+    aur_result result = watch_place_read("serve", where, &place, error);
+    if (result == AUR_OK)
+        result = make_token(watch, error);
+    if (result == AUR_OK)
+        result = watch_server_create("serve", &place, handle, watch, &watch->server, error);
+    if (result != AUR_OK)
+        return result;
+    /* All addresses of this machine are none that a browser goes to. */
+    if (strcmp(place.host, "0.0.0.0") == 0 || strcmp(place.host, "::") == 0)
+        gethostname(place.host, sizeof place.host - 1);
+    char text[WATCH_HOST_CAPACITY + 16];
+    watch_place_write(&place, sizeof text, text);
+    aur_format(watch->address, sizeof watch->address, "http://%s/%s/", text, watch->token);
+    return AUR_OK;
+}
+
+aur_result watch_create(const watch_options *options, watch_session **made, aur_error *error) {
+    *made = NULL;
+    watch_session *const watch = calloc(1, sizeof *watch);
+    if (watch == NULL || pthread_mutex_init(&watch->lock, NULL) != 0) {
+        free(watch);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    }
+    atomic_init(&watch->stop, false);
+    watch->serial = 1;
+    aur_format(watch->what, sizeof watch->what, "planning");
+    aur_format(watch->title, sizeof watch->title, "%s", options->title);
+    aur_result result = options->serve != NULL ? begin_serving(watch, options->serve, error) : AUR_OK;
+    if (result == AUR_OK && options->display != NULL)
+        result = watch_display_create(options->display, watch->title, &watch->display, error);
+    if (result == AUR_OK)
+        *made = watch;
+    else
+        watch_destroy(watch);
+    return result;
+}
+
+void watch_destroy(watch_session *watch) {
+    if (watch == NULL)
+        return;
+    watch_server_destroy(watch->server);
+    watch_display_destroy(watch->display);
+    aur_image_destroy(watch->fresh);
+    aur_image_destroy(watch->kept);
+    pthread_mutex_destroy(&watch->lock);
+    free(watch);
+}
+
+const char *watch_address(const watch_session *watch) {
+    return watch->server != NULL ? watch->address : NULL;
+}
+
+/* --- the render's side */
+
+void watch_set_source(watch_session *watch, const watch_source *source) {
+    watch->source = *source;
+}
+
+void watch_tell(watch_session *watch, const char *text) {
+    aur_format(watch->pending, sizeof watch->pending, "%s", text);
+}
+
+/* Pictures for the pages, which is returned, and the display server, if they want any and the last ones have
+ * not cost too much for others. */
+static aur_image *develop(watch_session *watch) {
+    pthread_mutex_lock(&watch->lock);
+    const bool wanted = watch->wanted && watch->fresh == NULL;
+    pthread_mutex_unlock(&watch->lock);
+    const bool sends = watch->display != NULL && watch_display_is_free(watch->display);
+    const double begin = now();
+    const watch_source *const source = &watch->source;
+    aur_image *image = NULL, *fresh = NULL;
+    if ((!wanted && !sends) || source->develop == NULL ||
+        begin - watch->developed < watch->cost / DEVELOPING_PART)
+        return NULL;
+    if (sends && source->develop(source->user, &image, NULL) == AUR_OK)
+        watch_display_show(watch->display, image);
+    if (wanted && source->develop(source->user, &fresh, NULL) != AUR_OK)
+        fresh = NULL;
+    watch->developed = now();
+    watch->cost = watch->developed - begin;
+    return fresh;
+}
+
+bool watch_progress(watch_session *watch, const char *what, double share) {
+    if (atomic_load(&watch->stop))
+        return true;
+    const double time = now();
+    if (time - watch->told < PAUSE)
+        return false;
+    watch->told = time;
+    if (watch->source.describe != NULL)
+        watch->source.describe(watch->source.user, sizeof watch->pending, watch->pending);
+    aur_image *const fresh = develop(watch);
+    pthread_mutex_lock(&watch->lock); /* words, share and picture are of this moment */
+    aur_format(watch->what, sizeof watch->what, "%s", what != NULL ? what : "working");
+    memcpy(watch->known, watch->pending, sizeof watch->known);
+    if (fresh != NULL) {
+        watch->fresh = fresh;
+        watch->wanted = false;
+    }
+    watch->share = share;
+    ++watch->serial;
+    pthread_mutex_unlock(&watch->lock);
+    if (watch->server != NULL)
+        watch_server_wake(watch->server);
+    return false;
+}
+
+/* Whether pages are still to fetch what the render, which ended then, has ended with. */
+static bool is_waited_for(watch_session *watch, double ended) {
+    bool waited = false;
+    pthread_mutex_lock(&watch->lock);
+    for (size_t i = 0; i < watch->page_count; ++i)
+        waited = waited || !watch->pages[i].has_all;
+    const double last = fmax(watch->asked, ended), time = now();
+    waited = waited && time - last < SILENCE && time - ended < GOODBYE;
+    pthread_mutex_unlock(&watch->lock);
+    return waited;
+}
+
+bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text) {
+    if (watch->display == NULL || watch->display_lost ||
+        !watch_display_has_failed(watch->display, capacity, text))
+        return false;
+    watch->display_lost = true;
+    return true;
+}
+
+/* The whole picture as it is written. */
+static void send_last(watch_session *watch, const aur_image *image) {
+    enum { MOST_CHANNELS = 128 };
+    const char *names[MOST_CHANNELS];
+    const size_t count = aur_image_channel_count(image);
+    aur_image *copy = NULL;
+    for (size_t c = 0; c < count && c < MOST_CHANNELS; ++c)
+        names[c] = aur_image_channel_name(image, c);
+    if (count <= MOST_CHANNELS && aur_image_select(image, count, names, &copy, NULL) == AUR_OK)
+        watch_display_show(watch->display, copy);
+    watch_display_finish(watch->display);
+}
+
+void watch_end(watch_session *watch, const aur_image *image, const char *words) {
+    watch->source = (watch_source){0};
+    if (watch->display != NULL && image != NULL)
+        send_last(watch, image);
+    if (watch->server == NULL)
+        return;
+    pthread_mutex_lock(&watch->lock);
+    aur_format(watch->ended, sizeof watch->ended, "%s", words);
+    watch->last = image;
+    ++watch->serial;
+    pthread_mutex_unlock(&watch->lock);
+    watch_server_wake(watch->server);
+    const struct timespec moment = {.tv_nsec = 20000000};
+    for (const double ended = now(); is_waited_for(watch, ended);)
+        nanosleep(&moment, NULL);
+    watch_server_destroy(watch->server);
+    watch->server = NULL;
+}

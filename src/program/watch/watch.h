@@ -1,0 +1,46 @@
+/* Watching a picture while it is rendered: a page that a browser opens, and an image viewer that is sent the
+ * picture. None of it changes the picture. */
+#pragma once
+
+#include <aureole/image.h>
+
+typedef struct watch_session watch_session;
+
+/* Both may be asked for; NULL: it is not. */
+typedef struct watch_options {
+    const char *serve;   /* "", PORT or HOST:PORT: where the page is, on this machine alone without a host */
+    const char *display; /* PORT or HOST:PORT of a display server (program/watch/display.h) */
+    const char *title;   /* the page's, and the picture's name */
+} watch_options;
+
+/* Errors: ARGUMENT (no such place), OPEN (it cannot be listened at or connected to), MEMORY. */
+aur_result watch_create(const watch_options *options, watch_session **made, aur_error *error);
+/* NULL is allowed. */
+void watch_destroy(watch_session *watch);
+
+/* Where the page is: "http://127.0.0.1:40001/5f.../"; NULL where there is none. */
+const char *watch_address(const watch_session *watch);
+
+/* Where the picture comes from while it is rendered, in whichever thread reports progress. */
+typedef struct watch_source {
+    const void *user;
+    aur_result (*develop)(const void *user, aur_image **image, aur_error *error);
+    /* Writes what is known of the picture, such as its samples and its error, to text[capacity]; may be NULL.
+     */
+    void (*describe)(const void *user, size_t capacity, char *text);
+} watch_source;
+
+/* From now on there is a picture; with a source of zeros there is none any more. */
+void watch_set_source(watch_session *watch, const watch_source *source);
+/* What is known of the picture, where the source does not describe it; shown with the next progress. */
+void watch_tell(watch_session *watch, const char *text);
+/* To be called with the progress, `share` from 0 to 1; true when somebody has asked for the render to stop.
+ * One thread at a time. */
+bool watch_progress(watch_session *watch, const char *what, double share);
+
+/* Why a display server gets no more: text[capacity], once; else false. */
+bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text);
+
+/* The render has ended with the picture `image`, or NULL, which `words` say: "finished". Pages that are open
+ * are given some seconds to fetch it, and a display server is sent it. */
+void watch_end(watch_session *watch, const aur_image *image, const char *words);

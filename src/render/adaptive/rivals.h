@@ -1,0 +1,56 @@
+/* What a choice of the integrator by trial compares, and the search for a photon map among it. */
+#pragma once
+
+#include "render/adaptive/candidates.h"
+#include "render/adaptive/choose.h"
+
+/* Of the error asked, the bias that may be left; the noise makes the rest of the square. */
+#define AUR_BIAS_PART 0.6
+
+/* What is compared, in few pixels but for the last; and what final gathering's photon map is wrong by. The
+ * trial of path tracing is the picture's own where that is small. */
+typedef struct aur_rivals {
+    aur_renderer *renderer;
+    const aur_render_options *options; /* of the picture */
+    double wanted;                     /* the error asked, or the one when rays or time will be spent */
+    double path_error;                 /* the same by path tracing */
+    aur_trial path, pilots[AUR_PILOT_KINDS], difference, gather;
+    double pixels;             /* of the picture, over those of the few */
+    aur_gather_pilots told;    /* by the pilots */
+    aur_gather_law law;        /* that they lead to */
+    aur_candidates candidates; /* of path tracing */
+} aur_rivals;
+
+/* What is asked of few pixels, each in place of `part` x `part`, or of fewer where that would leave a small
+ * picture. The bias of single points is that of pixels at least, and known from as many rays the better the
+ * fewer points they are of: what is uncertain of its square is as the root of their number. */
+enum { AUR_COARSE_PIXELS = 4, AUR_COARSE_POINTS = 8 };
+aur_render_options aur_rivals_coarse(const aur_rivals *rivals, const aur_trial *whole, size_t part);
+
+/* By `integrator`, a text that becomes the trial's, or NULL where memory was short. Errors: as of
+ * aur_trial_create. */
+aur_result aur_rivals_create(const aur_rivals *rivals, const aur_choice *choice,
+                             const aur_render_options *options, char *integrator, aur_trial *trial,
+                             aur_error *error);
+
+/* The next round, as whoever goes on with the trial would plan it. False where no pixel can have more. */
+aur_result aur_rivals_round(const aur_choice *choice, const aur_goal *goal, aur_trial *trial, bool *more,
+                            aur_error *error);
+
+/* Pilots of final gathering, the first one and whichever costs little beside the picture, as those before
+ * tell; and the law that they lead to. Where no error is asked, the one is wanted to which final gathering
+ * takes most of `worth` rays. `path` is path tracing of the same pixels, and lends its scratch. */
+aur_result aur_rivals_render_pilots(aur_rivals *rivals, const aur_render_options *coarse,
+                                    const aur_choice *choice, double worth, aur_trial *path,
+                                    aur_error *error);
+
+/* Rays of the whole picture to the error wanted by final gathering whose bias has this square. */
+double aur_rivals_gather_rays(const aur_rivals *rivals, const aur_choice *choice, double square_bias);
+/* The same where its bias is all that may be left. */
+double aur_rivals_planned_rays(const aur_rivals *rivals, const aur_choice *choice);
+
+/* A map of a small enough bias, if there is one: choice->gather.photons and ->bias. Where that of the photons
+ * which a picture of so many rays pays for is near it, one is tried that path tracing's rays, `worth` of
+ * which final gathering may take, would pay for. */
+aur_result aur_rivals_find_map(aur_rivals *rivals, aur_choice *choice, double rays, double worth,
+                               aur_error *error);

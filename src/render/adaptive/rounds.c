@@ -1,0 +1,78 @@
+#include "render/adaptive/rounds.h"
+
+#include <math.h>
+
+/* The samples of a pixel where one more would save as much as it costs, which is worth the more the less is
+ * paid: in proportion to `spending`, one over the root of the price. */
+static double samples_at(double spending, double variance, uint32_t samples) {
+    return fmax(spending * sqrt(variance * samples), samples);
+}
+
+/* The spending at which the sum of variances becomes `factor` of what it is. Samples over those of now leave
+ * the lesser of a variance and root(variance x targets) / spending, so that the sum is concave in one over
+ * the spending, with a corner for each pixel: Newton's steps from 0 on stay below the solution and end there,
+ * when no pixel passes its corner any more. */
+static double spending_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
+    double wanted = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        wanted += factor * variances[i];
+    double slack = 0.0; /* one over the spending */
+    for (bool moves = wanted > 0.0; moves;) {
+        double kept = 0.0, slope = 0.0;
+        for (size_t i = 0; i < count; ++i) {
+            const double root = sqrt(variances[i] * targets[i]);
+            const bool spends = slack * root < variances[i];
+            kept += spends ? 0.0 : variances[i];
+            slope += spends ? root : 0.0;
+        }
+        const double next = slope > 0.0 ? (wanted - kept) / slope : slack;
+        const double close_enough = 1.0 + 1e-9;
+        moves = next > close_enough * slack;
+        slack = fmax(next, slack);
+    }
+    return 1.0 / slack;
+}
+
+double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
+    const double spending = spending_to(count, variances, factor, targets);
+    double before = 0.0, after = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        before += targets[i];
+        after += variances[i] > 0.0 ? samples_at(spending, variances[i], targets[i]) : targets[i];
+    }
+    return after / before;
+}
+
+/* No pixel is left with less than a quarter of the mean of all, nor with less than half of it before it has
+ * 32 samples: one whose first samples agreed by chance, as those of few directions from a dim place do, would
+ * stay as it is, and so would all about it; and one in which none has met a lamp that covers a thirtieth of
+ * it shows no variance at all. It costs at most that part more, where most pixels have no variance. */
+static bool raise_least(size_t count, uint32_t *targets) {
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        sum += targets[i];
+    const double mean = sum / (double)count, first = 32.0;
+    const double least = ceil(fmax(0.25 * mean, floor(fmin(0.5 * mean, first))));
+    bool raised = false;
+    for (size_t i = 0; i < count; ++i)
+        if (targets[i] < least) {
+            targets[i] = (uint32_t)fmin(least, (double)AUR_MOST_GROWTH * targets[i]);
+            raised = true;
+        }
+    return raised;
+}
+
+bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
+                       uint32_t *targets) {
+    const double spending = spending_to(count, variances, factor, targets);
+    bool raised = false;
+    for (size_t i = 0; i < count; ++i) {
+        const double wanted = variances[i] > 0.0 ? ceil(fmin(samples_at(spending, variances[i], targets[i]),
+                                                             (double)AUR_MOST_GROWTH * targets[i]))
+                                                 : targets[i];
+        const uint32_t target = (uint32_t)fmin(wanted, most);
+        raised = raised || target > targets[i];
+        targets[i] = target > targets[i] ? target : targets[i];
+    }
+    return raise_least(count, targets) || raised;
+}

@@ -1,0 +1,32 @@
+/* A render in a file, to go on from. */
+#include "render/film/checkpoint.h"
+#include "points/base/error.h"
+#include "render/driver/renderer.h"
+
+aur_result aur_render_save(const aur_render *render, const char *path, aur_error *error) {
+    const char *const identity = aur_render_identity(render);
+    if (identity == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a render is saved whose options say 'resumable'");
+    uint64_t words[AUR_SPENT_WORDS];
+    aur_render_put_spent(render, words);
+    const aur_film *const film = aur_render_film(render);
+    return aur_checkpoint_save(path, identity, AUR_SPENT_WORDS, words, 1, &film, error);
+}
+
+aur_result aur_render_resume(aur_render *render, const char *path, aur_error *error) {
+    const char *const identity = aur_render_identity(render);
+    if (identity == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a render goes on whose options say 'resumable'");
+    aur_checkpoint kept;
+    aur_result result = aur_checkpoint_load(path, false, &kept, error);
+    if (result == AUR_OK)
+        result = aur_render_check_kind(path, &kept, error);
+    if (result == AUR_OK)
+        result = aur_identity_compare(path, kept.identity, identity, NULL, error);
+    if (result == AUR_OK)
+        result = aur_fail_in(error, aur_render_merge(render, kept.films[0], error), path);
+    if (result == AUR_OK)
+        aur_render_take_spent(render, kept.words);
+    aur_checkpoint_release(&kept);
+    return result;
+}

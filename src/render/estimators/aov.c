@@ -1,0 +1,264 @@
+/* What is known of the surfaces that the camera sees, in channels beside the radiance of another integrator,
+ * named as Mitsuba 3 names them. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/names.h"
+#include "render/film/integrator.h"
+
+enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
+
+/* One sample as the channels see it. */
+typedef struct aov_sample {
+    aur_vector radiance;
+    float weight;
+    const aur_ray *ray;
+    const aur_hit *hit; /* NULL: the ray meets nothing, and the rest is 0 */
+    const aur_surface *surface;
+    const double *origin; /* of the scene's coordinates */
+} aov_sample;
+
+typedef struct aov_type {
+    const char *name;
+    const char *letters; /* one a channel */
+    void (*evaluate)(const aov_sample *sample, float *values);
+} aov_type;
+
+static void put(aur_vector v, float *values) {
+    values[0] = v.x;
+    values[1] = v.y;
+    values[2] = v.z;
+}
+
+static void albedo(const aov_sample *sample, float *values) {
+    const aur_surface *const surface = sample->surface;
+    const float side = -aur_vector_dot(surface->frame.z, sample->ray->direction);
+    put(aur_bsdf_diffuse_albedo(surface->bsdf, surface->texture, side), values);
+}
+
+static void depth(const aov_sample *sample, float *values) {
+    values[0] = sample->hit->distance;
+}
+
+static void position(const aov_sample *sample, float *values) {
+    double place[3];
+    aur_vector_to_doubles(sample->surface->position, place);
+    for (size_t i = 0; i < 3; ++i)
+        values[i] = (float)(place[i] + sample->origin[i]);
+}
+
+static void uv(const aov_sample *sample, float *values) {
+    values[0] = sample->surface->texture.u;
+    values[1] = sample->surface->texture.v;
+}
+
+static void geo_normal(const aov_sample *sample, float *values) {
+    put(sample->surface->geometric_normal, values);
+}
+
+static void sh_normal(const aov_sample *sample, float *values) {
+    put(sample->surface->frame.z, values);
+}
+
+static void prim_index(const aov_sample *sample, float *values) {
+    values[0] = (float)sample->hit->primitive;
+}
+
+/* From 1, so that 0 is nothing. */
+static void shape_index(const aov_sample *sample, float *values) {
+    values[0] = (float)(sample->hit->shape + 1);
+}
+
+/* The film makes these two of its sums: see channel_kind. */
+static void sample_count(const aov_sample *sample, float *values) {
+    (void)sample;
+    values[0] = 0.0f;
+}
+
+static void variance(const aov_sample *sample, float *values) {
+    put(aur_vector_scale(aur_vector_multiply(sample->radiance, sample->radiance), sample->weight), values);
+}
+
+static const aov_type types[] = {
+    {"albedo", "RGB", albedo},           {"depth", "T", depth},
+    {"position", "XYZ", position},       {"uv", "UV", uv},
+    {"geo_normal", "XYZ", geo_normal},   {"sh_normal", "XYZ", sh_normal},
+    {"prim_index", "I", prim_index},     {"shape_index", "I", shape_index},
+    {"sample_count", "N", sample_count}, {"variance", "RGB", variance},
+};
+
+enum { TYPE_COUNT = sizeof types / sizeof types[0] };
+
+typedef struct aov_data {
+    /* Of the keys, and gone afterwards: */
+    const char *list;
+    const aur_parameter *item;
+
+    aur_integrator *nested;
+    size_t count;
+    const aov_type *aovs[CHANNEL_CAPACITY];
+    size_t channel_count;
+    aur_channel_kind kinds[CHANNEL_CAPACITY];
+    char names[CHANNEL_CAPACITY][NAME_CAPACITY];
+    const char *name_list[CHANNEL_CAPACITY];
+} aov_data;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(aov_data, "aovs", list,
+                     "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
+                     "primitive:prim_index,samples:sample_count,variance:variance",
+                     "name:type,...: the channels beside the picture")},
+    {AUR_KEY_OF_ITEM(aov_data, "integrator", item, "path", "whose picture it is", "integrator")},
+};
+
+static void release(aur_integrator *integrator) {
+    aov_data *const data = integrator->data;
+    aur_integrator_destroy(data->nested);
+}
+
+static const char *type_name(const void *table, size_t index) {
+    (void)table;
+    return types[index].name;
+}
+
+static aur_channel_kind channel_kind(const aov_type *type, size_t channel) {
+    if (type->evaluate == sample_count)
+        return AUR_CHANNEL_COUNT;
+    return type->evaluate == variance ? (aur_channel_kind)(AUR_CHANNEL_VARIANCE_R + channel)
+                                      : AUR_CHANNEL_MEAN;
+}
+
+/* "name:type" */
+static aur_result add_aov(aov_data *data, const char *text, size_t length, aur_location location,
+                          aur_error *error) {
+    const char *const colon = memchr(text, ':', length);
+    const size_t name_length = colon != NULL ? (size_t)(colon - text) : 0;
+    if (colon == NULL || name_length == 0 || name_length + 3 > NAME_CAPACITY)
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                           "integrator 'aov': '%.*s' is not of the form name:type, with a name of at most %d",
+                           length < 64 ? (int)length : 64, text, NAME_CAPACITY - 3);
+    char wanted[NAME_CAPACITY];
+    size_t index;
+    snprintf(wanted, sizeof wanted, "%.*s", (int)(length - name_length - 1), colon + 1);
+    const aur_result result = aur_names_choose((aur_names){TYPE_COUNT, type_name, NULL}, "kind of channel",
+                                               wanted, location, &index, error);
+    if (result != AUR_OK)
+        return result;
+    const aov_type *const type = &types[index];
+    const size_t channels = strlen(type->letters);
+    if (data->channel_count + channels > CHANNEL_CAPACITY)
+        return aur_fail_at(error, location, AUR_ERROR_ARGUMENT, "integrator 'aov': more than %d channels",
+                           CHANNEL_CAPACITY);
+    for (size_t c = 0; c < channels; ++c) {
+        char *const name = data->names[data->channel_count];
+        snprintf(name, NAME_CAPACITY, "%.*s.%c", (int)name_length, text, type->letters[c]);
+        for (size_t i = 0; i < data->channel_count; ++i)
+            if (strcmp(data->names[i], name) == 0)
+                return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                                   "integrator 'aov': two channels are called '%s'", name);
+        data->kinds[data->channel_count] = channel_kind(type, c);
+        data->name_list[data->channel_count++] = name;
+    }
+    data->aovs[data->count++] = type;
+    return AUR_OK;
+}
+
+static aur_result read_aovs(aov_data *data, const char *text, aur_location location, aur_error *error) {
+    while (*text != '\0') {
+        const size_t skipped = strspn(text, ", \t\n");
+        const size_t length = strcspn(text + skipped, ", \t\n");
+        if (length > 0) {
+            const aur_result result = add_aov(data, text + skipped, length, location, error);
+            if (result != AUR_OK)
+                return result;
+        }
+        text += skipped + length;
+    }
+    return AUR_OK;
+}
+
+static aur_result create_nested(const aur_parameters *parameters, const aur_parameter *item,
+                                const aur_integrator_context *context, aov_data *data, aur_error *error) {
+    aur_parameters nested;
+    aur_result result;
+    if (item != NULL && item->kind == AUR_PARAMETER_OBJECT) {
+        if (strcmp(item->object_kind, "integrator") != 0)
+            return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
+                               "integrator 'aov': 'integrator' must be an integrator");
+        result = aur_parameters_copy(item->object, &nested, error);
+    } else {
+        result = aur_parameters_parse(&nested, "integrator", item != NULL ? item->text : "path", error);
+    }
+    if (result != AUR_OK)
+        return result;
+    result = context->create(&nested, context, &data->nested, error);
+    aur_parameters_release(&nested);
+    if (result == AUR_OK && data->nested->descriptor->radiance == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "integrator 'aov': '%s' treats pixels together and cannot stand inside",
+                           data->nested->descriptor->row.name);
+    return result;
+}
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    aov_data *const data = integrator->data;
+    aur_result result = read_aovs(data, data->list, parameters->location, error);
+    if (result == AUR_OK)
+        result = create_nested(parameters, data->item, context, data, error);
+    if (result != AUR_OK)
+        return result;
+    integrator->pixel_centre = data->nested->pixel_centre;
+    integrator->extra_count = data->channel_count;
+    integrator->extra_names = data->name_list;
+    integrator->extra_kinds = data->kinds;
+    return AUR_OK;
+}
+
+static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t x, size_t y, uint32_t index) {
+    const aov_data *const data = integrator->data;
+    aur_camera_sample sample;
+    const float weight = aur_view_sample(tile->view, x, y, index, &sample);
+    aur_hit hit;
+    aur_surface surface;
+    const bool seen = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
+    if (seen)
+        aur_scene_surface(integrator->scene, &sample.ray, &hit, &surface);
+    const aov_sample at = {.radiance =
+                               data->nested->descriptor->radiance(data->nested, &sample, &tile->counters),
+                           .weight = weight,
+                           .ray = &sample.ray,
+                           .hit = seen ? &hit : NULL,
+                           .surface = &surface,
+                           .origin = aur_scene_origin(integrator->scene)};
+    float values[3 + CHANNEL_CAPACITY] = {0};
+    put(at.radiance, values);
+    for (size_t i = 0, channel = 3; i < data->count; ++i) {
+        if (seen || data->aovs[i]->evaluate == variance)
+            data->aovs[i]->evaluate(&at, &values[channel]);
+        channel += strlen(data->aovs[i]->letters);
+    }
+    aur_tile_add_channels(tile, x, y, weight, values);
+}
+
+static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = 0; i < tile->count; ++i)
+                if (aur_tile_wants(tile, x, y, tile->first + i))
+                    add_sample(integrator, tile, x, y, tile->first + i);
+    return AUR_OK;
+}
+
+const aur_integrator_descriptor aur_integrator_aov = {
+    .row = {.name = "aov",
+            .summary = "albedo, normals, positions and more in channels beside another integrator's",
+            .source = "Mitsuba 3",
+            AUR_ROW_KEYS(keys)},
+    .size = sizeof(aov_data),
+    .create = create,
+    .release = release,
+    .tile = add_tile,
+    .cuts = true,
+};

@@ -1,0 +1,95 @@
+/* The reference integrator: unidirectional path tracing with next-event estimation, multiple importance
+ * sampling and Russian roulette (Kajiya 1986; Veach 1997). */
+#include <stdlib.h>
+
+#include "render/path/candidates.h"
+#include "render/path/path.h"
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(
+        aur_path, "max_depth", max_depth, -1, 1 << 20, "-1",
+        "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
+    {AUR_KEY_OF_INTEGER(aur_path, "rr_depth", rr_depth, 1, 1 << 20, "5",
+                        "Russian roulette from this depth on")},
+    {AUR_KEY_OF_BOOLEAN(aur_path, "strict_normals", strict_normals, "false",
+                        "of no effect: it is always so")},
+    {AUR_KEY_OF_BOOLEAN(aur_path, "hide_emitters", hide_emitters, "false", "lights are black to the camera")},
+    {AUR_KEY_OF_BOOLEAN(aur_path, "packets", packets, "true",
+                        "sixteen pixels in lockstep, else one path at a time: the same picture")},
+    {AUR_KEY_OF_BOOLEAN(aur_path, "interleaved", interleaved, "false",
+                        "the pixels of a packet share the random numbers of all but their camera rays")},
+    {AUR_KEY_OF_INTEGER(aur_path, "candidates", candidates, 1, AUR_CANDIDATES_MOST, "1",
+                        "points on lights at each surface, of which one gets the shadow ray, chosen by what "
+                        "it would bring: less noise under skies for more time")},
+    {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
+                     "camera rays that a sample has more in the picture's mean, where lamps have edges: they "
+                     "tell how much of a lamp a pixel sees"),
+     .computed = true},
+};
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    aur_path *const data = integrator->data;
+    if (aur_parameters_find(parameters, "strict_normals") != NULL)
+        aur_warn_at(&context->warnings, parameters->location,
+                    "integrator 'path': 'strict_normals' has no effect: it is always so");
+    aur_scene_warn_of_media(context->scene, "integrator 'path'", &context->warnings);
+    if (data->interleaved && (!data->packets || data->hide_emitters))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "integrator 'path': 'interleaved' goes neither with 'packets=false' nor with "
+                           "'hide_emitters=true'");
+    /* The noise of lamps seen straight is what keeps the rounds of pictures to an error going until rare
+     * reflections of lamps are met, too. */
+    if (aur_parameters_find(parameters, "lamp_rays") == NULL)
+        data->lamp_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
+    return aur_path_prepare(data, context->scene, error);
+}
+
+/* A filter with negative parts weighs a sample's rays differently; hidden lamps are not looked at. */
+static aur_result look(const aur_view *view, const aur_integrator_context *context,
+                       aur_integrator *integrator, aur_error *error) {
+    aur_path *const data = integrator->data;
+    if (data->lamp_rays == 0.0 || data->hide_emitters || aur_filter_weight(view->filter, 0.0f) != 1.0f)
+        return AUR_OK;
+    const aur_result result = aur_lamp_looks_find(view, data->lamp_rays, context, &data->looks, error);
+    integrator->lamp_looks = data->looks != NULL ? data->looks->counts : NULL;
+    return result;
+}
+
+static void release(aur_integrator *integrator) {
+    free(((aur_path *)integrator->data)->classes);
+}
+
+static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
+                           aur_counters *counters) {
+    return aur_path_radiance(integrator->data, integrator->scene, sample, NULL, counters);
+}
+
+static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
+    const aur_path *const data = integrator->data;
+    if (data->packets && !data->hide_emitters) {
+        aur_path_add_tile(data, integrator->scene, tile);
+        return AUR_OK;
+    }
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = tile->first; i < tile->first + tile->count; ++i)
+                if (aur_tile_wants(tile, x, y, i))
+                    aur_path_add_sample(data, integrator->scene, x, y, i, tile);
+    return AUR_OK;
+}
+
+const aur_integrator_descriptor aur_integrator_path = {
+    .row = {.name = "path",
+            .summary = "unidirectional path tracing with multiple importance sampling, the reference",
+            .source = "Kajiya 1986, Veach 1997",
+            AUR_ROW_KEYS(keys)},
+    .size = sizeof(aur_path),
+    .create = create,
+    .look = look,
+    .release = release,
+    .radiance = radiance,
+    .tile = tile,
+    .cuts = true,
+    .shows_lamps = true,
+};

@@ -1,0 +1,259 @@
+/* Quasi-Monte Carlo radiosity (Keller 1994): a particle walk makes a mean radiance for every triangle, and
+ * the picture gathers it once more at every point that the eye sees, with direct light apart. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/radiosity/picture.h"
+
+typedef struct radiosity_data {
+    aur_radiosity_image image; /* first: what aur_radiosity_tile reads */
+    /* the solution */
+    uint64_t paths; /* 0: not given */
+    uint64_t bounces, interval, window, randomizations, variant;
+    double epsilon, ply_exposure;
+    const char *sequence, *scramble, *save, *load, *ply; /* NULL: not given */
+    aur_radiosity_directions directions;
+    aur_radiosity_emission emission;
+    /* the picture */
+    uint64_t gather_samples;
+    double smoothness;
+    const char *pattern, *map, *pattern_scramble;
+    enum { WEIGHTS_EQUAL, WEIGHTS_OPTIMAL } weights;
+    enum { DENSITY_SAME, DENSITY_OPTIMAL } density;
+    enum { LIGHTS_PERMUTED, LIGHTS_ALL } light_sampling;
+} radiosity_data;
+
+enum { MOST = 1 << 30 };
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(radiosity_data, "paths", paths, 1, INT64_C(1) << 40, "100000",
+                        "paths of the walk; with epsilon the most that are tried (2^28)"),
+     .computed = true},
+    {AUR_KEY_OF_TEXT(radiosity_data, "sequence", sequence, "sobol", "SET of the walk's numbers"),
+     .computed = true},
+    {AUR_KEY_OF_TEXT(radiosity_data, "scramble", scramble, "none", "of the sequence"), .computed = true},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "directions", directions, "cosine",
+                       "how two numbers become a direction (uniform_angle: the paper's eq. 15)", "cosine",
+                       "uniform_angle")},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "emission", emission, "power",
+                       "where paths begin: on lights by their power, or by area (the paper)", "power",
+                       "area")},
+    {AUR_KEY_OF_INTEGER(radiosity_data, "bounces", bounces, 1, AUR_RADIOSITY_MOST_BOUNCES, "6",
+                        "the paper's M: paths have M + 1 flights")},
+    {AUR_KEY_OF_REAL(radiosity_data, "epsilon", epsilon, 0.0, 1.0, "0",
+                     "walk on until the solution changes by less; 0 is a fixed number of paths")},
+    {AUR_KEY_OF_INTEGER(radiosity_data, "interval", interval, 1, MOST, "1000",
+                        "paths between two looks at the change")},
+    {AUR_KEY_OF_INTEGER(radiosity_data, "window", window, 1, MOST, "2",
+                        "looks in a row that must be below epsilon")},
+    {AUR_KEY_OF_INTEGER(radiosity_data, "randomizations", randomizations, 1,
+                        AUR_RADIOSITY_MOST_RANDOMIZATIONS, "1",
+                        "randomisations of the sequence; from 2 on there are standard errors")},
+    {AUR_KEY_OF_INTEGER(radiosity_data, "variant", variant, 0, INFINITY, "0",
+                        "another order of the lights and another turn of the triangles' frames; 0 is none")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "save", save, NULL, "file to which the solution is written")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "load", load, NULL, "file of a solution to go on from")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "ply", ply, NULL, "file for the scene as coloured triangles")},
+    {AUR_KEY_OF_REAL(radiosity_data, "ply_exposure", ply_exposure, -64.0, 64.0, "0",
+                     "stops by which the colours of that file are brighter")},
+    {AUR_KEY_OF_INTEGER(radiosity_data, "gather_samples", gather_samples, 1, 1 << 20, "16",
+                        "directions at every point that the eye sees")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "pattern", pattern, "spherical-fibonacci", "SET of these directions")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "map", map, "lambert",
+                     "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "pattern_scramble", pattern_scramble, "none",
+                     "how the pattern is randomised: none, digit, owen, shift or rotate")},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "weights", weights, "equal",
+                       "of the directions; osw are optimal (Marques 2018)", "equal", "osw")},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "density", density, "same",
+                       "directions follow the cosine, or its power 2/(s+1)", "same", "optimal")},
+    {AUR_KEY_OF_REAL(radiosity_data, "smoothness", smoothness, 1.0, 2.0, "1.5",
+                     "s of the optimal weights and density"),
+     .minimum_open = true, .maximum_open = true},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "light_sampling", light_sampling, "permuted",
+                       "each light at one of four points, or all lights at each", "permuted", "all")},
+    {AUR_KEY_OF_BOOLEAN(radiosity_data, "share_neighbours", image.share_neighbours, "false",
+                        "neighbouring pixels share what they gather")},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "oversampling", image.oversampling, "halton",
+                       "samples of a pixel: Halton points, these until nothing changes, or the sampler's",
+                       "halton", "adaptive", "sampler")},
+    {AUR_KEY_OF_REAL(radiosity_data, "threshold", image.threshold, 0.0, 1.0, "0.01",
+                     "change at which adaptive oversampling ends")},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "component", image.component, "all", "the part of the light to show",
+                       "all", "emission", "direct", "indirect")},
+};
+
+/* Whoever renders a scene of unknown origin must not have a file overwritten or read: such names come from
+ * the caller's own text, which has no place in a file. */
+static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *error) {
+    static const char *const names[] = {"save", "load", "ply"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        const aur_parameter *const found = aur_parameters_find(parameters, names[i]);
+        if (found != NULL && found->location.file != NULL)
+            return aur_fail_at(error, found->location, AUR_ERROR_UNSUPPORTED,
+                               "integrator 'radiosity': a scene must not name the file of '%s'; say "
+                               "--integrator radiosity:%s=... instead",
+                               names[i], names[i]);
+    }
+    return AUR_OK;
+}
+
+/* --- the solution */
+
+static aur_result start(const radiosity_data *p, const aur_integrator_context *context,
+                        aur_radiosity **radiosity, aur_error *error) {
+    aur_radiosity_options options = {.size = sizeof options,
+                                     .sequence = p->sequence,
+                                     .seed = context->seed,
+                                     .directions = p->directions,
+                                     .emission = p->emission,
+                                     .bounces = (size_t)p->bounces,
+                                     .randomizations = (size_t)p->randomizations,
+                                     .variant = p->variant,
+                                     .threads = context->threads,
+                                     .progress = context->progress,
+                                     .warnings = context->warnings};
+    if (p->load != NULL)
+        return aur_radiosity_load(context->scene, p->load, &options, radiosity, error);
+    aur_result result = AUR_OK;
+    if (p->scramble != NULL)
+        result = aur_scramble_from_name(p->scramble, &options.scramble, error);
+    return result == AUR_OK ? aur_radiosity_create(context->scene, &options, radiosity, error) : result;
+}
+
+static aur_result go_on(const radiosity_data *p, const aur_integrator_context *context,
+                        aur_radiosity *radiosity, aur_error *error) {
+    enum { USUAL_PATHS = 100000, USUAL_LIMIT = 1 << 28 };
+    const bool loaded = p->load != NULL;
+    if (p->epsilon == 0.0) {
+        if (loaded && p->paths == 0)
+            return AUR_OK;
+        return aur_radiosity_trace(radiosity, p->paths == 0 ? USUAL_PATHS : p->paths, error);
+    }
+    const aur_radiosity_termination rule = {.size = sizeof rule,
+                                            .epsilon = p->epsilon,
+                                            .interval = p->interval,
+                                            .window = p->window,
+                                            .limit = p->paths == 0 ? USUAL_LIMIT : p->paths};
+    bool converged = false;
+    const aur_result result = aur_radiosity_terminate(radiosity, &rule, &converged, error);
+    if (result == AUR_OK && !converged)
+        aur_warn_at(&context->warnings, (aur_location){0},
+                    "radiosity: after %" PRIu64 " paths the change is still %.3g, not below epsilon %.3g",
+                    rule.limit, radiosity->change, p->epsilon);
+    return result;
+}
+
+static aur_result write_files(const radiosity_data *p, const aur_radiosity *radiosity, aur_error *error) {
+    aur_result result = AUR_OK;
+    if (p->save != NULL)
+        result = aur_radiosity_save(radiosity, p->save, error);
+    if (result == AUR_OK && p->ply != NULL)
+        result = aur_radiosity_write_ply(radiosity, p->ply, p->ply_exposure, error);
+    return result;
+}
+
+static void warn_of_tail(const aur_radiosity *radiosity, const aur_warnings *warnings) {
+    aur_radiosity_description d;
+    aur_radiosity_summarize(radiosity, &d);
+    if (d.tail > 0.02)
+        aur_warn_at(
+            warnings, (aur_location){0},
+            "radiosity: some %.2g %% of the light is cut off after %zu bounces; more bounces take it in",
+            100.0 * d.tail, radiosity->options.bounces);
+    if (d.error > 0.0) /* not NaN */
+        aur_warn_at(warnings, (aur_location){0},
+                    "radiosity: standard error %.3g after %" PRIu64 " paths, in the unit of epsilon", d.error,
+                    d.paths);
+}
+
+static void destroy_solution(void *radiosity) {
+    aur_radiosity_destroy(radiosity);
+}
+
+/* The solution, shared by all pictures that ask for the same one. */
+static aur_result solve(const radiosity_data *p, const aur_integrator_context *context,
+                        aur_radiosity_image *image, aur_error *error) {
+    char key[1024];
+    const int length =
+        snprintf(key, sizeof key,
+                 "radiosity %" PRIu64 " %s %s %u %u %" PRIu64 " %a %" PRIu64 " %" PRIu64 " %" PRIu64
+                 " %" PRIu64 " %s %" PRIu64,
+                 p->paths, p->sequence != NULL ? p->sequence : "", p->scramble != NULL ? p->scramble : "",
+                 p->directions, p->emission, p->bounces, p->epsilon, p->interval, p->window,
+                 p->randomizations, p->variant, p->load != NULL ? p->load : "", context->seed);
+    const bool has_key = length > 0 && (size_t)length < sizeof key;
+    aur_radiosity *radiosity = has_key ? aur_cache_find(context->cache, key) : NULL;
+    aur_result result = AUR_OK;
+    if (radiosity == NULL) {
+        const uint64_t before = aur_rays_traced;
+        result = start(p, context, &radiosity, error);
+        if (result == AUR_OK)
+            result = go_on(p, context, radiosity, error);
+        if (result != AUR_OK) {
+            aur_radiosity_destroy(radiosity);
+            return result;
+        }
+        if (!has_key)
+            snprintf(key, sizeof key, "radiosity at %p", (void *)radiosity);
+        if (aur_cache_store(context->cache, key, radiosity, aur_rays_traced - before, destroy_solution) !=
+            AUR_OK)
+            return aur_fail_memory(error);
+        warn_of_tail(radiosity, &context->warnings);
+    }
+    image->solution = radiosity;
+    return write_files(p, radiosity, error);
+}
+
+/* --- the picture */
+
+static aur_result prepare_gather(const radiosity_data *p, const aur_integrator_context *context,
+                                 aur_radiosity_image *image, aur_error *error) {
+    aur_directions_options points = {.size = sizeof points,
+                                     .count = p->gather_samples,
+                                     .domain = AUR_DOMAIN_HEMISPHERE,
+                                     .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
+                                     .optimal_density = p->density == DENSITY_OPTIMAL,
+                                     .smoothness = p->smoothness,
+                                     .seed = context->seed,
+                                     .warnings = context->warnings};
+    const aur_rule_options rule = {
+        .size = sizeof rule, .set = p->pattern, .points = &points, .optimal = p->weights == WEIGHTS_OPTIMAL};
+    aur_result result = aur_map_from_name(p->map, &points.map, error);
+    if (result == AUR_OK)
+        result = aur_scramble_from_name(p->pattern_scramble, &points.scramble, error);
+    if (result == AUR_OK)
+        result = aur_radiosity_image_prepare(&rule, image, error);
+    return result;
+}
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    radiosity_data *const data = integrator->data;
+    integrator->whole_tiles = true;
+    aur_result result = refuse_files_of_scenes(parameters, error);
+    if (result != AUR_OK)
+        return result;
+    data->image.permuted = data->light_sampling == LIGHTS_PERMUTED;
+    data->image.samples_per_pixel = context->samples_per_pixel;
+    data->image.seed = context->seed;
+    result = solve(data, context, &data->image, error);
+    return result == AUR_OK ? prepare_gather(data, context, &data->image, error) : result;
+}
+
+static void release(aur_integrator *integrator) {
+    aur_radiosity_image_release(integrator->data);
+}
+
+const aur_integrator_descriptor aur_integrator_radiosity = {
+    .row = {.name = "radiosity",
+            .summary = "particles give every triangle its radiance, which is gathered once",
+            .source = "Keller 1994",
+            AUR_ROW_KEYS(keys)},
+    .size = sizeof(radiosity_data),
+    .create = create,
+    .release = release,
+    .tile = aur_radiosity_tile,
+};

@@ -1,0 +1,114 @@
+/* The inside of a film: sums of samples for each pixel, and how far each tile has come. */
+#pragma once
+
+#include <aureole/film.h>
+
+#include <pthread.h>
+#include <stdio.h>
+
+#include "render/film/tile.h"
+
+/* What a channel shows of its sums. */
+typedef enum aur_channel_kind {
+    AUR_CHANNEL_MEAN,
+    /* The number of samples. */
+    AUR_CHANNEL_COUNT,
+    /* The variance of one sample of channel 0, 1 or 2; the sums are of squares. */
+    AUR_CHANNEL_VARIANCE_R,
+    AUR_CHANNEL_VARIANCE_G,
+    AUR_CHANNEL_VARIANCE_B,
+    AUR_CHANNEL_KIND_COUNT
+} aur_channel_kind;
+
+typedef struct aur_film_channel {
+    char name[AUR_CHANNEL_NAME_CAPACITY];
+    aur_channel_kind kind;
+} aur_film_channel;
+
+/* The first three channels are R, G, B. */
+typedef struct aur_film_layout {
+    /* Of the whole picture. */
+    size_t width, height;
+    /* The film's pixels: x0 <= x < x1, y0 <= y < y1. */
+    size_t x0, x1, y0, y1;
+    size_t channel_count;
+} aur_film_layout;
+
+struct aur_film {
+    aur_film_layout layout;
+    aur_film_channel *channels;
+    /* The first tile on the grid over the whole picture, and how many tiles there are. */
+    size_t column0, row0, columns, tile_count;
+    /* For each pixel, row by row: samples that it was given, sums of each channel, and the number of samples
+     * in them, which is less where some were no radiance. */
+    uint32_t *given;
+    double *sums;
+    uint32_t *counts;
+    /* For each pixel: steps with samples, and over them the sum of n_b * m_b^2 for R, G, B (aur_film_error).
+     */
+    uint32_t *steps;
+    double *squares;
+    aur_counters counters; /* of all samples */
+    /* Held while a tile's sums are written or the film is read whole, so that it can be read while it is
+     * rendered. */
+    pthread_mutex_t *lock;
+};
+
+static inline size_t aur_film_pixel_count(const aur_film *film) {
+    return (film->layout.x1 - film->layout.x0) * (film->layout.y1 - film->layout.y0);
+}
+
+/* An empty film; its channels after the first three are still to be named. Errors: ARGUMENT, MEMORY. */
+aur_result aur_film_create(const aur_film_layout *layout, aur_film **film, aur_error *error);
+
+/* What the pixels of a tile had before a step, row by row of the tile, and are to have after it. */
+typedef struct aur_film_before {
+    double sums[AUR_TILE_SIZE * AUR_TILE_SIZE][3];
+    uint32_t counts[AUR_TILE_SIZE * AUR_TILE_SIZE];
+    uint32_t given[AUR_TILE_SIZE * AUR_TILE_SIZE], targets[AUR_TILE_SIZE * AUR_TILE_SIZE];
+} aur_film_before;
+
+/* The tile that a pixel lies in. */
+static inline size_t aur_film_tile_of(const aur_film *film, size_t pixel) {
+    const aur_film_layout *const layout = &film->layout;
+    const size_t width = layout->x1 - layout->x0;
+    const size_t column = (layout->x0 + pixel % width) / AUR_TILE_SIZE - film->column0;
+    const size_t row = (layout->y0 + pixel / width) / AUR_TILE_SIZE - film->row0;
+    return row * film->columns + column;
+}
+
+/* How many samples each pixel is to have. */
+typedef struct aur_film_targets {
+    const uint32_t *pixels; /* of the film, row by row; NULL: `all` */
+    uint32_t all;
+    bool whole_tiles; /* the pixels of a tile get as many as the one that is to have most */
+} aur_film_targets;
+
+/* Opens tile `index` for the samples that it lacks, tile->first to tile->first + tile->count - 1; no sums
+ * when it has them. The tile's sums are copies. Different tiles may be open in different threads. To be
+ * closed in every case. Errors: MEMORY. */
+aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
+                              aur_film_before *before);
+/* Takes over the sums with the samples from tile->first to tile->first + tile->count - 1 and what was counted
+ * for them, and moves on to the next ones. */
+void aur_film_take_tile(aur_film *film, aur_tile *tile);
+/* Notes what the step brought, and gives up what has not been taken over. */
+void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before);
+
+/* Where the tile lies in the film: x0 .. y1 and the stride. */
+void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile);
+
+/* All that the film has of a tile, to and from bytes of another process that renders the same, with what was
+ * counted there for the tile. */
+void aur_film_put_tile(const aur_film *film, size_t index, struct aur_bytes *bytes);
+void aur_film_get_tile(aur_film *film, size_t index, const aur_counters *counted,
+                       struct aur_bytes_reader *bytes);
+
+/* What aur_film_save writes, to a stream that remembers its failures; and its bytes. */
+void aur_film_write(const aur_film *film, FILE *stream);
+size_t aur_film_file_size(const aur_film *film);
+
+/* Samples that every pixel was given. */
+uint32_t aur_film_samples(const aur_film *film);
+/* What is counted of all samples, also while tiles are being rendered. */
+aur_counters aur_film_counted(const aur_film *film);

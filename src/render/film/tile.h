@@ -1,0 +1,117 @@
+/* What an integrator sees of the film: a part of the picture, the camera samples of its pixels, and their
+ * sums. */
+#pragma once
+
+#include <aureole/render.h>
+
+#include <stdatomic.h>
+
+#include "points/base/parallel.h"
+#include "render/sampling/stream.h"
+#include "render/scene/scene.h"
+
+/* Counted by each tile for itself and added up afterwards. */
+typedef struct aur_counters {
+    uint64_t rays;      /* of all kinds; the driver's, which knows by aur_rays_traced */
+    uint64_t edge_rays; /* of these, what was traced to know how much pixels see of what is around an edge; a
+                           film's file does not keep it */
+    uint64_t samples;   /* of the camera */
+    uint64_t invalid;   /* samples that were no radiance */
+    uint64_t cut; /* paths cut after so many mirrors, hidden lights or null collisions, one after another */
+    uint64_t unsolved; /* places whose system for optimal weights could not be solved */
+    bool stopped; /* a sample was left unfinished because the work is to stop: the sums are of no use; never
+                     added */
+    uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
+} aur_counters;
+
+void aur_counters_add(aur_counters *sum, const aur_counters *added);
+
+/* A camera ray with the numbers of its light path. */
+typedef struct aur_camera_sample {
+    aur_ray ray;
+    aur_stream stream;
+    float first_pairs[AUR_STREAM_BLOCK]
+                     [2]; /* of the stream: those of the camera, and the first of an integrator */
+} aur_camera_sample;
+
+/* Dimension pairs that the camera uses; an integrator's own begin after them. */
+enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
+
+/* Where camera samples come from; immutable while a picture is made. */
+typedef struct aur_view {
+    const aur_scene *scene;
+    const aur_sampler *sampler;
+    const aur_filter *filter;
+    size_t width, height; /* of the whole picture */
+    uint64_t seed;
+    bool pixel_centre; /* every camera ray goes through the centre of its pixel */
+    bool has_lens;     /* the camera's rays depend on a point of its lens */
+} aur_view;
+
+/* Sample `index` of pixel (x, y), a function of these alone. Returns its weight in the pixel's mean: 1, or -1
+ * where the filter is negative. */
+float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample);
+
+/* The same for `count` pixels (at most AUR_TILE_SIZE) at columns x[k] and rows y[k]; first_pairs are not set.
+ */
+void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
+                      aur_camera_sample *samples, float *weights);
+
+enum { AUR_TILE_SIZE = 16 };
+
+/* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole picture, so that a crop changes no neighbours.
+ */
+typedef struct aur_tile {
+    const aur_view *view;
+    size_t x0, x1, y0, y1; /* the pixels that are wanted: a whole tile or what a crop leaves of it */
+    uint32_t first, count; /* samples of each pixel: first .. first + count - 1 */
+    size_t stride;         /* pixels from one row of sums to the next */
+    /* Of each pixel, like `counts`: of those samples it wants from begins up to ends - 1. NULL: all. */
+    const uint32_t *begins, *ends;
+    size_t channel_count;
+    double *sums;     /* of pixel (x0, y0): channel_count values a pixel */
+    uint32_t *counts; /* samples added to each pixel */
+    aur_counters counters;
+    const atomic_bool *stop; /* true: the samples are no longer wanted; NULL: they are in any case */
+    uint64_t asked;          /* aur_rays_traced when aur_tile_stops asked last */
+} aur_tile;
+
+/* Whether the tile may be left unfinished. Asks as often as rays are traced that take some milliseconds, so
+ * that it may be called for every sample. */
+static inline bool aur_tile_stops(aur_tile *tile) {
+    enum { RAYS_BETWEEN = 1 << 14 };
+    if (aur_rays_traced - tile->asked < RAYS_BETWEEN)
+        return false;
+    tile->asked = aur_rays_traced;
+    return (tile->stop != NULL && atomic_load_explicit(tile->stop, memory_order_relaxed)) ||
+           aur_parallel_stops();
+}
+
+/* Whether pixel (x, y) of the tile wants a sample of the range. */
+static inline bool aur_tile_wants(const aur_tile *tile, size_t x, size_t y, uint32_t index) {
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    return tile->begins == NULL || (index >= tile->begins[pixel] && index < tile->ends[pixel]);
+}
+
+/* How many samples of the range pixel (x, y) wants. */
+static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y) {
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    if (tile->begins == NULL)
+        return tile->count;
+    const uint32_t last = tile->first + tile->count;
+    const uint32_t begin = tile->begins[pixel] > tile->first ? tile->begins[pixel] : tile->first;
+    const uint32_t end = tile->ends[pixel] < last ? tile->ends[pixel] : last;
+    return begin < end ? end - begin : 0;
+}
+
+/* Whether finite and not negative. */
+bool aur_is_radiance(aur_vector radiance);
+
+/* Adds one sample to a pixel of the tile. Samples that are no radiance are counted and left out. */
+void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance);
+/* Adds the mean of `count` samples. */
+void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
+/* Adds to a channel after the first three, counting no sample. */
+void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
+/* One sample with all channels, the first three the radiance. */
+void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values);

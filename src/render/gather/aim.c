@@ -1,0 +1,216 @@
+#include "render/gather/aim.h"
+
+#include "points/base/random.h"
+#include "render/gather/nested.h"
+#include "render/trace/interleave.h"
+#include "render/vertex/shading.h"
+
+/* --- randomisations of the patterns */
+
+bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
+    const aur_gather_plan *const plan = places->plan;
+    return plan->policy.share == AUR_SHARE_BLOCKS && rule == &plan->rules.lobes[0] && places->bounces == 0;
+}
+
+bool aur_gather_pools(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
+    const aur_gather_plan *const plan = places->plan;
+    return plan->policy.share != AUR_SHARE_NONE && rule == &plan->rules.lobes[0] && places->bounces == 0;
+}
+
+aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
+                                           const aur_gather_lobe_rule *lobe_rule, size_t lane,
+                                           uint64_t lobe) {
+    const aur_gather_plan *const plan = places->plan;
+    const aur_gather_policy *const policy = &plan->policy;
+    const aur_gather_rule *const rule = &lobe_rule->rule;
+    if (policy->decorrelation == AUR_DECORRELATION_NONE)
+        return aur_gather_rule_rotation(rule, 0);
+    if (policy->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotation_count == 0)
+        return aur_gather_rule_rotation(rule, aur_hash4(plan->seed,
+                                                        aur_gather_places_hash(places, places->pixels[lane]),
+                                                        places->bounces, lobe));
+    uint64_t tile =
+        aur_hash4(plan->seed, aur_gather_places_hash(places, places->tile), places->bounces, lobe);
+    /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
+    if (policy->adaptive)
+        tile = aur_hash2(tile, places->index);
+    if (rule->nested) {
+        const size_t pixel = aur_group_pixel(places->arrangement, places->group, lane);
+        const size_t number = aur_nested_number(tile, pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
+        const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+        return aur_gather_rotation_by(rule->rotations[number], cosf(angle), sinf(angle));
+    }
+    const uint32_t rank = aur_gather_splits(places, lobe_rule) ? 0 : aur_group_rank(places->group);
+    /* Sixteen patterns would show as texture, were they the same in every tile. */
+    if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
+        const uint64_t k = (rank ^ (tile & 15u)) * rule->rotation_count / 16;
+        aur_gather_rotation rotation = aur_gather_rule_rotation(rule, k);
+        rotation.word_v ^= rule->scramble != AUR_SCRAMBLE_NONE ? (uint32_t)(tile >> 32) : 0;
+        return rotation;
+    }
+    aur_gather_rotation rotation = aur_gather_rule_rotation(rule, rank * rule->rotation_count / 16);
+    rotation.word_v ^= (uint32_t)(tile >> 32);
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+    return aur_gather_rotation_by(rotation, cosf(angle), sinf(angle));
+}
+
+size_t aur_gather_prepared_rotation(const aur_gather_places *places, size_t rotations, size_t lane,
+                                    bool *mirrored) {
+    const aur_gather_policy *const policy = &places->plan->policy;
+    *mirrored = false;
+    if (policy->decorrelation == AUR_DECORRELATION_NONE)
+        return 0;
+    const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
+    const uint64_t hash = aur_hash3(
+        places->plan->seed, aur_gather_places_hash(places, random ? places->pixels[lane] : places->tile),
+        places->bounces);
+    *mirrored = hash >> 63 != 0;
+    if (random)
+        return (hash & UINT32_MAX) % rotations;
+    return (aur_group_rank(places->group) ^ (hash & 15u)) * rotations / 16;
+}
+
+/* Whether all lanes have one rotation. */
+static bool rotate_together(const aur_gather_plan *plan, const aur_gather_rule *rule) {
+    const aur_gather_decorrelation how = plan->policy.decorrelation;
+    return rule->square == NULL && !rule->nested &&
+           (how == AUR_DECORRELATION_NONE || rule->scramble == AUR_SCRAMBLE_NONE ||
+            (how == AUR_DECORRELATION_BLUE && rule->rotation_count > 0));
+}
+
+/* --- rays */
+
+void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_frame *frame,
+                          aur_lobe_frames *frames, aur_gather_rays *gather_rays) {
+    struct RTCRay16 *const rays = &gather_rays->packet.query.ray;
+    const aur_surface *const surface = &place->surface;
+    aur_lane_set(&frames->x, lane, frame->x);
+    aur_lane_set(&frames->y, lane, frame->y);
+    aur_lane_set(&frames->z, lane, frame->z);
+    aur_lane_set(&frames->shading, lane, aur_vector_scale(surface->frame.z, place->side));
+    aur_lane_set(&frames->geometric, lane, aur_vector_scale(surface->geometric_normal, place->side));
+    rays->org_x[lane] = place->origin.x;
+    rays->org_y[lane] = place->origin.y;
+    rays->org_z[lane] = place->origin.z;
+    rays->tnear[lane] = 0.0f;
+    gather_rays->reference[lane] = aur_gather_place_reference(place);
+}
+
+uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
+                        aur_packet *packet, float cosine[AUR_PACKET_SIZE]) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    float above[AUR_PACKET_SIZE];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float x = local->x[k], y = local->y[k], z = local->z[k];
+        const float dx = frames->x.x[k] * x + frames->y.x[k] * y + frames->z.x[k] * z;
+        const float dy = frames->x.y[k] * x + frames->y.y[k] * y + frames->z.y[k] * z;
+        const float dz = frames->x.z[k] * x + frames->y.z[k] * y + frames->z.z[k] * z;
+        cosine[k] = frames->shading.x[k] * dx + frames->shading.y[k] * dy + frames->shading.z[k] * dz;
+        const float beyond =
+            frames->geometric.x[k] * dx + frames->geometric.y[k] * dy + frames->geometric.z[k] * dz;
+        above[k] = beyond < cosine[k] ? beyond : cosine[k];
+        rays->dir_x[k] = dx;
+        rays->dir_y[k] = dy;
+        rays->dir_z[k] = dz;
+        rays->tfar[k] = INFINITY;
+    }
+    uint32_t aimed = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool wanted = aur_has_lane(lanes, k) && above[k] > 0.0f;
+        packet->valid[k] = wanted ? -1 : 0;
+        aimed |= (uint32_t)wanted << k;
+    }
+    return aimed;
+}
+
+bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float u[3], float draws,
+                         aur_gather_rays *rays, aur_vector *value, float *height) {
+    const aur_surface *const surface = &place->surface;
+    const aur_shading shading = {surface, place->view};
+    aur_bsdf_sample drawn;
+    if (!aur_shading_draw(&shading, AUR_BSDF_SAMPLED_LOBES, u, &drawn) || !(drawn.pdf > 0.0f))
+        return false;
+    *value = aur_vector_scale(drawn.weight, 1.0f / draws);
+    *height = fabsf(aur_vector_dot(surface->frame.z, drawn.light));
+    const aur_ray ray = aur_surface_ray(surface, drawn.light);
+    aur_packet_set(&rays->packet, lane, &ray);
+    rays->density[lane] = drawn.pdf * draws;
+    rays->reference[lane] = aur_shading_reference(&shading);
+    return true;
+}
+
+/* --- a rule, direction by direction */
+
+void aur_gather_sweep_start(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                            uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays) {
+    *sweep = (aur_gather_sweep){
+        .rule = rule, .lobe = lobe, .lanes = lanes, .together = rotate_together(places->plan, &rule->rule)};
+    const size_t first = aur_first_lane(lanes);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const place = &places->at[lane];
+        const aur_bsdf_lobe *const own = &place->lobes[lobe];
+        if (own->factor != NULL)
+            sweep->factored |= 1u << lane;
+        sweep->times_cosine[lane] = own->times_cosine;
+        sweep->rotations[lane] = sweep->together && lane != first
+                                     ? sweep->rotations[first]
+                                     : aur_gather_rotation_at(places, rule, lane, lobe);
+        const aur_frame frame = aur_frame_about(aur_gather_place_axis(place, lobe));
+        aur_gather_set_frame(place, lane, &frame, &sweep->frames, rays);
+    }
+}
+
+/* Direction `index` in the frames of all lanes, with its weights and the densities that rivals are weighed
+ * against. */
+static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane_vectors *local,
+                           float weight[AUR_PACKET_SIZE], float density[AUR_PACKET_SIZE]) {
+    const aur_gather_rule *const rule = &sweep->rule->rule;
+    const float directions = sweep->rule->directions;
+    aur_vector direction;
+    if (sweep->together) {
+        const aur_gather_rotation *const rotation = &sweep->rotations[aur_first_lane(sweep->lanes)];
+        const float one = aur_gather_rule_direction(rule, rotation, index, &direction);
+        const float drawn = rule->densities[rotation->first + index] * directions;
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            aur_lane_set(local, k, direction);
+            weight[k] = one;
+            density[k] = drawn;
+        }
+        return;
+    }
+    for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_rotation *const rotation = &sweep->rotations[lane];
+        weight[lane] = aur_gather_rule_direction(rule, rotation, index, &direction);
+        aur_lane_set(local, lane, direction);
+        density[lane] = directions * (rule->square != NULL ? aur_gather_rule_density(rule, direction.z)
+                                                           : rule->densities[rotation->first + index]);
+    }
+}
+
+void aur_gather_set_chance(const aur_gather_places *places, size_t lobe, size_t index,
+                           aur_gather_rays *rays) {
+    rays->hash = aur_hash4(places->index, places->bounces, lobe, index);
+    rays->pixels = places->pixels;
+}
+
+uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t index,
+                                bool weighed, aur_gather_sums *sums, float factor[AUR_PACKET_SIZE]) {
+    aur_gather_rays *const rays = &sums->rays;
+    aur_lane_vectors local = {0};
+    float cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
+    set_directions(sweep, index, &local, weight, rays->density);
+    const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, &local, &rays->packet, cosine);
+    if (aimed == 0)
+        return 0;
+    aur_gather_set_chance(places, sweep->lobe, index, rays);
+    aur_gather_rays_trace(places->plan, places->order, rays, sums->counters);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);
+    for (uint32_t rest = sweep->factored & aimed; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        factor[lane] *= aur_lobe_factor(&places->at[lane].lobes[sweep->lobe], cosine[lane]);
+    }
+    return aimed;
+}

@@ -1,0 +1,164 @@
+#include "render/gather/estimators.h"
+#include "render/vertex/direct_light.h"
+
+/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
+static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_place *place,
+                                 const aur_light_sample *light) {
+    const aur_surface *const surface = &place->surface;
+    const aur_vector local = aur_frame_to_local(&surface->frame, light->direction);
+    if (aur_vector_dot(surface->geometric_normal, light->direction) * local.z <= 0.0f)
+        return (aur_vector){0};
+    aur_vector sum = {0};
+    for (size_t i = 0; i < place->lobe_count; ++i) {
+        const aur_bsdf_lobe *const lobe = &place->lobes[i];
+        if (aur_vector_is_zero(lobe->coefficient))
+            continue;
+        aur_vector value = {0};
+        float density = 0.0f;
+        if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
+            value = aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, place->view,
+                                      local, &density);
+            density *= plan->rules.sampled.directions;
+        } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && place->view.z * local.z > 0.0f) {
+            value = aur_lobe_value(lobe, local);
+            const aur_gather_lobe_rule *const rule = place->rules[i];
+            if (place->merged != NULL)
+                density = aur_gather_place_merged_density(place, local);
+            else if (!aur_vector_is_zero(value))
+                density = aur_gather_rule_density(&rule->rule, aur_vector_dot(lobe->axis, local)) *
+                          rule->directions;
+        }
+        const bool rivals = !light->delta && aur_gather_plan_gathers(plan, lobe);
+        sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);
+    }
+    return sum;
+}
+
+/* Adds the light of one point a lane if nothing lies between; the pdfs count all draws of a sample. */
+static void add_lights(const aur_gather_places *places, aur_embree_order order,
+                       const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums) {
+    aur_packet *const packet = &sums->rays.packet;
+    aur_vector contribution[AUR_PACKET_SIZE];
+    uint32_t aimed = 0;
+    aur_packet_empty(packet);
+    for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const place = &places->at[lane];
+        const aur_light_sample *const light = &lights[lane];
+        if (!(light->pdf > 0.0f))
+            continue;
+        const aur_vector value = weighted_value(places->plan, place, light);
+        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light->radiance), 1.0f / light->pdf);
+        if (aur_vector_is_zero(contribution[lane]))
+            continue;
+        float distance;
+        const aur_ray shadow = aur_surface_ray_to(&place->surface, light->position, &distance);
+        aur_packet_set(packet, lane, &shadow);
+        aimed |= 1u << lane;
+    }
+    if (aimed == 0)
+        return;
+    const uint32_t lit = aimed & ~aur_gather_occluded(places->plan, order, packet);
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1)
+        aur_gather_add(sums, places, aur_first_lane(rest), contribution[aur_first_lane(rest)]);
+}
+
+void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
+    /* Lanes without a place stand where the first one is: nothing is drawn for them, or it is thrown away. */
+    aur_lane_vectors position, normal;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const size_t from = aur_has_lane(places->lanes, lane) ? lane : aur_first_lane(places->lanes);
+        const aur_light_reference reference = aur_gather_place_reference(&places->at[from]);
+        aur_lane_set(&position, lane, reference.position);
+        aur_lane_set(&normal, lane, reference.normal);
+    }
+    const aur_light_references references = {&position, &normal};
+    const bool chooses = aur_light_chooses(plan->scene);
+    const uint32_t pair = aur_gather_first_pair(places->bounces), draws = plan->light.draws;
+    for (uint32_t k = 0; k < draws; ++k) {
+        const uint32_t index = places->index * draws + k;
+        float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
+        if (chooses)
+            aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+                              pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
+        aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+                          pair + AUR_GATHER_PAIR_POSITION, u, v);
+        aur_light_lanes drawn = {0};
+        aur_light_lanes_direct(plan->scene, places->lanes, &references, choice, u, v, &drawn);
+        aur_light_sample lights[AUR_PACKET_SIZE];
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+            const aur_vector target = aur_lane_vector(&drawn.position, lane);
+            const aur_vector way = aur_vector_subtract(target, aur_lane_vector(&position, lane));
+            lights[lane] = (aur_light_sample){.position = target,
+                                              .direction = aur_vector_normalize(way),
+                                              .radiance = aur_lane_vector(&drawn.radiance, lane),
+                                              .pdf = drawn.pdf[lane] * (float)draws,
+                                              .delta = drawn.rivals[lane] == 0.0f};
+        }
+        add_lights(places, places->order, lights, sums);
+    }
+}
+
+/* A point on a bright texel as a light seen from `position`; the hash is that of a path that corrects it. */
+static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
+                                   aur_vector position, uint64_t hash) {
+    const aur_gather_light *const from = &plan->light;
+    const aur_gather_known known =
+        aur_gather_plan_known(plan, point->shape, point->element, point->u, point->v, point->behind);
+    aur_vector radiance = known.radiance;
+    const aur_vector offset = aur_vector_subtract(point->position, position);
+    const float square = aur_vector_dot(offset, offset);
+    const aur_vector direction = aur_vector_scale(offset, 1.0f / sqrtf(square));
+    const float cosine = -aur_vector_dot(direction, point->normal);
+    aur_light_sample sample = {.position = point->position, .direction = direction};
+    if (cosine > 0.0f && square > 0.0f) {
+        sample.pdf = aur_bright_texels_density(from->bright, known.radiance) * (float)from->bright_draws *
+                     square / cosine;
+        const bool near = aur_onward_is_near(&plan->onward, sqrtf(square), known.area);
+        if (!near && !aur_onward_is_due(&plan->onward, hash)) {
+            radiance = aur_onward_kept(&plan->onward, radiance);
+        } else {
+            const aur_ray ray = {position, 0.0f, direction, INFINITY};
+            const aur_hit hit = {.distance = sqrtf(square),
+                                 .u = point->u,
+                                 .v = point->v,
+                                 .shape = point->shape,
+                                 .primitive = point->primitive,
+                                 .instance = AUR_NO_INSTANCE};
+            aur_onward_start start = {.view = aur_vector_scale(direction, -1.0f),
+                                      .edges = 2,
+                                      .hash = hash,
+                                      .near = near,
+                                      .known = radiance};
+            aur_scene_surface(plan->scene, &ray, &hit, &start.surface);
+            aur_onward_correct(&plan->onward, 1, &start, &radiance);
+        }
+    }
+    sample.radiance = aur_vector_add(radiance, known.caustics);
+    return sample;
+}
+
+void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
+    const aur_gather_light *const from = &plan->light;
+    const uint32_t pair = aur_gather_first_pair(places->bounces);
+    for (uint32_t k = 0; k < from->bright_draws; ++k) {
+        const uint32_t index = places->index * from->bright_draws + k;
+        float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
+        aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+                          pair + AUR_GATHER_PAIR_TEXEL, choice, unused);
+        aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+                          pair + AUR_GATHER_PAIR_TEXEL_POSITION, u, v);
+        aur_light_sample lights[AUR_PACKET_SIZE];
+        for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            const aur_bright_point point =
+                aur_bright_texels_sample(from->bright, plan->scene, from->map, (double)choice[lane],
+                                         (const float[2]){u[lane], v[lane]});
+            lights[lane] = light_from(plan, &point, places->at[lane].surface.position,
+                                      aur_hash4(places->pixels[lane], index, pair, plan->seed));
+        }
+        add_lights(places, AUR_EMBREE_INCOHERENT, lights, sums);
+    }
+}

@@ -1,0 +1,197 @@
+#include "render/gather/rules.h"
+
+#include <stdlib.h>
+
+#include "points/base/error.h"
+#include "render/scene/packet.h"
+
+size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
+    return (wanted + samples_per_pixel - 1) / samples_per_pixel * samples_per_pixel;
+}
+
+/* What rules of one kind, diffuse or glossy, have in common. */
+typedef struct rule_maker {
+    const aur_gather_parameters *p;
+    const aur_integrator_context *context;
+    aur_gather_rule_options pattern;
+    size_t base;   /* directions that are asked for: of the first level, when adaptive */
+    size_t pixels; /* that split one pattern */
+    char set[80];  /* of adaptive rules: extensible grids in place of the pattern */
+} rule_maker;
+
+static aur_result prepare(rule_maker *maker, size_t base, aur_error *error) {
+    maker->base = base;
+    maker->pattern.count = maker->pixels * aur_gather_split_count(base, maker->context->samples_per_pixel);
+    if (!maker->p->policy.adaptive)
+        return AUR_OK;
+    maker->pattern.set = maker->set;
+    return aur_gather_levels_set(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
+}
+
+static bool is_optimal(const aur_gather_parameters *p) {
+    return p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
+}
+
+/* A rule with its levels, or with its weights. */
+static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe_rule *lobe,
+                       aur_error *error) {
+    const aur_gather_parameters *const p = maker->p;
+    const aur_result result = aur_gather_rule_create(&maker->pattern, exponent, &lobe->rule, error);
+    if (result != AUR_OK)
+        return result;
+    if (p->policy.adaptive) {
+        lobe->directions = (float)maker->base;
+        return aur_gather_levels_create(p, maker->base, &lobe->rule, &lobe->levels, error);
+    }
+    lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
+    return is_optimal(p) ? aur_gather_rule_optimise(&lobe->rule, p->rule.smoothness, p->regularization, error)
+                         : AUR_OK;
+}
+
+static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse, aur_gather_lobe_rule *lobe,
+                        aur_error *error) {
+    aur_merged_rule_options options = {.pattern = maker->pattern,
+                                       .method = maker->p->weights,
+                                       .glossy_count = lobe->rule.count,
+                                       .subsets = maker->context->samples_per_pixel,
+                                       .exponent = lobe->rule.exponent,
+                                       .clipped = maker->p->clip,
+                                       .regularization = maker->p->regularization,
+                                       .threads = maker->context->threads,
+                                       .use_cache = maker->context->use_cache,
+                                       .progress = maker->context->progress};
+    options.pattern.count = diffuse->count;
+    return aur_merged_rule_create(&options, &lobe->merged, error);
+}
+
+/* The rule of a lobe with a formula, made where there is none yet. */
+static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wanted, aur_gather_rules *rules,
+                               const aur_gather_lobe_rule **found, aur_error *error) {
+    size_t i = wanted->diffuse ? 0 : 1;
+    while (i > 0 && i < rules->count && (float)rules->lobes[i].rule.exponent != wanted->exponent)
+        ++i;
+    aur_gather_lobe_rule *const lobe = &rules->lobes[i];
+    *found = lobe;
+    if (i < rules->count)
+        return AUR_OK;
+    ++rules->count;
+    const aur_result result = make(maker, wanted->exponent, lobe, error);
+    lobe->clipped = maker->p->clip && !maker->p->policy.adaptive;
+    if (lobe->clipped)
+        aur_gather_horizon_fill(wanted->exponent, &lobe->horizon);
+    return result == AUR_OK && aur_merges_samples(maker->p->weights)
+               ? merge(maker, &rules->lobes[0].rule, lobe, error)
+               : result;
+}
+
+/* Rules for the lobes of all surfaces, also those that a texture makes black somewhere. */
+static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
+    const aur_scene *const scene = maker->context->scene;
+    aur_result result = AUR_OK;
+    for (uint32_t i = 0; i < aur_scene_shape_count(scene); ++i) {
+        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
+        rules->scatters |= bsdf->scatters[0] | bsdf->scatters[1];
+        for (size_t k = 0; k < bsdf->lobe_count && result == AUR_OK; ++k)
+            if (bsdf->lobes[k].shape == AUR_LOBE_SHAPE_COSINE_POWER)
+                result = find_or_make(maker, &bsdf->lobes[k], rules, &rules->of_shape[i][k], error);
+    }
+    return result;
+}
+
+/* Never adaptive, and weighed by the draws themselves. */
+static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sampled, aur_error *error) {
+    aur_gather_rule_options options = maker->pattern;
+    options.set = maker->p->rule.set;
+    options.count = aur_gather_split_count(maker->p->glossy_samples, maker->context->samples_per_pixel);
+    sampled->directions = (float)(options.count / maker->context->samples_per_pixel);
+    return aur_gather_rule_create(&options, 0.0, &sampled->rule, error);
+}
+
+/* The roughness of a material's sampled lobe, where it is a GGX lobe; else 0. */
+static float ggx_alpha_of(const aur_bsdf *bsdf) {
+    for (size_t k = 0; k < bsdf->lobe_count; ++k)
+        if (bsdf->lobes[k].shape == AUR_LOBE_SHAPE_SAMPLED)
+            return bsdf->lobes[k].ggx_alpha;
+    return 0.0f;
+}
+
+/* Rules for GGX lobes, of the pattern of sampled ones. */
+static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
+    const aur_scene *const scene = maker->context->scene;
+    aur_ggx_rule_options options = {.pattern = maker->pattern,
+                                    .regularization = maker->p->regularization,
+                                    .threads = maker->context->threads,
+                                    .progress = maker->context->progress};
+    options.pattern.set = maker->p->rule.set;
+    options.pattern.count = rules->sampled.rule.count;
+    aur_result result = AUR_OK;
+    for (uint32_t shape = 0; shape < aur_scene_shape_count(scene) && result == AUR_OK; ++shape) {
+        options.alpha = ggx_alpha_of(aur_scene_shape_bsdf(scene, shape));
+        size_t i = 0;
+        while (i < rules->ggx_count && rules->ggx[i].alpha != options.alpha)
+            ++i;
+        if (!(options.alpha > 0.0f && options.alpha <= 1.0f))
+            continue;
+        rules->ggx_of_shape[shape] = &rules->ggx[i];
+        if (i == rules->ggx_count)
+            result = aur_ggx_rule_create(&options, &rules->ggx[rules->ggx_count++], error);
+    }
+    return result;
+}
+
+aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+                                   aur_gather_rules *rules, aur_error *error) {
+    *rules = (aur_gather_rules){0};
+    const size_t shapes = aur_scene_shape_count(context->scene);
+    size_t most = 1;
+    for (size_t i = 0; i < shapes; ++i)
+        most += aur_scene_shape_bsdf(context->scene, i)->lobe_count;
+    rules->lobes = calloc(most, sizeof *rules->lobes);
+    rules->of_shape = calloc(shapes + 1, sizeof *rules->of_shape);
+    rules->ggx = calloc(shapes + 1, sizeof *rules->ggx);
+    rules->ggx_of_shape = calloc(shapes + 1, sizeof *rules->ggx_of_shape);
+    if (rules->lobes == NULL || rules->of_shape == NULL || rules->ggx == NULL || rules->ggx_of_shape == NULL)
+        return aur_fail_memory(error);
+    rule_maker maker = {.p = p,
+                        .context = context,
+                        .pattern = p->rule,
+                        .pixels = p->policy.share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
+    rules->count = 1;
+    maker.pattern.nested = p->policy.share == AUR_SHARE_NEAR;
+    aur_result result = prepare(&maker, p->diffuse_samples, error);
+    if (result == AUR_OK)
+        result = make(&maker, 1.0, &rules->lobes[0], error);
+    maker.pixels = 1;
+    maker.pattern.nested = false;
+    maker.pattern.warnings = (aur_warnings){0}; /* the diffuse pattern has given them */
+    if (result == AUR_OK)
+        result = prepare(&maker, p->glossy_samples, error);
+    if (result == AUR_OK)
+        result = serve_shapes(&maker, rules, error);
+    if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0)
+        result = make_sampled(&maker, &rules->sampled, error);
+    if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0 && is_optimal(p) &&
+        p->rule.rotations > 0)
+        result = serve_ggx(&maker, rules, error);
+    rules->merged = rules->count > 1 ? rules->lobes[1].merged : NULL;
+    return result;
+}
+
+static void release(aur_gather_lobe_rule *lobe) {
+    aur_gather_rule_release(&lobe->rule);
+    aur_gather_levels_release(&lobe->levels);
+    aur_merged_rule_destroy(lobe->merged);
+}
+
+void aur_gather_rules_release(aur_gather_rules *rules) {
+    for (size_t i = 0; i < rules->count; ++i)
+        release(&rules->lobes[i]);
+    release(&rules->sampled);
+    for (size_t i = 0; i < rules->ggx_count; ++i)
+        aur_ggx_rule_release(&rules->ggx[i]);
+    free(rules->ggx);
+    free(rules->ggx_of_shape);
+    free(rules->lobes);
+    free(rules->of_shape);
+    *rules = (aur_gather_rules){0};
+}

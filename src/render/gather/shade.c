@@ -1,0 +1,165 @@
+/* Light that leaves the places by all of their lobes, each by the estimator that the plan has for it. */
+#include "points/base/random.h"
+#include "render/gather/estimators.h"
+#include "render/trace/interleave.h"
+#include "render/vertex/shading.h"
+
+/* --- the fixed rule: the same directions at every place but for their rotation */
+
+/* What lobes that dip below the surface are multiplied by; 1 for the others. */
+static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
+    const aur_lobe_frames *const frames = &sweep->frames;
+    if (!sweep->rule->clipped)
+        return 1.0f;
+    const aur_frame frame = {aur_lane_vector(&frames->x, lane), aur_lane_vector(&frames->y, lane),
+                             aur_lane_vector(&frames->z, lane)};
+    const aur_vector normal = aur_frame_to_local(&frame, aur_lane_vector(&frames->shading, lane));
+    return aur_gather_horizon_factor(&sweep->rule->rule, &sweep->rule->horizon, &sweep->rotations[lane],
+                                     normal);
+}
+
+/* Keeps the gathered irradiance for the pool instead of adding it. */
+static void keep_for_pool(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t lane,
+                          aur_vector gathered, aur_gather_sums *sums) {
+    const aur_gather_place *const place = &places->at[lane];
+    sums->pooled_lanes |= 1u << lane;
+    sums->pooled[lane] = (aur_gather_pooled){
+        .irradiance = aur_vector_scale(gathered, 1.0f / sweep->rule->directions),
+        .coefficient = aur_vector_multiply(places->throughput[lane], place->lobes[sweep->lobe].coefficient),
+        .position = place->surface.position,
+        .normal = aur_vector_scale(place->surface.frame.z, place->side)};
+}
+
+/* By this sample's part of the rule. */
+static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                    uint32_t lanes, aur_gather_sums *sums) {
+    aur_gather_sweep sweep;
+    aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
+    const bool splits = aur_gather_splits(places, rule);
+    /* The rule's directions are in so many parts, of which this is one. */
+    size_t parts = places->plan->samples_per_pattern, part = aur_gather_part(places);
+    if (splits) {
+        part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
+        parts *= AUR_PACKET_SIZE;
+    }
+    float sum[3][AUR_PACKET_SIZE] = {0};
+    for (size_t i = part; i < rule->rule.count; i += parts) {
+        float factor[AUR_PACKET_SIZE];
+        if (aur_gather_sweep_trace(places, &sweep, i, true, sums, factor) == 0)
+            continue;
+        for (size_t c = 0; c < 3; ++c)
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+                sum[c][k] += factor[k] * sums->rays.radiance[c][k];
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
+        if (aur_gather_pools(places, rule)) {
+            keep_for_pool(places, &sweep, lane, gathered, sums);
+            continue;
+        }
+        const aur_vector reflected = aur_vector_multiply(gathered, places->at[lane].lobes[lobe].coefficient);
+        sums->radiance[lane] =
+            aur_vector_add_scaled(sums->radiance[lane], horizon_factor(&sweep, lane) / rule->directions,
+                                  aur_vector_multiply(places->throughput[lane], reflected));
+    }
+}
+
+/* --- lobes without a formula: the rule's points of the square choose among the BSDF's own draws */
+
+/* Lobes that have no formula, by the BSDF's own sampling. */
+static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t lanes, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
+    const aur_gather_lobe_rule *const sampled = &plan->rules.sampled;
+    aur_gather_rays *const rays = &sums->rays;
+    aur_gather_sweep sweep;
+    aur_gather_sweep_start(places, sampled, lobe, lanes, &sweep, rays);
+    const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pattern;
+    for (size_t i = aur_gather_part(places); i < sampled->rule.count; i += parts) {
+        aur_vector value[AUR_PACKET_SIZE];
+        float u[3] = {0.0f, 0.0f, 0.0f}, unused;
+        uint32_t aimed = 0;
+        aur_packet_empty(&rays->packet);
+        aur_gather_set_chance(places, lobe, i, rays);
+        if (sweep.together)
+            aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i, &u[1]);
+        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            if (!sweep.together)
+                aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], i, &u[1]);
+            u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
+            aimed |= (uint32_t)aur_gather_aim_draw(&places->at[lane], lane, u, sampled->directions, rays,
+                                                   &value[lane], &unused)
+                     << lane;
+        }
+        if (aimed == 0)
+            continue;
+        aur_gather_rays_trace(plan, places->order, rays, sums->counters);
+        for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            const aur_vector incident = {rays->radiance[0][lane], rays->radiance[1][lane],
+                                         rays->radiance[2][lane]};
+            aur_gather_add(sums, places, lane, aur_vector_multiply(value[lane], incident));
+        }
+    }
+}
+
+/* --- all lobes */
+
+/* The lanes, among `lanes`, whose lobe number `lobe` is gathered by the rule. */
+static uint32_t lanes_of_rule(const aur_gather_places *places, uint32_t lanes, size_t lobe,
+                              const aur_gather_lobe_rule *rule) {
+    uint32_t found = 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        if (places->at[lane].rules[lobe] == rule)
+            found |= 1u << lane;
+    }
+    return found;
+}
+
+/* The lobe number `lobe` of all lanes that have one. */
+static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t lobe, aur_gather_sums *sums) {
+    uint32_t ruled = 0, sampled = 0, ggx = 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const place = &places->at[lane];
+        const aur_bsdf_lobe *const own = &place->lobes[lobe];
+        if (lobe >= place->lobe_count || !aur_gather_plan_gathers(places->plan, own) ||
+            !aur_gather_place_has(place, lobe))
+            continue;
+        if (own->shape == AUR_LOBE_SHAPE_SAMPLED && place->ggx != NULL)
+            ggx |= 1u << lane;
+        else if (own->shape == AUR_LOBE_SHAPE_SAMPLED)
+            sampled |= 1u << lane;
+        else
+            ruled |= 1u << lane;
+    }
+    while (ruled != 0) {
+        const aur_gather_lobe_rule *const rule = places->at[aur_first_lane(ruled)].rules[lobe];
+        const uint32_t alike = lanes_of_rule(places, ruled, lobe, rule);
+        if (rule->levels.count > 0)
+            aur_gather_by_levels(places, rule, lobe, alike, sums);
+        else
+            by_rule(places, rule, lobe, alike, sums);
+        ruled &= ~alike;
+    }
+    if (ggx != 0)
+        aur_gather_by_ggx(places, lobe, ggx, sums);
+    if (sampled != 0)
+        by_sampling(places, lobe, sampled, sums);
+}
+
+void aur_gather_shade(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
+    if (plan->policy.direct == AUR_DIRECT_NEE && plan->policy.max_depth >= 2 &&
+        aur_scene_emitter_count(plan->scene) > 0)
+        aur_gather_add_direct_light(places, sums);
+    if (plan->light.bright_draws > 0)
+        aur_gather_add_bright_light(places, sums);
+    if (!plan->gathers)
+        return;
+    const uint32_t lanes = plan->rules.merged != NULL ? aur_gather_by_merged(places, sums) : places->lanes;
+    for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY && lanes != 0; ++lobe)
+        gather_lobe(places, lanes, lobe, sums);
+}

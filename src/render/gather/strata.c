@@ -1,0 +1,234 @@
+#include "render/gather/strata.h"
+
+#include <math.h>
+
+uint64_t aur_gather_surface_key(const aur_shape_class *classes, const aur_packet *packet, size_t lane) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    const uint32_t shape = hits->geomID[lane];
+    const aur_shape_class *const class = &classes[shape];
+    const uint64_t key = (class->emits ? AUR_SURFACE_KEY_EMITS : 0) | ((uint64_t)shape * 8 + 1);
+    if (class->curved)
+        return key;
+    const aur_vector n = {hits->Ng_x[lane], hits->Ng_y[lane], hits->Ng_z[lane]};
+    const bool behind = n.x * rays->dir_x[lane] + n.y * rays->dir_y[lane] + n.z * rays->dir_z[lane] > 0.0f;
+    return key + aur_vector_facing(behind ? aur_vector_scale(n, -1.0f) : n);
+}
+
+aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *known) {
+    *known = true;
+    for (uint32_t i = 0; i < pixel->count; ++i)
+        if (pixel->strata[i].key == key)
+            return &pixel->strata[i];
+    if (pixel->count == AUR_STRATUM_COUNT)
+        return &pixel->strata[AUR_STRATUM_COUNT - 1];
+    *known = false;
+    aur_stratum *const added = &pixel->strata[pixel->count++];
+    *added = (aur_stratum){.key = key};
+    return added;
+}
+
+static void add_pooled(aur_gather_pooled *sum, float weight, const aur_gather_pooled *found) {
+    sum->irradiance = aur_vector_add_scaled(sum->irradiance, weight, found->irradiance);
+    sum->coefficient = aur_vector_add_scaled(sum->coefficient, weight, found->coefficient);
+    sum->position = aur_vector_add_scaled(sum->position, weight, found->position);
+    sum->normal = aur_vector_add_scaled(sum->normal, weight, found->normal);
+}
+
+void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const aur_gather_sums *sums,
+                          size_t lane, float sample_weight) {
+    const aur_vector radiance = sums->radiance[lane];
+    const double weight = (double)sample_weight;
+    if (!(sums->corrected ? aur_vector_is_finite(radiance) : aur_is_radiance(radiance))) {
+        ++sums->counters->invalid;
+        stratum->seen -= weight;
+        return;
+    }
+    pixel->directions += sums->directions[lane];
+    ++pixel->samples;
+    stratum->shaded += weight;
+    stratum->sum[0] += weight * (double)radiance.x;
+    stratum->sum[1] += weight * (double)radiance.y;
+    stratum->sum[2] += weight * (double)radiance.z;
+    if (aur_has_lane(sums->pooled_lanes, lane)) {
+        stratum->gathers += sample_weight;
+        add_pooled(&stratum->pooled, sample_weight, &sums->pooled[lane]);
+        const aur_gather_pooled *const own = &sums->pooled[lane];
+        const aur_vector light = aur_vector_multiply(own->coefficient, own->irradiance);
+        stratum->pool_adds[0] -= weight * (double)light.x;
+        stratum->pool_adds[1] -= weight * (double)light.y;
+        stratum->pool_adds[2] -= weight * (double)light.z;
+    }
+}
+
+/* The mean of the strata's sums, or of what pools add to them. */
+static void mean_of(const aur_pixel_strata *pixel, bool added, double mean[3]) {
+    double seen = 0.0;
+    mean[0] = mean[1] = mean[2] = 0.0;
+    for (uint32_t i = 0; i < pixel->count; ++i) {
+        const aur_stratum *const stratum = &pixel->strata[i];
+        if (stratum->shaded == 0.0)
+            continue;
+        seen += stratum->seen;
+        for (size_t c = 0; c < 3; ++c)
+            mean[c] += (added ? stratum->pool_adds : stratum->sum)[c] * (stratum->seen / stratum->shaded);
+    }
+    for (size_t c = 0; c < 3; ++c)
+        mean[c] = seen != 0.0 ? mean[c] / seen : 0.0;
+}
+
+void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
+    mean_of(pixel, false, mean);
+}
+
+void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]) {
+    mean_of(pixel, true, added);
+}
+
+/* --- edges */
+
+enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
+
+/* Pixels; no filter of ours reaches farther. */
+enum { SIDE = AUR_TILE_SIZE, MOST_REACH = 2, MOST_SIDE = SIDE + 2 * MOST_REACH };
+
+/* What a pixel's samples have seen: the key of one thing, and whether there were others. */
+typedef struct glance {
+    uint64_t key;
+    bool known, several, light;
+} glance;
+
+/* A tile's pixels and the ring around it, as wide as pixels look for edges: what each has seen. */
+typedef struct surroundings {
+    const aur_view *view;
+    const aur_pixel_strata *strata; /* of the tile's pixels */
+    size_t reach, side;             /* the ring's width, and the pixels of a row with it on both sides */
+    glance seen[MOST_SIDE * MOST_SIDE];
+} surroundings;
+
+static void see(glance *self, uint64_t key) {
+    self->several = self->several || (self->known && key != self->key);
+    self->light = self->light || (key & AUR_SURFACE_KEY_EMITS) != 0;
+    self->key = key;
+    self->known = true;
+}
+
+/* Pixels, 16 at a time: what the first sample of each sees. */
+static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
+                    const size_t *y, glance *const *seen) {
+    aur_packet packet;
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+    aur_packet_clear(&packet);
+    aur_view_samples(view, count, x, y, 0, samples, weights);
+    for (size_t k = 0; k < count; ++k)
+        aur_packet_set(&packet, k, &samples[k].ray);
+    const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet);
+    for (size_t k = 0; k < count; ++k)
+        see(seen[k], (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0);
+}
+
+/* The tile's own pixel at a place; NULL on the ring around the tile. */
+static const aur_pixel_strata *own_pixel(const surroundings *self, size_t place) {
+    const size_t column = place % self->side, row = place / self->side, reach = self->reach;
+    const bool inside = column >= reach && column < SIDE + reach && row >= reach && row < SIDE + reach;
+    return inside ? &self->strata[(row - reach) * SIDE + (column - reach)] : NULL;
+}
+
+/* Whether a pixel within reach has samples, so that an edge between them counts. */
+static bool is_beside_samples(const surroundings *self, size_t place) {
+    const size_t column = place % self->side, row = place / self->side, reach = self->reach;
+    for (size_t j = row > reach ? row - reach : 0; j <= row + reach && j < self->side; ++j)
+        for (size_t i = column > reach ? column - reach : 0; i <= column + reach && i < self->side; ++i) {
+            const aur_pixel_strata *const other = own_pixel(self, j * self->side + i);
+            if (other != NULL && other->count > 0)
+                return true;
+        }
+    return false;
+}
+
+/* What pixels see that lie beside those with samples. The tile's own samples tell it where all of its pixels
+ * have `alike` many; else what a pixel finds would depend on which of its neighbours have samples, and one
+ * ray each tells it, as around the tile. What lies beyond the picture sees nothing and makes no edge. */
+static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike,
+                        surroundings *self) {
+    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;
+    glance *seen[AUR_PACKET_SIZE];
+    const size_t reach = self->reach, places = self->side * self->side;
+    for (size_t i = 0; i < places; ++i) {
+        const aur_pixel_strata *const own = own_pixel(self, i);
+        self->seen[i] = (glance){0};
+        if (alike && own != NULL && own->count > 0) {
+            for (uint32_t k = 0; k < own->count; ++k)
+                see(&self->seen[i], own->strata[k].key);
+            continue;
+        }
+        const size_t column = left + i % self->side, row = top + i / self->side; /* too many by the reach */
+        if (column < reach || row < reach || column >= self->view->width + reach ||
+            row >= self->view->height + reach || !is_beside_samples(self, i))
+            continue;
+        x[count] = column - reach;
+        y[count] = row - reach;
+        seen[count++] = &self->seen[i];
+        if (count == AUR_PACKET_SIZE) {
+            look_at(plan, self->view, count, x, y, seen);
+            count = 0;
+        }
+    }
+    if (count > 0)
+        look_at(plan, self->view, count, x, y, seen);
+}
+
+/* The greatest edge among what the pixels within reach have seen. What the pixel itself has seen has no say:
+ * else those that met a small light by chance would look again, and keep less of it than the others lack. */
+static int edge_at(const surroundings *self, size_t x, size_t y) {
+    glance all = {0};
+    const size_t across = 2 * self->reach + 1;
+    for (size_t i = 0; i < across * across; ++i) {
+        const glance *const other = &self->seen[(y + i / across) * self->side + x + i % across];
+        if (i == across * across / 2 || !other->known)
+            continue;
+        see(&all, other->key);
+        all.several = all.several || other->several;
+        all.light = all.light || other->light;
+    }
+    if (!all.several)
+        return NO_EDGE;
+    return all.light ? LIGHT_EDGE : PLAIN_EDGE;
+}
+
+/* Where a pixel's filter sees farther, pixels see a little of what lies beyond those next to it, which few of
+ * their samples meet: then the ring of those next to it misses edges. */
+static size_t reach_of(const aur_filter *filter) {
+    const float radius = -aur_filter_sample(filter, 0.0f);
+    const size_t reach = (size_t)ceilf(aur_larger(radius - 0.5f, 1.0f));
+    return reach < MOST_REACH ? reach : MOST_REACH;
+}
+
+static bool is_lamp_edge(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y) {
+    return plan->lamp_edges != NULL && x < view->width && y < view->height &&
+           plan->lamp_edges[y * view->width + x] > 0;
+}
+
+void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
+                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges) {
+    const size_t reach = reach_of(view->filter);
+    surroundings all;
+    all.view = view;
+    all.strata = strata;
+    all.reach = reach;
+    all.side = SIDE + 2 * reach;
+    look_around(plan, x, y, alike, &all);
+    *edges = (aur_gather_edges){0};
+    for (uint32_t place = 0; place < AUR_GROUP_COUNT; ++place)
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+            const size_t pixel = aur_group_pixel(0, place, lane);
+            if (strata[pixel].count == 0)
+                continue;
+            const int edge = is_lamp_edge(plan, view, x + pixel % SIDE, y + pixel / SIDE)
+                                 ? LIGHT_EDGE
+                                 : edge_at(&all, pixel % SIDE, pixel / SIDE);
+            edges->any[place] |= (uint32_t)(edge != NO_EDGE) << lane;
+            edges->lights[place] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
+        }
+}

@@ -1,0 +1,288 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/random.h"
+#include "render/gather/estimators.h"
+#include "render/gather/strata.h"
+#include "render/trace/interleave.h"
+#include "render/vertex/shading.h"
+
+/* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
+typedef struct gather_tile {
+    const aur_view *view;
+    size_t x, y;                                            /* of the tile's corner in the picture */
+    size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the picture */
+    bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
+    aur_gather_places places;
+    aur_gather_sums sums;
+    aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
+    float weights[AUR_PACKET_SIZE];
+    aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples go to; NULL: none */
+    aur_pixel_strata strata[AUR_TILE_PIXELS];
+} gather_tile;
+
+/* NULL when out of memory. */
+static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
+    const aur_gather_rules *const rules = &plan->rules;
+    /* For each direction of the largest adaptive rule, or for the samples of merged ones. */
+    size_t numbers =
+        rules->merged != NULL ? 2 * aur_merged_rule_samples(rules->merged) * (AUR_PACKET_SIZE + 1) : 0;
+    for (size_t i = 0; i < rules->count && plan->policy.adaptive; ++i)
+        if (3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count > numbers)
+            numbers = 3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count;
+    gather_tile *const work = aligned_alloc(64, (sizeof *work + 63) / 64 * 64);
+    if (work == NULL)
+        return NULL;
+    memset(work, 0, sizeof *work);
+    aur_packet_clear(&work->sums.rays.packet);
+    work->sums.numbers = calloc(numbers + 1, sizeof *work->sums.numbers);
+    work->places.plan = plan;
+    work->view = tile->view;
+    work->x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    work->y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    work->places.tile = aur_hash2(work->y, work->x);
+    work->places.sampler = tile->view->sampler;
+    if (work->sums.numbers != NULL)
+        return work;
+    free(work);
+    return NULL;
+}
+
+/* --- one sample of sixteen pixels: what the eye sees, also by mirrors and through glass */
+
+static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
+    return &work->strata[aur_group_pixel(work->places.arrangement, work->places.group, lane)];
+}
+
+/* The pixels of a group for sample `index`. Samples that share a pattern have the same ones. Pixels that
+ * split a pattern among them lie where they always do. */
+static void choose(gather_tile *work, uint32_t group, uint32_t index) {
+    aur_gather_places *const places = &work->places;
+    const aur_gather_plan *const plan = places->plan;
+    places->group = group;
+    places->index = index;
+    places->arrangement = 0;
+    if (plan->policy.share != AUR_SHARE_BLOCKS && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
+        places->arrangement =
+            aur_group_arrangement(aur_hash2(plan->seed, aur_gather_places_hash(places, places->tile)));
+    aur_group_pixels(places->arrangement, group, work->x, work->y, work->columns, work->rows);
+}
+
+static void begin(gather_tile *work, uint32_t lanes) {
+    aur_gather_places *const places = &work->places;
+    aur_gather_sums *const sums = &work->sums;
+    aur_view_samples(work->view, AUR_PACKET_SIZE, work->columns, work->rows, places->index, work->samples,
+                     work->weights);
+    places->lanes = lanes;
+    sums->pooled_lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        places->pixels[lane] = work->samples[lane].stream.pixel;
+        places->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
+        sums->radiance[lane] = (aur_vector){0};
+        sums->directions[lane] = 0;
+        work->stratum[lane] = NULL;
+    }
+}
+
+/* Traces the rays of all lanes; returns those that hit something. */
+static uint32_t trace(gather_tile *work) {
+    aur_packet *const packet = &work->sums.rays.packet;
+    aur_packet_empty(packet);
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        aur_packet_set(packet, lane, &work->samples[lane].ray);
+    }
+    const aur_embree_order order = work->places.bounces == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    return aur_gather_intersect(work->places.plan, order, packet);
+}
+
+/* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
+static void count_seen(gather_tile *work, uint32_t found) {
+    const aur_packet *const packet = &work->sums.rays.packet;
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const uint64_t key =
+            aur_has_lane(found, lane) ? aur_gather_surface_key(work->places.plan->classes, packet, lane) : 0;
+        bool known;
+        aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
+        stratum->seen += (double)work->weights[lane];
+        if (work->only_new && known && stratum->shaded > 0.0)
+            work->places.lanes &= ~(1u << lane);
+        else
+            work->stratum[lane] = stratum;
+    }
+}
+
+/* Light from beyond the scene, for lanes whose ray left it. */
+static void add_sky(gather_tile *work, uint32_t lanes) {
+    const aur_gather_plan *const plan = work->places.plan;
+    if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_environment(plan->scene))
+        return;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        aur_gather_add(&work->sums, &work->places, lane,
+                       aur_scene_environment(plan->scene, work->samples[lane].ray.direction));
+    }
+}
+
+/* The surfaces that the rays met, with the light that reaches the eye from them without being gathered:
+ * caustics, and what they emit. */
+static void set_places(gather_tile *work) {
+    const aur_gather_plan *const plan = work->places.plan;
+    const aur_scene *const scene = plan->scene;
+    const aur_irradiance_map *const caustics = plan->light.caustics;
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_hit hit = aur_packet_hit(scene, &work->sums.rays.packet, lane);
+        const aur_ray *const ray = &work->samples[lane].ray;
+        const aur_surface *const surface = &work->places.at[lane].surface;
+        aur_gather_place_set(plan, ray, &hit, &work->places.at[lane]);
+        if (plan->policy.direct == AUR_DIRECT_NONE)
+            continue;
+        const aur_vector view = aur_vector_scale(ray->direction, -1.0f);
+        if (caustics != NULL)
+            aur_gather_add(&work->sums, &work->places, lane,
+                           aur_irradiance_view(caustics, scene, &hit, surface, view).radiance);
+        if (surface->emitter != AUR_NO_EMITTER)
+            aur_gather_add(&work->sums, &work->places, lane, aur_surface_emission(scene, surface, view));
+    }
+    work->places.order = aur_gather_places_order(&work->places);
+}
+
+/* A lane's ray in the direction of a specular lobe; false where there is none, or it absorbs the light. */
+static bool bounce_lane(gather_tile *work, size_t lane) {
+    const aur_gather_place *const place = &work->places.at[lane];
+    if ((aur_bsdf_scatters(place->surface.bsdf, place->view.z) & AUR_SCATTERS_SPECULAR) == 0)
+        return false;
+    const uint32_t pair = aur_gather_first_pair(work->places.bounces);
+    const aur_stream *const stream = &work->samples[lane].stream;
+    float lobe[2], direction[2];
+    aur_stream_pair(stream, pair + AUR_GATHER_PAIR_LOBE, lobe);
+    aur_stream_pair(stream, pair + AUR_GATHER_PAIR_BOUNCE, direction);
+    const aur_shading shading = {&place->surface, place->view};
+    aur_bsdf_sample drawn;
+    if (!aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &drawn) ||
+        !drawn.specular)
+        return false;
+    aur_vector *const throughput = &work->places.throughput[lane];
+    *throughput = aur_vector_multiply(*throughput, drawn.weight);
+    work->samples[lane].ray = aur_surface_ray(&place->surface, drawn.light);
+    return true;
+}
+
+/* Lanes whose surface has a specular lobe go on in its direction; the others are done. The other lobes of
+ * either have been gathered for. */
+static void bounce(gather_tile *work) {
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1)
+        if (!bounce_lane(work, aur_first_lane(rest)))
+            work->places.lanes &= ~(1u << aur_first_lane(rest));
+}
+
+/* Adds one sample of the pixels chosen to their strata. */
+static void add_samples(gather_tile *work, uint32_t lanes) {
+    aur_gather_places *const places = &work->places;
+    if (lanes == 0)
+        return;
+    begin(work, lanes);
+    for (places->bounces = 0; places->bounces <= AUR_LONGEST_CHAIN && places->lanes != 0; ++places->bounces) {
+        const uint32_t found = trace(work);
+        if (places->bounces == 0)
+            count_seen(work, found);
+        add_sky(work, places->lanes & ~found);
+        places->lanes &= found;
+        if (places->lanes == 0)
+            break;
+        set_places(work);
+        aur_gather_shade(places, &work->sums);
+        bounce(work);
+    }
+    work->sums.counters->cut += aur_lane_count(places->lanes);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        if (work->stratum[lane] != NULL)
+            aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane,
+                                 work->weights[lane]);
+    }
+}
+
+/* --- the tile */
+
+/* Samples that tell how much pixels see of what is around an edge. Edges that are none of a light's get a
+ * small part of them. */
+static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
+    enum { PLAIN_EDGE_PART = 64 };
+    const uint32_t count = work->places.plan->policy.edge_samples;
+    aur_counters *const counters = work->sums.counters;
+    const uint64_t before = aur_rays_traced;
+    aur_gather_edges edges;
+    aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, tile->begins == NULL,
+                          &edges);
+    work->only_new = true;
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
+        for (uint32_t i = 0; i < count; ++i) {
+            if (aur_tile_stops(tile))
+                return AUR_ERROR_CANCELLED;
+            choose(work, group, tile->first + tile->count + i);
+            add_samples(work, aur_group_lanes_marked(work->places.arrangement, group,
+                                                     i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
+        }
+    counters->edge_rays += aur_rays_traced - before;
+    return AUR_OK;
+}
+
+/* Packets are those of the whole tile within the picture, whatever its crop: else pixels would differ in the
+ * last bits. */
+static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
+    const aur_view *const view = work->view;
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
+        for (uint32_t i = 0; i < tile->count; ++i) {
+            if (aur_tile_stops(tile))
+                return AUR_ERROR_CANCELLED;
+            choose(work, group, tile->first + i);
+            const uint32_t lanes =
+                aur_group_lanes_within(work->columns, work->rows, 0, view->width, 0, view->height);
+            add_samples(work,
+                        aur_group_lanes_wanted(tile, work->columns, work->rows, lanes, tile->first + i));
+        }
+    return work->places.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
+}
+
+static void add_means(const gather_tile *work, aur_tile *tile) {
+    const aur_gather_policy *const policy = &work->places.plan->policy;
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x) {
+            const aur_pixel_strata *const pixel =
+                &work->strata[(y - work->y) * AUR_TILE_SIZE + (x - work->x)];
+            if (pixel->samples == 0)
+                continue;
+            double mean[3];
+            aur_pixel_strata_mean(pixel, mean);
+            const uint32_t count = aur_tile_wanted(tile, x, y);
+            aur_tile_add_mean(tile, x, y, count, mean);
+            if (policy->share == AUR_SHARE_NEAR) {
+                double added[3];
+                aur_pixel_strata_added(pixel, added);
+                for (size_t c = 0; c < 3; ++c)
+                    aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
+            }
+            if (policy->adaptive)
+                aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
+        }
+}
+
+aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
+    gather_tile *const work = create(plan, tile);
+    if (work == NULL)
+        return AUR_ERROR_MEMORY;
+    work->sums.counters = &tile->counters;
+    work->sums.corrected = plan->onward.share > 0.0f;
+    aur_result result = shade_tile(work, tile);
+    if (result == AUR_OK && plan->policy.share != AUR_SHARE_NONE &&
+        !aur_gather_pool_irradiance(plan->policy.share == AUR_SHARE_NEAR, work->strata))
+        result = AUR_ERROR_MEMORY;
+    if (result == AUR_OK)
+        add_means(work, tile);
+    free(work->sums.numbers);
+    free(work);
+    return result;
+}

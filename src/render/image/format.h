@@ -1,0 +1,79 @@
+/* File formats, and what they share. A format is one aur_image_format_<name>, defined in the file that reads
+ * it, and one line in AUR_IMAGE_FORMATS. */
+#pragma once
+
+#include "render/image/image.h"
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "points/base/error.h"
+#include "points/base/keys.h"
+
+/* Values (pixels times channels) that a picture may have: 4 GiB of floats. A file that claims more lies. */
+#define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
+
+/* A file in memory. */
+typedef struct aur_image_source {
+    const char *name; /* for messages */
+    size_t size;
+    const unsigned char *data;
+} aur_image_source;
+
+typedef struct aur_image_target {
+    const char *name;
+    FILE *stream;
+    aur_image_write_options options;
+    size_t channels[3]; /* red, green and blue; not for formats with every_channel */
+} aur_image_target;
+
+typedef struct aur_image_format {
+    aur_row row;        /* its name is the extension, its keys are fields of aur_image_write_options */
+    const char *name;   /* what aur_image_format_of returns */
+    bool every_channel; /* all channels are written, not a colour */
+    bool (*recognize)(const aur_image_source *source);
+    /* Both leave the file's name in errors, and a picture that has only been begun, to their caller. */
+    aur_result (*read)(const aur_image_source *source, aur_image **image, aur_error *error);
+    /* Errors of the stream are left to whoever commits the file. NULL: read only. */
+    aur_result (*write)(const aur_image_target *target, const aur_image *image, aur_error *error);
+} aur_image_format;
+
+#define AUR_IMAGE_FORMATS(ROW)                                                                               \
+    ROW(exr)                                                                                                 \
+    ROW(pfm)                                                                                                 \
+    ROW(hdr)                                                                                                 \
+    ROW(png)                                                                                                 \
+    ROW(jpeg)                                                                                                \
+    ROW(bmp)                                                                                                 \
+    ROW(tga)
+
+#define AUR_DECLARE_IMAGE_FORMAT(name) extern const aur_image_format aur_image_format_##name;
+AUR_IMAGE_FORMATS(AUR_DECLARE_IMAGE_FORMAT)
+#undef AUR_DECLARE_IMAGE_FORMAT
+
+extern const aur_table aur_image_format_table;
+
+aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error);
+
+/* FORMAT when a file claims a size that no picture may have. */
+aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error);
+
+/* FORMAT when no file of this length can hold so many pixels: decoders allocate before they read. */
+aur_result aur_image_check_claim(const aur_image_source *source, const char *format, size_t pixel_count,
+                                 size_t pixels_a_byte, aur_error *error);
+
+/* Does the source begin with these bytes? */
+bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count);
+
+/* For stb's writer: the context is a stream, whose errors are left to whoever commits the file. */
+void aur_image_put_bytes(void *stream, void *bytes, int count);
+aur_result aur_image_fail_encode(aur_error *error);
+
+/* Adds to what aur_image_notes returns. */
+void aur_image_note(aur_image *image, const char *format, ...) AUR_PRINTF(2, 3);
+
+/* "R, G, depth": as much as fits. */
+void aur_image_list_channels(const aur_image *image, size_t capacity, char *text);
+
+/* Red, green and blue, or an ARGUMENT error that names the channels that there are. `name` may be NULL. */
+aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
+                                   aur_error *error);

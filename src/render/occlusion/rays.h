@@ -1,0 +1,45 @@
+/* The rays of ambient occlusion, packet by packet: what the integrator traces and the bench compares with. */
+#pragma once
+
+#include "render/gather/rule.h"
+#include "render/scene/packet.h"
+#include "render/trace/interleave.h"
+
+/* The 16 pixels of a group (packets/interleave.h) share a rotation of the pattern, so the rays of a packet
+ * are one direction of it at 16 places, almost parallel where the surface is flat. */
+enum { AUR_OCCLUSION_PLACES = AUR_TILE_PIXELS };
+
+typedef struct aur_occlusion {
+    size_t samples_per_pattern; /* among which its directions are shared out */
+    size_t part_stride;         /* of those, where they renew */
+    bool renews;                /* samples after those have it turned anew, else there are none */
+    uint64_t seed;
+    /* What is farther, in scene units, does not occlude. */
+    float max_distance;
+    aur_gather_rule rule;
+} aur_occlusion;
+
+/* What the eye sees at the places of a tile, in packet order: those of group g begin at g * AUR_PACKET_SIZE.
+ */
+typedef struct aur_occlusion_places {
+    uint64_t arrangement; /* of the tile's pixels in groups */
+    _Alignas(64) float origin[3][AUR_OCCLUSION_PLACES];
+    _Alignas(64) float axis[3][3][AUR_OCCLUSION_PLACES]; /* x, y and z of the frame about the normal */
+    float weight[AUR_OCCLUSION_PLACES];                  /* of the camera sample */
+    uint64_t pixel[AUR_OCCLUSION_PLACES];                /* a hash of the pixel */
+    bool seen[AUR_OCCLUSION_PLACES];                     /* else the eye sees no surface there */
+} aur_occlusion_places;
+
+/* Sample `index` of every pixel of the tile whose corner is (x, y). */
+AUR_EXPERIMENTAL void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,
+                                                aur_occlusion_places *places);
+
+/* Called with each packet of the tile's rays in a fixed order; lane k is place first_place + k. */
+typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_embree_order order,
+                                      aur_packet *packet);
+
+/* Makes the rays of sample `index` from its places and hands them on; returns how many directions a place
+ * has. */
+AUR_EXPERIMENTAL size_t aur_occlusion_visit(const aur_occlusion *occlusion,
+                                            const aur_occlusion_places *places, size_t x, size_t y,
+                                            uint32_t index, aur_occlusion_visitor visit, void *context);

@@ -1,0 +1,55 @@
+/* The path tracer from the inside: one path by itself (path_single.c) and sixteen of them in
+ * lockstep (path_group.c, with its arithmetic in path_lanes*), for the pixels of a tile (path_tile.c). */
+#pragma once
+
+#include "render/film/integrator.h"
+#include "render/path/path_lanes.h"
+#include "render/trace/shape_class.h"
+#include "render/vertex/looks.h"
+
+typedef struct aur_path {
+    uint32_t max_depth;  /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
+    uint32_t rr_depth;   /* Russian roulette from this depth on */
+    bool hide_emitters;  /* from the camera */
+    bool strict_normals; /* of no effect */
+    uint32_t candidates; /* points on lights of which one gets the shadow ray; 0 is 1 */
+    bool packets;        /* 16 pixels in lockstep */
+    bool interleaved;    /* which share their numbers but for the camera's */
+    bool panes;       /* rays to lights go straight through surfaces that let them; of aur_path_group alone */
+    double lamp_rays; /* rays for lamps alone that a sample has more, in the picture's mean */
+    const aur_path_kernels *kernels;
+    aur_shape_class *classes;    /* one a shape */
+    const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
+} aur_path;
+
+/* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, choice among
+ * candidates), direction. */
+enum { AUR_PATH_CHOICE, AUR_PATH_POSITION, AUR_PATH_LOBE, AUR_PATH_DIRECTION, AUR_PATH_PAIRS };
+
+/* The first pair of a bounce. Those of the first come with the camera's, the others two bounces at once. */
+static inline uint32_t aur_path_pair(uint32_t depth) {
+    return depth == 1 ? AUR_PAIR_FIRST : AUR_STREAM_BLOCK + AUR_PATH_PAIRS * (depth - 2);
+}
+
+/* Whether a path that has become long is to be left because the work stops. */
+static inline bool aur_path_stops(uint32_t depth, bool *stopped) {
+    enum { EDGES_BETWEEN = 1 << 10 };
+    if (depth % EDGES_BETWEEN == 0 && aur_parallel_stops())
+        *stopped = true;
+    return *stopped;
+}
+
+/* The probability to go on, under Russian roulette. */
+static inline float aur_path_survival(aur_vector throughput) {
+    return aur_smaller(aur_vector_max(throughput), 0.95f);
+}
+
+aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
+/* Radiance along one camera ray. `seen`: what of it lights send straight, where that is known; or NULL. */
+aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
+                             const aur_vector *seen, aur_counters *counters);
+/* Adds sample `index` of a pixel of the tile by itself. */
+void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
+                         aur_tile *tile);
+/* Adds the samples of a tile, sixteen pixels at a time. */
+void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile);

@@ -1,0 +1,3 @@
+#include "render/path/path_lanes_body.h"
+
+const aur_path_kernels aur_path_kernels_avx512 = AUR_PATH_KERNELS;

@@ -1,0 +1,270 @@
+#include "render/path/path_onward.h"
+
+#include "points/base/random.h"
+#include "render/path/path.h"
+#include "render/trace/packet_rays.h"
+#include "render/vertex/direct_light.h"
+
+typedef struct onward_walk {
+    aur_vector sum, throughput;
+    aur_ray ray;
+    uint64_t hash;
+    aur_light_reference from; /* the surface that the ray left, and the density of its direction there */
+    float pdf;
+    bool specular; /* no light sample could have found what the ray meets */
+    bool known;    /* the map has answered for the rest of the path, which had this sum then */
+    aur_vector known_sum;
+} onward_walk;
+
+/* BSDF * |cos| and the density of the whole BSDF's draws. `known_only`: of the lobes that a photon map
+ * answers for, which are all but the specular and the sampled ones. */
+static aur_vector evaluate(const aur_shading *shading, bool known_only, aur_vector light, float *pdf) {
+    const aur_vector value = aur_shading_evaluate(shading, light, pdf);
+    const aur_surface *const surface = shading->surface;
+    if (!known_only || *pdf == 0.0f ||
+        (aur_bsdf_scatters(surface->bsdf, shading->view.z) & AUR_SCATTERS_SAMPLED) == 0)
+        return value;
+    float unused;
+    const aur_vector sampled =
+        aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view,
+                          aur_frame_to_local(&surface->frame, light), &unused);
+    return aur_vector_subtract(value, sampled);
+}
+
+/* The ray to a point on a light, and the light that comes along it if nothing lies between. */
+static bool reach_light(const aur_shading *shading, bool known_only, const aur_light_sample *light,
+                        aur_shadow *shadow) {
+    float pdf, distance;
+    if (!(light->pdf > 0.0f))
+        return false;
+    const aur_vector value = evaluate(shading, known_only, light->direction, &pdf);
+    if (aur_vector_is_zero(value))
+        return false;
+    shadow->ray = aur_surface_ray_to(shading->surface, light->position, &distance);
+    const float weight = (light->delta ? 1.0f : aur_power_heuristic(light->pdf, pdf)) / light->pdf;
+    shadow->radiance = aur_vector_scale(aur_vector_multiply(value, light->radiance), weight);
+    return true;
+}
+
+/* A direction by the BSDF; false where the path ends. */
+static bool scatter(const aur_shading *shading, bool known_only, onward_walk *walk) {
+    float u[3];
+    aur_bsdf_sample drawn;
+    aur_draw_units(&walk->hash, u);
+    if (!aur_shading_sample(shading, u, &drawn) || (known_only && drawn.specular))
+        return false;
+    if (known_only) {
+        float pdf;
+        drawn.weight = aur_vector_scale(evaluate(shading, true, drawn.light, &pdf), 1.0f / drawn.pdf);
+    }
+    walk->throughput = aur_vector_multiply(walk->throughput, drawn.weight);
+    walk->from = aur_shading_reference(shading);
+    walk->pdf = drawn.pdf;
+    walk->specular = drawn.specular;
+    walk->ray = aur_surface_ray(shading->surface, drawn.light);
+    return !aur_vector_is_zero(walk->throughput);
+}
+
+/* The light that the ray meets: an emitter's, or the sky where there is no surface. */
+static void add_emission(const aur_onward *onward, const aur_surface *surface, onward_walk *walk) {
+    const aur_scene *const scene = onward->scene;
+    const aur_vector direction = walk->ray.direction;
+    if (walk->specular && onward->caustics != NULL)
+        return;
+    float rival = 0.0f;
+    const aur_vector emission = surface != NULL
+                                    ? aur_surface_emission(scene, surface, aur_vector_scale(direction, -1.0f))
+                                    : aur_environment_light(scene, direction, &rival);
+    if (aur_vector_is_zero(emission))
+        return;
+    float weight = 1.0f;
+    if (!walk->specular) {
+        if (surface != NULL)
+            rival = aur_light_pdf_direct(scene, &walk->from, surface);
+        weight = aur_power_heuristic(walk->pdf, rival);
+    }
+    walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, emission));
+}
+
+/* Roulette. Where the map answers for all that the surface scatters, what a path that ends would still have
+ * brought is taken from it, and from one that goes on it is taken away again. */
+static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_shading *shading,
+                     aur_vector view, onward_walk *walk) {
+    const float go_on = onward->share > 0.0f ? 0.5f : 0.0f;
+    const unsigned kinds = aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
+    aur_texel_view texel = {0};
+    bool known = (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0;
+    if (known) {
+        texel = aur_irradiance_view(onward->map, onward->scene, hit, shading->surface, view);
+        known = !aur_onward_is_near(onward, hit->distance, texel.area);
+    }
+    const float survival = known ? go_on : aur_path_survival(walk->throughput);
+    aur_vector estimate = {0};
+    if (known)
+        estimate = aur_vector_multiply(walk->throughput, texel.radiance);
+    walk->sum = aur_vector_add(walk->sum, estimate);
+    if (onward->caustics != NULL) {
+        const aur_texel_view caustic =
+            aur_irradiance_view(onward->caustics, onward->scene, hit, shading->surface, view);
+        walk->sum = aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, caustic.radiance));
+    }
+    if (known && !walk->known) {
+        walk->known = true;
+        walk->known_sum = walk->sum;
+    }
+    if (!(aur_draw_unit(&walk->hash) < survival))
+        return false;
+    walk->throughput = aur_vector_scale(walk->throughput, 1.0f / survival);
+    walk->sum = aur_vector_add_scaled(walk->sum, -1.0f / survival, estimate);
+    return true;
+}
+
+/* --- sixteen paths, bounce by bounce */
+
+typedef struct onward_walks {
+    const aur_onward *onward;
+    uint32_t alive;
+    bool first; /* the surface is the one that the path began at: the lobes that the map answers for */
+    onward_walk walk[AUR_PACKET_SIZE];
+    aur_surface met[AUR_PACKET_SIZE];
+    aur_vector view[AUR_PACKET_SIZE];
+    uint32_t edges[AUR_PACKET_SIZE];
+    aur_packet packet;
+} onward_walks;
+
+/* Few rays are traced one by one: they would leave a packet nearly empty. */
+static bool is_packet(const aur_onward *onward, uint32_t lanes) {
+    return onward->packets && aur_lane_count(lanes) >= AUR_PACKET_SIZE / 4;
+}
+
+/* A point on a light for each path. */
+static void draw_lights(onward_walks *walks, aur_light_lanes *lights) {
+    aur_lane_vectors positions = {0}, normals = {0};
+    aur_lane_numbers choice = {0}, u = {0}, v = {0};
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_light_reference reference = aur_shading_reference(&shading);
+        float units[3];
+        aur_draw_units(&walks->walk[k].hash, units);
+        aur_lane_set(&positions, k, reference.position);
+        aur_lane_set(&normals, k, reference.normal);
+        choice[k] = units[0];
+        u[k] = units[1];
+        v[k] = units[2];
+    }
+    const aur_light_references references = {&positions, &normals};
+    aur_light_lanes_each(walks->onward->scene, walks->alive, &references, choice, u, v, lights);
+}
+
+static void add_direct_light(onward_walks *walks) {
+    const aur_scene *const scene = walks->onward->scene;
+    aur_vector radiance[AUR_PACKET_SIZE];
+    aur_light_lanes lights;
+    uint32_t lit = 0;
+    if (aur_scene_emitter_count(scene) == 0)
+        return;
+    draw_lights(walks, &lights);
+    aur_packet_empty(&walks->packet);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_light_sample light = aur_light_lane(&lights, k);
+        aur_shadow shadow;
+        if (!reach_light(&shading, walks->first, &light, &shadow))
+            continue;
+        radiance[k] = shadow.radiance;
+        aur_packet_set(&walks->packet, k, &shadow.ray);
+        lit |= 1u << k;
+    }
+    if (lit == 0)
+        return;
+    lit &=
+        ~(is_packet(walks->onward, lit) ? aur_scene_occluded16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
+                                        : aur_scene_occluded_each(scene, &walks->packet));
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
+        onward_walk *const walk = &walks->walk[aur_first_lane(rest)];
+        walk->sum =
+            aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, radiance[aur_first_lane(rest)]));
+    }
+}
+
+/* The rays that go on; returns those that meet something. */
+static uint32_t trace(onward_walks *walks) {
+    const aur_scene *const scene = walks->onward->scene;
+    aur_packet_empty(&walks->packet);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        if (scatter(&shading, walks->first, &walks->walk[k]))
+            aur_packet_set(&walks->packet, k, &walks->walk[k].ray);
+        else
+            walks->alive &= ~(1u << k);
+    }
+    if (walks->alive == 0)
+        return 0;
+    return is_packet(walks->onward, walks->alive)
+               ? aur_scene_intersect16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
+               : aur_scene_intersect_each(scene, &walks->packet);
+}
+
+/* The surface that a path meets; false where the path ends there. */
+static bool meet(onward_walks *walks, size_t k) {
+    const aur_onward *const onward = walks->onward;
+    onward_walk *const walk = &walks->walk[k];
+    const aur_hit hit = aur_packet_hit(onward->scene, &walks->packet, k);
+    aur_scene_surface(onward->scene, &walk->ray, &hit, &walks->met[k]);
+    add_emission(onward, &walks->met[k], walk);
+    walks->view[k] = aur_vector_scale(walk->ray.direction, -1.0f);
+    const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+    return ++walks->edges[k] < onward->max_depth && survives(onward, &hit, &shading, walks->view[k], walk);
+}
+
+static void bounce(onward_walks *walks) {
+    const aur_onward *const onward = walks->onward;
+    add_direct_light(walks);
+    const uint32_t found = trace(walks);
+    aur_packet_prefetch_indices(onward->scene, &walks->packet, found);
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(onward->scene, &walks->packet, aur_first_lane(rest));
+        __builtin_prefetch(&onward->map->texels.ranges[aur_element_of(&onward->map->texels.elements, &hit)]);
+    }
+    aur_packet_prefetch_vertices(onward->scene, &walks->packet, found);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        if (!aur_has_lane(found, k))
+            add_emission(onward, NULL, &walks->walk[k]);
+        if (!aur_has_lane(found, k) || !meet(walks, k))
+            walks->alive &= ~(1u << k);
+    }
+}
+
+static aur_vector corrected(const aur_onward *onward, const aur_onward_start *start,
+                            const onward_walk *walk) {
+    if (start->near && onward->lone)
+        return walk->known ? aur_vector_subtract(walk->sum, walk->known_sum) : (aur_vector){0};
+    if (start->near)
+        return walk->sum;
+    return aur_vector_add_scaled(aur_onward_kept(onward, start->known), 1.0f / onward->share,
+                                 aur_vector_subtract(walk->sum, start->known));
+}
+
+void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward_start *starts,
+                        aur_vector *radiance) {
+    onward_walks walks;
+    walks.onward = onward;
+    walks.alive = 0;
+    aur_packet_clear(&walks.packet);
+    for (size_t k = 0; k < count; ++k) {
+        walks.walk[k] = (onward_walk){.throughput = {1.0f, 1.0f, 1.0f}, .hash = aur_mix64(~starts[k].hash)};
+        walks.met[k] = starts[k].surface;
+        walks.view[k] = starts[k].view;
+        walks.edges[k] = starts[k].edges;
+        if (starts[k].edges < onward->max_depth)
+            walks.alive |= 1u << k;
+    }
+    for (walks.first = true; walks.alive != 0; walks.first = false)
+        bounce(&walks);
+    for (size_t k = 0; k < count; ++k)
+        radiance[k] = corrected(onward, &starts[k], &walks.walk[k]);
+}

@@ -1,0 +1,273 @@
+/* Path tracing in media: distances and directions are drawn, points on lights are drawn where light scatters,
+ * and both ways to find a light, and what the three channels would have drawn, are weighed by the balance
+ * heuristic (Miller, Georgiev and Jarosz 2019). */
+#include "render/path/volume_path.h"
+
+#include "points/base/random.h"
+#include "render/path/path.h"
+#include "render/path/volume_shadow.h"
+#include "render/scene/materials/sampling.h"
+#include "render/vertex/direct_light.h"
+
+/* A path on its way. */
+typedef struct volume_walk {
+    aur_medium_walk state;
+    aur_vector sum;
+    aur_ray ray;
+    const aur_medium *medium; /* that the ray is in; NULL: none */
+    aur_light_reference from; /* where light was scattered last */
+    bool specular;            /* no light sample could have found what the ray meets */
+    float ior_squared;        /* product of those of the boundaries: what radiance has become larger by */
+    uint32_t depth;           /* of the edge that the ray belongs to */
+    size_t passed;            /* surfaces that let the path straight through */
+    const float (*pairs)[2];  /* the numbers of this depth */
+    bool fresh;               /* the number of its first distance has not been taken */
+} volume_walk;
+
+static float mean(aur_vector color) {
+    return (color.x + color.y + color.z) / 3.0f;
+}
+
+/* Makes what all channels would have drawn 1 in the mean: numbers stay small, and the throughput is what
+ * counts. False where no channel could have. */
+static bool normalise(aur_medium_walk *state) {
+    const float size = mean(state->path);
+    if (!(size > 0.0f) || !isfinite(size))
+        return false;
+    if (size == 1.0f)
+        return true;
+    state->throughput = aur_vector_scale(state->throughput, 1.0f / size);
+    state->light = aur_vector_scale(state->light, 1.0f / size);
+    state->path = aur_vector_scale(state->path, 1.0f / size);
+    return true;
+}
+
+/* Adds light that the ray has found; `rival` is the density with which a light sample finds it. */
+static void add_light(volume_walk *walk, aur_vector radiance, float rival) {
+    if (aur_vector_is_zero(radiance))
+        return;
+    const aur_medium_walk *const state = &walk->state;
+    const float density =
+        walk->specular ? mean(state->path) : mean(aur_vector_add_scaled(state->path, rival, state->light));
+    if (density > 0.0f)
+        walk->sum = aur_vector_add_scaled(walk->sum, 1.0f / density,
+                                          aur_vector_multiply(state->throughput, radiance));
+}
+
+static void add_sky(const aur_scene *scene, volume_walk *walk) {
+    float rival;
+    const aur_vector sky = aur_environment_light(scene, walk->ray.direction, &rival);
+    add_light(walk, sky, walk->specular ? 0.0f : rival);
+}
+
+static void add_emission(const aur_scene *scene, const aur_surface *surface, volume_walk *walk) {
+    if (surface->emitter == AUR_NO_EMITTER)
+        return;
+    const aur_vector view = aur_vector_scale(walk->ray.direction, -1.0f);
+    const float rival = walk->specular ? 0.0f : aur_light_pdf_direct(scene, &walk->from, surface);
+    add_light(walk, aur_surface_emission(scene, surface, view), rival);
+}
+
+/* A point on a light that is seen from `from` by a ray in `medium`, where `scattered` of its light is
+ * scattered along the path, a direction that the path would draw with `pdf`. */
+static void add_drawn_light(const aur_volume_path *data, const aur_scene *scene, const volume_walk *walk,
+                            const aur_light_sample *light, const aur_ray *ray, const aur_medium *medium,
+                            aur_vector scattered, float pdf, aur_vector *sum, aur_counters *counters) {
+    aur_medium_walk state = walk->state;
+    state.hash = aur_mix64(state.hash ^ UINT64_C(0x736861646f77)); /* the path's own numbers stay its own */
+    state.light = state.path;
+    state.throughput = aur_vector_multiply(state.throughput, aur_vector_multiply(scattered, light->radiance));
+    if (aur_vector_is_zero(state.throughput) ||
+        !aur_volume_shadow(scene, data->passes, aur_light_reach(scene, light, ray->origin), ray, medium,
+                           &state, counters))
+        return;
+    const aur_vector drawn = aur_vector_scale(state.light, light->pdf);
+    const float density = mean(light->delta ? drawn : aur_vector_add_scaled(drawn, pdf, state.path));
+    *sum = aur_vector_add_scaled(*sum, 1.0f / density, state.throughput);
+}
+
+static bool draw_light(const aur_scene *scene, const aur_light_reference *from, const float (*pairs)[2],
+                       aur_light_sample *light) {
+    const float u[3] = {pairs[AUR_PATH_CHOICE][0], pairs[AUR_PATH_POSITION][0], pairs[AUR_PATH_POSITION][1]};
+    return aur_scene_emitter_count(scene) > 0 && aur_light_sample_direct(scene, from, u, light) &&
+           light->pdf > 0.0f;
+}
+
+/* Roulette. What a path has gained in radiance by going into glass it loses when it comes out: that is no
+ * reason to keep it. */
+static bool survives(const aur_volume_path *data, volume_walk *walk) {
+    if (!normalise(&walk->state) || aur_vector_is_zero(walk->state.throughput))
+        return false;
+    if (walk->depth < data->rr_depth)
+        return true;
+    const float survival = aur_path_survival(aur_vector_scale(walk->state.throughput, walk->ior_squared));
+    if (!(walk->pairs[AUR_PATH_CHOICE][1] < survival))
+        return false;
+    walk->state.throughput = aur_vector_scale(walk->state.throughput, 1.0f / survival);
+    return true;
+}
+
+/* In a medium: adds light from a point on a light, and goes on in a drawn direction. */
+static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scene, float way,
+                              volume_walk *walk, aur_counters *counters) {
+    if (!normalise(&walk->state))
+        return false;
+    const aur_medium *const medium = walk->medium;
+    const aur_vector before = walk->ray.direction;
+    const aur_vector from = aur_vector_add_scaled(walk->ray.origin, way, before);
+    const aur_light_reference reference = {.position = from};
+    aur_light_sample light;
+    if (medium->samples_emitters && draw_light(scene, &reference, walk->pairs, &light)) {
+        const float value = aur_phase_evaluate(medium->phase, from, aur_vector_dot(before, light.direction));
+        const aur_ray ray = {from, 0.0f, light.direction, light.distance * (1.0f - 1e-4f)};
+        add_drawn_light(data, scene, walk, &light, &ray, medium, (aur_vector){value, value, value}, value,
+                        &walk->sum, counters);
+    }
+    const float *const u = walk->pairs[AUR_PATH_DIRECTION];
+    const float cosine = aur_phase_draw(medium->phase, from, u[0]);
+    const float pdf = aur_phase_evaluate(medium->phase, from, cosine);
+    if (!(pdf > 0.0f))
+        return false;
+    const aur_frame frame = aur_frame_about(before);
+    const aur_vector direction =
+        aur_vector_normalize(aur_frame_to_world(&frame, aur_direction_at(cosine, u[1])));
+    walk->state.light = aur_vector_scale(walk->state.path, 1.0f / pdf);
+    walk->specular = !medium->samples_emitters;
+    walk->from = reference;
+    walk->ray = (aur_ray){from, 0.0f, direction, INFINITY};
+    return survives(data, walk);
+}
+
+/* Goes on straight behind a surface. */
+static void pass_surface(const aur_scene *scene, const aur_surface *surface, volume_walk *walk) {
+    aur_surface_medium(scene, surface, walk->ray.direction, &walk->medium);
+    walk->ray = aur_surface_ray(surface, walk->ray.direction);
+    ++walk->passed;
+}
+
+/* At a surface; *edge becomes whether the path has a new edge, and not gone straight through. */
+static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *scene,
+                               const aur_surface *surface, volume_walk *walk, bool *edge,
+                               aur_counters *counters) {
+    if (!normalise(&walk->state))
+        return false;
+    const aur_vector before = walk->ray.direction;
+    const aur_shading shading = aur_shading_at(surface, aur_vector_scale(before, -1.0f));
+    const bool last = walk->depth >= data->max_depth;
+    const aur_light_reference reference = aur_shading_reference(&shading);
+    aur_light_sample light;
+    if (!last && draw_light(scene, &reference, walk->pairs, &light)) {
+        float pdf, distance;
+        const aur_vector scattered = aur_shading_evaluate(&shading, light.direction, &pdf);
+        const aur_ray ray = aur_surface_ray_to(surface, light.position, &distance);
+        const aur_medium *medium = walk->medium;
+        aur_surface_medium(scene, surface, light.direction, &medium);
+        add_drawn_light(data, scene, walk, &light, &ray, medium, scattered, pdf, &walk->sum, counters);
+    }
+    const float *const u = walk->pairs[AUR_PATH_DIRECTION];
+    /* One that is passed takes no number of the edge. */
+    const float choice =
+        surface->bsdf->passes ? aur_draw_unit(&walk->state.hash) : walk->pairs[AUR_PATH_LOBE][0];
+    aur_bsdf_sample drawn;
+    if (!aur_shading_sample(&shading, (const float[3]){choice, u[0], u[1]}, &drawn))
+        return false;
+    const bool straight =
+        drawn.specular && surface->bsdf->passes && aur_vector_dot(drawn.light, before) > 1.0f - 1e-6f;
+    *edge = !straight;
+    walk->state.throughput = aur_vector_multiply(walk->state.throughput, drawn.weight);
+    if (straight) {
+        pass_surface(scene, surface, walk);
+        return !aur_vector_is_zero(walk->state.throughput);
+    }
+    if (last)
+        return false;
+    if (!drawn.specular)
+        walk->state.light = aur_vector_scale(walk->state.path, 1.0f / drawn.pdf);
+    walk->specular = drawn.specular;
+    if (drawn.ior_squared > 0.0f)
+        walk->ior_squared *= drawn.ior_squared;
+    walk->from = reference;
+    aur_surface_medium(scene, surface, drawn.light, &walk->medium);
+    walk->ray = aur_surface_ray(surface, drawn.light);
+    return survives(data, walk);
+}
+
+/* Goes to the next surface or scattering; false where the path ends. */
+static bool step(const aur_volume_path *data, const aur_scene *scene, volume_walk *walk, bool *edge,
+                 aur_counters *counters) {
+    aur_hit hit;
+    const bool met = aur_scene_intersect(scene, &walk->ray, &hit);
+    if (walk->medium != NULL) {
+        const float u = walk->fresh ? walk->pairs[AUR_PATH_LOBE][1] : aur_draw_unit(&walk->state.hash);
+        float way;
+        walk->fresh = false;
+        if (walk->medium->descriptor->travel(
+                walk->medium, &walk->ray, met ? hit.distance : walk->ray.farthest, u, &walk->state, &way)) {
+            *edge = true;
+            return walk->depth < data->max_depth && scatter_in_medium(data, scene, way, walk, counters);
+        }
+        counters->cut += walk->state.cut;
+        counters->stopped |= walk->state.stopped;
+        if (walk->state.cut || walk->state.stopped)
+            return false;
+    }
+    const bool hides = data->hide_emitters && walk->depth == 1;
+    if (!met) {
+        if (!hides)
+            add_sky(scene, walk);
+        return false;
+    }
+    aur_surface surface;
+    aur_scene_surface(scene, &walk->ray, &hit, &surface);
+    *edge = false;
+    if (hides && surface.emitter != AUR_NO_EMITTER) {
+        pass_surface(scene, &surface, walk);
+        return true;
+    }
+    add_emission(scene, &surface, walk);
+    if (walk->depth >= data->max_depth && !surface.bsdf->passes)
+        return false;
+    return scatter_at_surface(data, scene, &surface, walk, edge, counters);
+}
+
+aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene *scene,
+                                    const aur_camera_sample *sample, aur_counters *counters) {
+    static const aur_vector one = {1.0f, 1.0f, 1.0f};
+    const uint64_t pixel = aur_hash2(sample->stream.pixel, UINT64_C(0x6d65646961));
+    volume_walk walk = {
+        .state = {.throughput = one,
+                  .path = one,
+                  .light = one,
+                  .channel = (size_t)((pixel + sample->stream.index) % 3), /* a third of the samples each */
+                  .hash = aur_hash2(pixel, sample->stream.index)},
+        .ray = sample->ray,
+        .medium = aur_scene_camera_medium(scene),
+        .specular = true, /* light sampling cannot hit the camera either */
+        .ior_squared = 1.0f,
+        .depth = 1,
+        .pairs = &sample->first_pairs[AUR_PAIR_FIRST],
+        .fresh = true,
+    };
+    /* Media begin where the camera begins to see, as in Mitsuba 3. */
+    walk.ray.origin = aur_vector_add_scaled(walk.ray.origin, walk.ray.nearest, walk.ray.direction);
+    walk.ray.farthest -= walk.ray.nearest;
+    walk.ray.nearest = 0.0f;
+    float ahead[AUR_STREAM_BLOCK][2];
+    bool edge;
+    while (step(data, scene, &walk, &edge, counters)) {
+        if (walk.passed > AUR_MOST_PASSED) {
+            ++counters->cut;
+            break;
+        }
+        if (!edge)
+            continue;
+        ++walk.depth;
+        if (aur_path_stops(walk.depth, &counters->stopped))
+            break;
+        if (walk.depth % 2 == 0)
+            aur_stream_pairs(&sample->stream, aur_path_pair(walk.depth), AUR_STREAM_BLOCK, ahead);
+        walk.pairs = (const float(*)[2]) & ahead[walk.depth % 2 * AUR_PATH_PAIRS];
+        walk.fresh = true;
+    }
+    return walk.sum;
+}

@@ -1,0 +1,52 @@
+/* Texels that reflect far more light than most, drawn as if they were lights: where a small part of the
+ * surfaces has much of the indirect light (a window's reveal, a lit page), directions about the normal find
+ * it by chance only. Gather rays that meet such texels are weighed against these draws (Veach 1997, multiple
+ * importance sampling), so nothing is counted twice. */
+#pragma once
+
+#include "render/photons/irradiance.h"
+#include "render/scene/distribution.h"
+#include "render/trace/shape_class.h"
+
+/* A texel's part of one triangle, on one side. */
+typedef struct aur_bright_patch {
+    uint32_t element;
+    uint32_t shape;
+    uint32_t primitive;
+    uint16_t row, column; /* of the triangle's texels */
+    bool upper, behind;
+} aur_bright_patch;
+
+typedef struct aur_bright_texels {
+    aur_distribution distribution; /* of patches; its total is 0 where no texel is bright */
+    aur_bright_patch *patches;
+    float threshold; /* radiance under which a texel is none of them */
+    float scale;     /* density = scale * (radiance - threshold), a square unit */
+} aur_bright_texels;
+
+/* A point on a bright texel. */
+typedef struct aur_bright_point {
+    uint32_t element, shape, primitive;
+    float u, v; /* barycentric */
+    bool behind;
+    aur_vector position;
+    aur_vector normal; /* of the side that shines */
+} aur_bright_point;
+
+/* Only texels of shapes whose class is plain count. Errors: MEMORY. */
+aur_result aur_bright_texels_create(const aur_scene *scene, const aur_irradiance_map *map,
+                                    const aur_shape_class *classes, aur_bright_texels *bright,
+                                    aur_error *error);
+void aur_bright_texels_release(aur_bright_texels *bright);
+
+/* Numbers in [0,1). Only where the distribution's total is not 0. */
+aur_bright_point aur_bright_texels_sample(const aur_bright_texels *bright, const aur_scene *scene,
+                                          const aur_irradiance_map *map, double choice,
+                                          const float position[2]);
+
+/* The density, a square unit, with which points of a texel are drawn that reflects `radiance` by the map's
+ * irradiance. */
+static inline float aur_bright_texels_density(const aur_bright_texels *bright, aur_vector radiance) {
+    const float excess = aur_vector_max(radiance) - bright->threshold;
+    return excess > 0.0f ? bright->scale * excess : 0.0f;
+}

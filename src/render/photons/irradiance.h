@@ -1,0 +1,58 @@
+/* Irradiance on texels, from photons: what a gather ray meets has its radiance by one array read, and no
+ * density estimate is made while a picture is rendered (after Christensen 1999). */
+#pragma once
+
+#include "render/photons/photon_map.h"
+#include "render/photons/texels.h"
+
+/* A photon as glossy surfaces want it. */
+typedef struct aur_incident_photon {
+    aur_vector direction; /* unit, towards where it came from */
+    aur_vector power;
+} aur_incident_photon;
+
+typedef struct aur_texel_light {
+    _Alignas(16) aur_vector irradiance; /* watts a square unit, RGB */
+    float area;                         /* of the texel, square units */
+} aur_texel_light;
+
+typedef struct aur_irradiance_map {
+    aur_texels texels;
+    aur_texel_light *lights; /* two a texel: on the side of the shape's normal, and behind */
+    /* Photons of the texels on glossy surfaces, one texel's after another's: those of light i begin at
+     * member_first[i]. NULL where no surface is glossy. */
+    uint32_t *member_first;
+    aur_incident_photon *members;
+    size_t photons; /* stored, of which the map was made */
+    uint64_t paths; /* particles that left the lights */
+    uint64_t rays;  /* that the map took, also where it comes from a file */
+    uint64_t cut;   /* particles whose path was cut (photon_map.h) */
+} aur_irradiance_map;
+
+typedef struct aur_irradiance_map_options {
+    aur_photon_options photons;
+    double photons_a_texel; /* on average, at least 1 */
+} aur_irradiance_map_options;
+
+AUR_EXPERIMENTAL aur_result aur_irradiance_map_create(const aur_scene *scene,
+                                                      const aur_irradiance_map_options *options,
+                                                      aur_irradiance_map **map, aur_error *error);
+AUR_EXPERIMENTAL void aur_irradiance_map_destroy(aur_irradiance_map *map);
+
+/* The light on a triangle at a hit's barycentric u, v. */
+static inline const aur_texel_light *
+aur_irradiance_on_triangle(const aur_irradiance_map *map, uint32_t element, float u, float v, bool behind) {
+    const uint32_t texel = aur_texel_of_triangle(map->texels.ranges[element], u, v);
+    return &map->lights[2 * (size_t)texel + (behind ? 1 : 0)];
+}
+
+/* What is known of the surface of a hit. */
+typedef struct aur_texel_view {
+    aur_vector radiance; /* that leaves it */
+    float area; /* of the texel, square units; 0 on the back of a surface that scatters nothing there */
+} aur_texel_view;
+
+/* Radiance that leaves the surface of a hit towards `view` (world, unit): its irradiance times albedo / pi,
+ * and the cos^m lobes over the texel's photons. Emission and other lobes are no part of it. */
+aur_texel_view aur_irradiance_view(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
+                                   const aur_surface *surface, aur_vector view);

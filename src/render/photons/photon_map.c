@@ -1,0 +1,270 @@
+#include "render/photons/photon_map.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/bytes.h"
+#include "points/base/memory.h"
+#include "points/base/parallel.h"
+#include "render/sampling/stream.h"
+#include "render/vertex/shading.h"
+
+enum {
+    CHUNKS_A_BATCH = 16,
+    PATHS_A_BATCH = 16 * 1024,
+    LONGEST_PATH =
+        512, /* edges; longer paths, which only scenes without absorption have, are cut and counted */
+    PATHS_A_PHOTON_LIMIT = 64 /* give up when so many paths leave less than one photon each */
+};
+
+typedef struct photon_chunk {
+    size_t count, capacity;
+    aur_photon *photons;
+    uint64_t cut;
+} photon_chunk;
+
+typedef struct batch {
+    const aur_scene *scene;
+    const aur_elements *elements;
+    const aur_photon_options *options;
+    const aur_sampler *sampler;
+    uint64_t paths_a_set; /* beyond them the set begins anew with another randomisation */
+    uint64_t first_path;
+    uint64_t paths_a_chunk;
+    photon_chunk chunks[CHUNKS_A_BATCH];
+} batch;
+
+static bool store(photon_chunk *chunk, aur_photon photon) {
+    if (chunk->count == chunk->capacity &&
+        !aur_array_reserve(&chunk->photons, &chunk->capacity, chunk->count + 1, sizeof *chunk->photons))
+        return false;
+    chunk->photons[chunk->count++] = photon;
+    return true;
+}
+
+/* Particles are scattered by the adjoint BSDF: light that arrives from `in` and leaves to `out`, where the
+ * sampling routine thinks of `in` as the view. They differ for BSDFs that are not reciprocal. */
+static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_sample *sample,
+                                 aur_vector in_world) {
+    if (sample->specular)
+        return sample->ior_squared > 0.0f ? aur_vector_scale(sample->weight, sample->ior_squared)
+                                          : sample->weight;
+    const aur_shading reversed = aur_shading_at(shading->surface, sample->light);
+    const float cos_in = fmaxf(fabsf(shading->view.z), 0.01f);
+    const float cos_out = fabsf(reversed.view.z);
+    float pdf;
+    return aur_vector_scale(aur_shading_evaluate(&reversed, in_world, &pdf),
+                            cos_out / (cos_in * sample->pdf));
+}
+
+enum { PAIR_LIGHT = 0, PAIR_POSITION = 1, PAIR_DIRECTION = 2, PAIR_BOUNCE = 3, PAIRS_A_BOUNCE = 2 };
+
+static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
+    const aur_stream stream = {work->sampler,
+                               aur_hash3(work->options->seed, 0x70686f746f6e, path / work->paths_a_set),
+                               (uint32_t)(path % work->paths_a_set)};
+    float light[2], position[2], direction[2];
+    aur_stream_pair(&stream, PAIR_LIGHT, light);
+    aur_stream_pair(&stream, PAIR_POSITION, position);
+    aur_stream_pair(&stream, PAIR_DIRECTION, direction);
+    aur_ray ray;
+    aur_vector power;
+    if (!aur_light_emit(work->scene,
+                        (const float[5]){light[0], position[0], position[1], direction[0], direction[1]},
+                        &ray, &power))
+        return true;
+    const bool unlimited = work->options->max_edges > LONGEST_PATH;
+    const size_t limit = unlimited ? LONGEST_PATH : work->options->max_edges;
+    const aur_photon_kind kind = work->options->kind;
+    bool specular_so_far = true;
+    for (size_t edge = 1; edge <= limit && (specular_so_far || kind != AUR_PHOTONS_CAUSTIC); ++edge) {
+        aur_hit hit;
+        if (!aur_scene_intersect(work->scene, &ray, &hit))
+            return true;
+        aur_surface surface;
+        aur_scene_surface(work->scene, &ray, &hit, &surface);
+        const aur_vector in = aur_vector_scale(ray.direction, -1.0f);
+        const aur_shading shading = aur_shading_at(&surface, in);
+        const float side = aur_vector_dot(surface.geometric_normal, in);
+        /* Gather rays go on by the other lobes, and ask for no photons. */
+        const unsigned parts = aur_bsdf_scatters(surface.bsdf, shading.view.z) &
+                               (unsigned)(AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY);
+        const bool is_caustic = specular_so_far && edge > 1;
+        if (parts != 0 && (kind == AUR_PHOTONS_ALL || is_caustic == (kind == AUR_PHOTONS_CAUSTIC))) {
+            aur_photon photon = {.position = surface.position,
+                                 .normal =
+                                     aur_vector_scale(surface.geometric_normal, side < 0 ? -1.0f : 1.0f),
+                                 .direction = in,
+                                 .power = power,
+                                 .element = aur_element_of(work->elements, &hit),
+                                 .behind = side < 0.0f,
+                                 .glossy = (parts & AUR_SCATTERS_GLOSSY) != 0};
+            aur_element_coordinates(work->scene, &hit, &surface, photon.coordinates);
+            if (aur_vector_is_finite(power) && !store(chunk, photon))
+                return false;
+        }
+        const uint32_t pair = PAIR_BOUNCE + PAIRS_A_BOUNCE * (uint32_t)(edge - 1);
+        float lobe[2], towards[2];
+        aur_stream_pair(&stream, pair, lobe);
+        aur_stream_pair(&stream, pair + 1, towards);
+        aur_bsdf_sample sample;
+        if (!aur_shading_sample(&shading, (const float[3]){lobe[0], towards[0], towards[1]}, &sample))
+            return true;
+        specular_so_far = specular_so_far && sample.specular;
+        const aur_vector weight = adjoint_weight(&shading, &sample, in);
+        const float survival =
+            fminf(1.0f, aur_vector_max(aur_vector_multiply(power, weight)) / aur_vector_max(power));
+        if (!(lobe[1] < survival))
+            return true;
+        power = aur_vector_scale(aur_vector_multiply(power, weight), 1.0f / survival);
+        ray = aur_surface_ray(&surface, sample.light);
+        if (unlimited && edge == limit)
+            ++chunk->cut;
+    }
+    return true;
+}
+
+static aur_result trace_chunk(void *context, size_t index) {
+    batch *const work = context;
+    photon_chunk *const chunk = &work->chunks[index];
+    chunk->count = 0;
+    chunk->cut = 0;
+    for (uint64_t i = 0; i < work->paths_a_chunk; ++i)
+        if (!trace_path(work, work->first_path + index * work->paths_a_chunk + i, chunk))
+            return AUR_ERROR_MEMORY;
+    return AUR_OK;
+}
+
+static bool pack_chunk(void *context, size_t index, aur_bytes *bytes) {
+    const batch *const work = context;
+    const photon_chunk *const chunk = &work->chunks[index];
+    const uint64_t counted[] = {chunk->count, chunk->cut};
+    aur_bytes_put(bytes, sizeof counted, counted);
+    aur_bytes_put(bytes, chunk->count * sizeof *chunk->photons, chunk->photons);
+    return true;
+}
+
+static aur_result unpack_chunk(void *context, size_t index, aur_bytes_reader *bytes) {
+    batch *const work = context;
+    photon_chunk *const chunk = &work->chunks[index];
+    uint64_t counted[2];
+    aur_bytes_get(bytes, sizeof counted, counted);
+    chunk->count = (size_t)counted[0];
+    chunk->cut = counted[1];
+    if (!aur_array_reserve(&chunk->photons, &chunk->capacity, chunk->count, sizeof *chunk->photons))
+        return AUR_ERROR_MEMORY;
+    aur_bytes_get(bytes, chunk->count * sizeof *chunk->photons, chunk->photons);
+    return bytes->failed ? AUR_ERROR_INTERNAL : AUR_OK;
+}
+
+static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *capacity) {
+    size_t added = 0;
+    for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
+        added += work->chunks[i].count;
+    if (!aur_array_reserve(&map->photons, capacity, map->count + added, sizeof *map->photons))
+        return AUR_ERROR_MEMORY;
+    for (size_t i = 0; i < CHUNKS_A_BATCH; ++i) {
+        const photon_chunk *const chunk = &work->chunks[i];
+        if (chunk->count > 0)
+            memcpy(map->photons + map->count, chunk->photons, chunk->count * sizeof *chunk->photons);
+        map->count += chunk->count;
+        map->cut += chunk->cut;
+    }
+    return AUR_OK;
+}
+
+/* Paths between two looks at the number of photons: few when few photons are wanted, and a power of two, as
+ * nets like it. */
+static uint64_t paths_a_chunk(size_t photons) {
+    uint64_t paths = PATHS_A_BATCH / CHUNKS_A_BATCH;
+    while (paths > 16 && paths * CHUNKS_A_BATCH > photons / 2)
+        paths /= 2;
+    return paths;
+}
+
+void aur_photon_map_warn(uint64_t cut, uint64_t paths, const aur_warnings *warnings) {
+    if (cut > 0)
+        aur_warn_at(
+            warnings, (aur_location){0},
+            "photon map: %llu of %llu particles were cut after %d edges: surfaces absorb (nearly) nothing, "
+            "and what those particles would still bring is missing",
+            (unsigned long long)cut, (unsigned long long)paths, LONGEST_PATH);
+}
+
+static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error *error) {
+    const aur_photon_options *const options = work->options;
+    const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_BATCH;
+    const aur_parallel_share share = {.pack = pack_chunk, .unpack = unpack_chunk};
+    const aur_parallel_options parallel = {
+        .threads = options->threads, .what = "photon map", .flush_denormals = true, .share = &share};
+    const uint64_t before = aur_rays_traced;
+    size_t capacity = 0;
+    while (map->count < options->count) {
+        if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)
+            break;
+        if (map->paths >= most)
+            return aur_fail(
+                error, AUR_ERROR_UNSUPPORTED,
+                "photon map: %zu photons stored after %llu particles: the lights do not reach the surfaces",
+                map->count, (unsigned long long)map->paths);
+        work->first_path = map->paths;
+        aur_result result = aur_parallel_for(&parallel, CHUNKS_A_BATCH, trace_chunk, work, error);
+        if (result != AUR_OK)
+            return result;
+        if (append_batch(map, work, &capacity) != AUR_OK)
+            return aur_fail_memory(error);
+        map->paths += work->paths_a_chunk * CHUNKS_A_BATCH;
+        const uint64_t done = map->count < options->count ? map->count : options->count;
+        if (aur_progress_stops(&options->progress, "photons", done, options->count))
+            return aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
+    }
+    map->rays = aur_rays_traced - before;
+    aur_photon_map_warn(map->cut, map->paths, &options->warnings);
+    for (size_t i = 0; i < map->count; ++i)
+        map->photons[i].power = aur_vector_scale(map->photons[i].power, 1.0f / (float)map->paths);
+    return AUR_OK;
+}
+
+/* Room for growth by halves, and for the texels' lists. */
+static aur_result check_memory(const aur_photon_options *options, aur_error *error) {
+    const double gibibyte = 1024.0 * 1024.0 * 1024.0;
+    const double needed = 2.0 * (double)options->count * sizeof(aur_photon), memory = aur_machine_memory();
+    if (needed <= memory)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_MEMORY,
+                    "photon map: %zu photons take up to %.1f GiB; this machine has %.1f, enough for %.0f",
+                    options->count, needed / gibibyte, memory / gibibyte,
+                    floor(memory / (2.0 * sizeof(aur_photon))));
+}
+
+aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
+                                 const aur_photon_options *options, aur_photon_map *map, aur_error *error) {
+    *map = (aur_photon_map){0};
+    if (aur_scene_emitter_count(scene) == 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "photon map: the scene has no light");
+    aur_sampler *own = NULL;
+    aur_result result = check_memory(options, error);
+    if (result == AUR_OK && options->sampler == NULL)
+        result = aur_sampler_create("sobol", 1, NULL, &own, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_sampler *const sampler = own != NULL ? own : options->sampler;
+    batch work = {.scene = scene,
+                  .elements = elements,
+                  .options = options,
+                  .sampler = sampler,
+                  .paths_a_chunk = paths_a_chunk(options->count),
+                  .paths_a_set = sampler->size > 0 ? sampler->size : (uint64_t)1 << 32};
+    result = trace_until_enough(map, &work, error);
+    for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
+        free(work.chunks[i].photons);
+    aur_sampler_destroy(own);
+    if (result != AUR_OK)
+        aur_photon_map_release(map);
+    return result;
+}
+
+void aur_photon_map_release(aur_photon_map *map) {
+    free(map->photons);
+    *map = (aur_photon_map){0};
+}

@@ -1,0 +1,49 @@
+/* A radiosity solution: the scene as its walk sees it, and the sums of all paths so far, apart for each
+ * randomisation. It is not changed by pictures and files; one call at a time may trace it further. */
+#pragma once
+
+#include "render/radiosity/walk.h"
+
+struct aur_radiosity {
+    aur_radiosity_scene scene;
+    aur_radiosity_walk walk;
+    aur_radiosity_options options;
+    char *sequence; /* options.sequence */
+    uint64_t paths, coincident;
+    double change;                /* NaN: never measured */
+    aur_radiosity_tally *tallies; /* one a randomisation */
+    size_t lane_count;            /* threads that have tallies of their own; 0: none yet */
+    aur_radiosity_tally *lanes;   /* [lane_count][randomizations]: empty between calls */
+    bool warned;                  /* of paths that ended badly */
+};
+
+enum { AUR_RADIOSITY_MOST_BOUNCES = 10000, AUR_RADIOSITY_MOST_RANDOMIZATIONS = 1024 };
+
+/* Paths that randomisation r has among the first `paths`. */
+static inline uint64_t aur_radiosity_paths_of(const aur_radiosity *radiosity, size_t r, uint64_t paths) {
+    const uint64_t count = radiosity->options.randomizations;
+    return paths / count + (r < paths % count);
+}
+
+/* --- statistics: powers, their errors and their change, each in time proportional to the number of
+ * randomisations for one patch */
+
+/* The power that a patch receives, RGB watts, over all randomisations. */
+void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]);
+/* That over pi and the patch's area: times the albedo it is the radiance that is reflected. */
+aur_vector aur_radiosity_exitance(const aur_radiosity *radiosity, size_t patch);
+/* The standard error of the power; NaN with one randomisation. */
+void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]);
+/* Over all patches, in the unit of epsilon. */
+double aur_radiosity_standard_error(const aur_radiosity *radiosity);
+
+/* The change (see aur_radiosity_termination) from the powers `before`, one a patch, to those of now, which
+ * take their place. */
+double aur_radiosity_measure_change(const aur_radiosity *radiosity, double (*before)[3]);
+
+/* What aur_radiosity_describe tells. */
+void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_description *description);
+
+/* One triangle's row of aur_radiosity_results. */
+void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
+                          aur_radiosity_triangle_result *out);

@@ -1,0 +1,274 @@
+#include "render/scene/importers/model/import.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "points/base/array.h"
+#include "points/base/module.h"
+#include "points/base/ranks.h"
+#include "render/scene/importers/model/named_files.h"
+#include "render/scene/importers/model/surroundings.h"
+
+enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
+
+typedef struct message {
+    aur_import_kind kind;
+    uint32_t value;
+    size_t size;
+    char *data; /* malloc'ed, with a zero byte after it */
+} message;
+
+typedef struct conversation {
+    aur_child *child; /* of rank 0; NULL on others */
+    const aur_model_source *source;
+    aur_model_files *files;
+    size_t first; /* file of this model */
+    size_t requests, notes, pictures;
+    aur_named_files named;
+    uint64_t received; /* bytes */
+    char **xml;
+    size_t *xml_size;
+    aur_error *error;
+} conversation;
+
+/* --- messages, which rank 0 shares with the others */
+
+static aur_result receive_here(conversation *self, message *got) {
+    aur_import_header header = {0};
+    if (!aur_child_receive(self->child, sizeof header, &header))
+        return aur_child_fail(self->child, self->source->location, self->error);
+    self->received += header.size < UINT64_MAX / 2 ? header.size : UINT64_MAX / 2;
+    if (self->received > aur_child_memory(self->child))
+        return aur_fail_at(self->error, self->source->location, AUR_ERROR_FORMAT,
+                           "this model cannot be read: assimp makes more than %llu bytes of it",
+                           (unsigned long long)aur_child_memory(self->child));
+    if (!aur_child_receive_all(self->child, header.size, &got->data))
+        return aur_child_fail(self->child, self->source->location, self->error);
+    got->kind = header.kind;
+    got->value = header.value;
+    got->size = (size_t)header.size;
+    return AUR_OK;
+}
+
+/* The errors of one rank are those of all. */
+static aur_result agree(aur_error *error, aur_result result) {
+    aur_ranks *const ranks = aur_ranks_here();
+    if (ranks == NULL)
+        return result;
+    aur_ranks_agree(sizeof result, &result);
+    if (result != AUR_OK)
+        aur_ranks_agree(sizeof *error, error);
+    return result == AUR_OK && aur_ranks_have_failed(ranks) ? aur_ranks_failure(ranks, error) : result;
+}
+
+static aur_result receive(conversation *self, message *got) {
+    *got = (message){0};
+    aur_ranks *const ranks = aur_ranks_here();
+    aur_result result = agree(self->error, self->child != NULL ? receive_here(self, got) : AUR_OK);
+    if (ranks == NULL || result != AUR_OK)
+        return result;
+    aur_ranks_agree(sizeof got->kind, &got->kind);
+    aur_ranks_agree(sizeof got->value, &got->value);
+    result = aur_ranks_broadcast(ranks, &got->data, &got->size, self->error);
+    return result;
+}
+
+static aur_result send(conversation *self, aur_import_kind kind, uint32_t value, size_t size,
+                       const void *data) {
+    const aur_import_header header = {kind, value, size};
+    aur_result result = AUR_OK;
+    if (self->child != NULL &&
+        (!aur_child_send(self->child, sizeof header, &header) || !aur_child_send(self->child, size, data)))
+        result = aur_child_fail(self->child, self->source->location, self->error);
+    return agree(self->error, result);
+}
+
+/* --- what the program asks for */
+
+static aur_result answer_open(conversation *self, const message *got) {
+    const aur_model_source *const source = self->source;
+    char *data = NULL, *used = NULL;
+    size_t size = source->size;
+    const bool own = strcmp(got->data, source->name) == 0;
+    aur_result result =
+        own ? AUR_OK : aur_named_read_part(&self->named, got->data, &used, &size, &data, self->error);
+    const bool found = own || data != NULL;
+    if (result == AUR_OK && found && self->child != NULL)
+        aur_child_grant(self->child, size);
+    if (result == AUR_OK)
+        result = send(self, AUR_IMPORT_ANSWER, found, found ? size : 0, own ? source->data : data);
+    free(data);
+    free(used);
+    return result;
+}
+
+static aur_result answer_find(conversation *self, const message *got) {
+    char *used;
+    aur_result result = aur_named_find_picture(&self->named, got->data, &used, self->error);
+    if (result == AUR_OK)
+        result = send(self, AUR_IMPORT_ANSWER, used != NULL, used != NULL ? strlen(used) : 0, used);
+    free(used);
+    return result;
+}
+
+/* --- what it gives */
+
+static aur_result add_part(conversation *self, message *got) {
+    aur_model_files *const files = self->files;
+    const char *const kind = got->kind == AUR_IMPORT_MESH ? "mesh" : "picture";
+    char text[512];
+    snprintf(text, sizeof text, "%s, %s %zu", self->source->name, kind, files->count - self->first + 1);
+    char *const name = strdup(text);
+    if (name == NULL ||
+        !aur_array_reserve(&files->items, &files->capacity, files->count + 1, sizeof *files->items)) {
+        free(name);
+        return aur_fail_memory_at(self->error, self->source->location);
+    }
+    files->items[files->count++] = (aur_model_file){name, got->size, got->data};
+    got->data = NULL;
+    return AUR_OK;
+}
+
+static aur_result take_picture(conversation *self, message *got) {
+    char name[32];
+    snprintf(name, sizeof name, "picture %zu", ++self->pictures);
+    const bool good = aur_named_is_picture(&self->named, name, got->size, got->data);
+    const aur_result result = good ? add_part(self, got) : AUR_OK;
+    return result == AUR_OK ? send(self, AUR_IMPORT_ANSWER, good, 0, NULL) : result;
+}
+
+static aur_result fail_damaged(const conversation *self) {
+    return aur_fail_at(self->error, self->source->location, AUR_ERROR_FORMAT,
+                       "this model cannot be read: what assimp makes of it is damaged");
+}
+
+static aur_result take_scene(conversation *self, const message *got) {
+    aur_import_scene scene;
+    if (got->size < sizeof scene)
+        return fail_damaged(self);
+    memcpy(&scene, got->data, sizeof scene);
+    FILE *const xml = open_memstream(self->xml, self->xml_size);
+    if (xml == NULL)
+        return aur_fail_memory_at(self->error, self->source->location);
+    fwrite(got->data + sizeof scene, 1, got->size - sizeof scene, xml);
+    if (self->source->alone)
+        aur_model_surround(self->source, &scene, xml);
+    fputs("</scene>\n", xml);
+    aur_named_warn(&self->named);
+    const bool written = ferror(xml) == 0;
+    if (fclose(xml) == 0 && written)
+        return AUR_OK;
+    free(*self->xml);
+    *self->xml = NULL;
+    return aur_fail_memory_at(self->error, self->source->location);
+}
+
+/* --- the conversation */
+
+/* Texts of the program may hold what the file holds. */
+static void clean_text(message *got) {
+    for (size_t i = 0; i < got->size; ++i)
+        if ((unsigned char)got->data[i] < 32 || got->data[i] == 127)
+            got->data[i] = got->data[i] == '\n' && i + 1 < got->size ? ' ' : '\0';
+}
+
+static aur_result take_fail(conversation *self, message *got) {
+    const aur_result result = got->value == -AUR_ERROR_MEMORY ? AUR_ERROR_MEMORY : AUR_ERROR_FORMAT;
+    clean_text(got);
+    return aur_fail_at(self->error, self->source->location, result, "this model cannot be read: %s",
+                       got->data);
+}
+
+static aur_result take(conversation *self, message *got, bool *over) {
+    switch (got->kind) {
+    case AUR_IMPORT_OPEN:
+    case AUR_IMPORT_FIND:
+        if (++self->requests > MOST_REQUESTS || got->size == 0 || got->size > LONGEST_NAME ||
+            strlen(got->data) != got->size)
+            return fail_damaged(self);
+        return got->kind == AUR_IMPORT_OPEN ? answer_open(self, got) : answer_find(self, got);
+    case AUR_IMPORT_MESH:
+        return add_part(self, got);
+    case AUR_IMPORT_PICTURE:
+        return take_picture(self, got);
+    case AUR_IMPORT_NOTE:
+        clean_text(got);
+        if (++self->notes <= MOST_NOTES)
+            aur_warn_at(self->source->warnings, self->source->location, "%s", got->data);
+        return AUR_OK;
+    case AUR_IMPORT_FAIL:
+        return take_fail(self, got);
+    case AUR_IMPORT_SCENE:
+        *over = true;
+        return take_scene(self, got);
+    default:
+        return fail_damaged(self);
+    }
+}
+
+static aur_result start(conversation *self) {
+    const size_t version = strlen(aur_version()) + 1, name = strlen(self->source->name) + 1;
+    char *const text = malloc(version + name);
+    if (text == NULL)
+        return aur_fail_memory_at(self->error, self->source->location);
+    memcpy(text, aur_version(), version);
+    memcpy(text + version, self->source->name, name);
+    const aur_result result = send(self, AUR_IMPORT_START, (uint32_t)self->first, version + name, text);
+    free(text);
+    return result;
+}
+
+aur_result aur_model_converse(aur_child *child, const aur_model_source *source, aur_model_files *files,
+                              char **xml, size_t *xml_size, aur_error *error) {
+    conversation self = {.child = child,
+                         .source = source,
+                         .named = {.source = source},
+                         .files = files,
+                         .first = files->count,
+                         .xml = xml,
+                         .xml_size = xml_size,
+                         .error = error};
+    bool over = false;
+    aur_result result = start(&self);
+    while (result == AUR_OK && !over) {
+        message got;
+        result = receive(&self, &got);
+        if (result == AUR_OK)
+            result = take(&self, &got, &over);
+        free(got.data);
+    }
+    if (child != NULL)
+        aur_child_end(child);
+    return result;
+}
+
+/* --- the program */
+
+enum { PATH_CAPACITY = 4096 };
+
+static aur_result find_program(const aur_model_source *source, char path[PATH_CAPACITY], aur_error *error) {
+    const char *const named = getenv("AUREOLE_IMPORT");
+    if (named != NULL ? snprintf(path, PATH_CAPACITY, "%s", named) < PATH_CAPACITY
+                      : aur_module_find_program("aureole-import", PATH_CAPACITY, path))
+        return AUR_OK;
+    return aur_fail_at(error, source->location, AUR_ERROR_UNSUPPORTED,
+                       "models in this format are read by the library assimp, which this build does not "
+                       "have: install libassimp-dev and build again, or convert the model to Mitsuba's XML");
+}
+
+aur_result aur_model_import(const aur_model_source *source, aur_model_files *files, char **xml,
+                            size_t *xml_size, aur_error *error) {
+    aur_child child;
+    char path[PATH_CAPACITY];
+    const bool here = aur_ranks_rank() == 0;
+    aur_result result = here ? find_program(source, path, error) : AUR_OK;
+    if (here && result == AUR_OK)
+        result = aur_fail_in(error, aur_child_start(&child, path, &source->progress, error),
+                             source->location.file);
+    result = agree(error, result);
+    if (result == AUR_OK)
+        result = aur_model_converse(here ? &child : NULL, source, files, xml, xml_size, error);
+    return result;
+}

@@ -1,0 +1,193 @@
+/* Where the files are that a scene names, and what to say when they are not there. */
+#if defined(__linux__) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* realpath */
+#endif
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/array.h"
+#include "points/base/file.h"
+#include "points/base/ranks.h"
+#include "render/scene/importers/xml/xml.h"
+
+/* The first `length` bytes of a path. */
+typedef struct folder {
+    size_t length;
+    const char *path;
+} folder;
+
+/* The folder of a file: its path up to the last slash, which is included. */
+static folder folder_of(const char *file) {
+    const char *const slash = strrchr(file, '/');
+    return (folder){slash != NULL ? (size_t)(slash - file) + 1 : 0, file};
+}
+
+/* Folder `index` of those where a name is looked for: beside the file that has the name, beside the scene,
+ * those of <path>, and at last, as Mitsuba does, where the user is, for files named by -D. False after the
+ * last. */
+static bool folder_at(const aur_xml_document *document, const char *file, size_t index, folder *at) {
+    *at = (folder){0, ""};
+    if (index == 0)
+        *at = folder_of(file);
+    else if (index == 1)
+        *at = folder_of(document->root != NULL ? document->root->location.file : file);
+    else if (index - 2 < document->folder_count)
+        *at = (folder){strlen(document->folders[index - 2]), document->folders[index - 2]};
+    return index <= document->folder_count + 2;
+}
+
+/* The path of a name in a folder, or NULL when that is no file or memory is out. */
+static char *join(folder in, const char *name) {
+    const size_t size = in.length + strlen(name) + 2;
+    char *const path = malloc(size);
+    if (path == NULL)
+        return NULL;
+    const bool slash = in.length > 0 && in.path[in.length - 1] != '/';
+    snprintf(path, size, "%.*s%s%s", (int)in.length, in.path, slash ? "/" : "", name);
+    struct stat status;
+    if (aur_file_status(path, &status))
+        return path;
+    free(path);
+    return NULL;
+}
+
+/* A folder for files that are made when they are first needed holds a text HOW-TO-MAKE whose first line is
+ * the command that makes them. Finds the one beside `name` in a folder where it was looked for. */
+static bool read_command(folder in, const char *name, char *command, size_t capacity) {
+    char beside[AUR_ERROR_FILE_CAPACITY];
+    const int written = snprintf(beside, sizeof beside, "%.*sHOW-TO-MAKE", (int)folder_of(name).length, name);
+    char *const path = written < (int)sizeof beside ? join(in, beside) : NULL;
+    char *text = NULL;
+    size_t size = 0, end = 0;
+    if (path != NULL && aur_file_read(path, 1 << 16, &text, &size, NULL) == AUR_OK) {
+        while (end < size && end + 1 < capacity && isprint((unsigned char)text[end]))
+            ++end;
+        memcpy(command, text, end);
+        free(text);
+    }
+    free(path);
+    command[end] = '\0';
+    return end > 0;
+}
+
+static aur_result fail(const aur_xml_document *document, aur_location location, const char *name,
+                       aur_error *error) {
+    if (name[0] == '/')
+        return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'", name);
+    char places[700] = "", command[160] = "";
+    folder in, first = {0};
+    for (size_t i = 0, used = 0; folder_at(document, location.file, i, &in); ++i) {
+        if (in.length == 0)
+            in = (folder){2, "./"};
+        if (i == 0)
+            first = in;
+        if (i > 0 && in.length == first.length && strncmp(in.path, first.path, in.length) == 0)
+            continue; /* the main file is here, or names the file itself: one folder, not two */
+        if (used < sizeof places)
+            used += (size_t)snprintf(places + used, sizeof places - used, "%s%.*s", i > 0 ? ", " : "",
+                                     (int)in.length, in.path);
+        if (command[0] == '\0' && document->confines == NULL)
+            read_command(in, name, command, sizeof command);
+    }
+    if (command[0] != '\0')
+        return aur_fail_at(error, location, AUR_ERROR_OPEN,
+                           "cannot find '%s'; it is made by the command: %s (looked in %s)", name, command,
+                           places);
+    return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s", name, places);
+}
+
+aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
+                               char **found, aur_error *error) {
+    *found = NULL;
+    if (name[0] == '\0')
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT, "a file name is empty");
+    folder in;
+    *found = name[0] == '/' ? join((folder){0, ""}, name) : NULL;
+    for (size_t i = 0; name[0] != '/' && *found == NULL && folder_at(document, location.file, i, &in); ++i)
+        *found = join(in, name);
+    return *found != NULL ? AUR_OK : fail(document, location, name, error);
+}
+
+aur_result aur_xml_confine(aur_xml_document *document, const char *path, aur_error *error) {
+    const folder in = folder_of(path);
+    char *const name = in.length > 0 ? strndup(path, in.length) : strdup(".");
+    document->confines = name != NULL ? realpath(name, NULL) : NULL;
+    free(name);
+    if (document->confines != NULL)
+        return AUR_OK;
+    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN,
+                       "the scene's folder is not there");
+}
+
+/* Whether the file at the end of all links lies in the folder that the scene is confined to. */
+static bool is_allowed(const aur_xml_document *document, const char *path) {
+    if (document->confines == NULL)
+        return true;
+    char *const real = realpath(path, NULL);
+    const size_t length = strlen(document->confines);
+    bool allowed = real != NULL && strncmp(real, document->confines, length) == 0 &&
+                   (real[length] == '/' || document->confines[length - 1] == '/');
+    free(real);
+    aur_ranks_agree(sizeof allowed, &allowed);
+    return allowed;
+}
+
+aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
+                             aur_error *error) {
+    const char *const own_name = aur_arena_copy(&document->arena, name, strlen(name));
+    const char *const own_path = aur_arena_copy(&document->arena, path, strlen(path));
+    if (own_name == NULL || own_path == NULL ||
+        !aur_array_reserve(&document->files, &document->file_capacity, document->file_count + 1,
+                           sizeof *document->files))
+        return aur_fail_memory(error);
+    document->files[document->file_count++] = (aur_xml_file){.name = own_name, .path = own_path};
+    return AUR_OK;
+}
+
+aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location, const char *name,
+                              char **found, aur_error *error) {
+    aur_result result = aur_xml_find_folder(document, location, name, found, error);
+    struct stat status;
+    if (result == AUR_OK && !(aur_file_status(*found, &status) && S_ISREG(status.st_mode)))
+        result = aur_fail_at(error, location, AUR_ERROR_OPEN,
+                             "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
+    else if (result == AUR_OK && !is_allowed(document, *found))
+        result =
+            aur_fail_at(error, location, AUR_ERROR_OPEN,
+                        "'%s' lies outside of the scene's folder, to which its files are confined", name);
+    else if (result == AUR_OK)
+        result = aur_xml_note_file(document, name, *found, error);
+    if (result == AUR_OK) {
+        document->files[document->file_count - 1].changed = status.st_mtim;
+        return AUR_OK;
+    }
+    free(*found);
+    *found = NULL;
+    return result;
+}
+
+aur_result aur_xml_find_set(aur_xml_document *document, aur_location location, const char *set, char **found,
+                            aur_error *error) {
+    /* file:PATH, and the value of a key `file` */
+    const char *start = strncmp(set, "file:", 5) == 0 ? set + 5 : NULL;
+    for (const char *c = strstr(set, "file="); start == NULL && c != NULL; c = strstr(c + 1, "file="))
+        start = c > set && (c[-1] == ':' || c[-1] == ',') ? c + 5 : NULL;
+    if (start == NULL)
+        return (*found = strdup(set)) != NULL ? AUR_OK : aur_fail_memory(error);
+    const size_t length = start[-1] == ':' ? strlen(start) : strcspn(start, ",");
+    char *const name = strndup(start, length);
+    char *path;
+    const aur_result result =
+        name != NULL ? aur_xml_find_asset(document, location, name, &path, error) : aur_fail_memory(error);
+    free(name);
+    if (result != AUR_OK)
+        return result;
+    const size_t size = strlen(set) + strlen(path) + 1;
+    *found = malloc(size);
+    if (*found != NULL)
+        snprintf(*found, size, "%.*s%s%s", (int)(start - set), set, path, start + length);
+    free(path);
+    return *found != NULL ? AUR_OK : aur_fail_memory(error);
+}

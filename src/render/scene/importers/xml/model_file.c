@@ -1,0 +1,43 @@
+#include "render/scene/importers/xml/model_file.h"
+
+#include <string.h>
+
+typedef struct model_reading {
+    aur_xml_document *document;
+    const char *path;
+} model_reading;
+
+bool aur_xml_is_model(const char *path, size_t size, const char *data) {
+    static const char start[] = "<scene";
+    return aur_model_is_name(path) && (size < sizeof start - 1 || memcmp(data, start, sizeof start - 1) != 0);
+}
+
+/* Files beside a model are found, noted and confined as all that a scene names, but their names are forgiven.
+ */
+static aur_result find_part(void *state, const char *name, char **used, char **path, aur_error *error) {
+    const model_reading *const self = state;
+    const aur_location location = {.file = self->path};
+    *path = NULL;
+    aur_result result = aur_xml_forgive_name(self->document, location, name, used, error);
+    if (result == AUR_OK && *used != NULL)
+        result = aur_xml_find_asset(self->document, location, *used, path, error);
+    return result;
+}
+
+aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_options *options, bool included,
+                              const char *path, size_t *size, const char *data, char **xml,
+                              aur_error *error) {
+    const char *const slash = strrchr(path, '/');
+    model_reading reading = {document, path};
+    const aur_model_source source = {.name = slash != NULL ? slash + 1 : path,
+                                     .size = *size,
+                                     .data = data,
+                                     .alone = !included,
+                                     .light = options->model_light,
+                                     .warnings = &options->warnings,
+                                     .progress = options->progress,
+                                     .location = {.file = path},
+                                     .find = find_part,
+                                     .state = &reading};
+    return aur_model_to_xml(&source, &document->model_files, xml, size, error);
+}

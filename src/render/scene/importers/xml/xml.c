@@ -1,0 +1,447 @@
+#include "render/scene/importers/xml/xml.h"
+
+#include <ctype.h>
+#include <expat.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "points/base/array.h"
+#include "points/base/file.h"
+#include "points/base/text.h"
+#include "points/base/words.h"
+#include "render/scene/importers/rad/rad.h"
+#include "render/scene/importers/xml/model_file.h"
+#include "render/scene/importers/xml/variables.h"
+
+/* A few kilobytes of includes that double each other must not become an endless scene, so that files and
+ * their bytes have a limit. */
+enum { DEEPEST_INCLUDE = 15, DEEPEST_ELEMENT = 100, MOST_FILES = 10000 };
+#define LARGEST_SCENE ((size_t)1 << 30)
+
+/* What all files of a scene share. */
+typedef struct reading {
+    aur_xml_document *document;
+    aur_xml_variables variables;
+    aur_rad_scene rad;
+    size_t file_count, file_bytes;
+    const aur_scene_options *options;
+    aur_error *error;
+} reading;
+
+/* One file being parsed. */
+typedef struct file_reading {
+    reading *shared;
+    XML_Parser expat;
+    const char *file;
+    bool from_rad;   /* the text has been made from one of Radiance's: only its lines are known */
+    bool from_model; /* from a model: no place is known */
+    size_t include_depth;
+    bool legacy; /* version < 2 */
+    aur_result result;
+    /* What an included file's elements are put into; NULL: this is the scene's own file. */
+    aur_xml_node *target;
+    size_t depth;                            /* open elements */
+    aur_xml_node *open[DEEPEST_ELEMENT + 1]; /* NULL for elements that leave no node */
+} file_reading;
+
+static aur_result read_file(reading *shared, const char *path, const file_reading *from,
+                            aur_xml_node *target);
+
+/* --- nodes and their attributes */
+
+static aur_location here(const file_reading *reader) {
+    const bool exact = !reader->from_rad && !reader->from_model;
+    return (aur_location){reader->file, reader->from_model ? 0 : XML_GetCurrentLineNumber(reader->expat),
+                          exact ? XML_GetCurrentColumnNumber(reader->expat) + 1 : 0};
+}
+
+/* "toWorld" to "to_world". */
+static char *snake_case(aur_arena *arena, const char *name) {
+    char *const result = aur_arena_allocate(arena, 2 * strlen(name) + 1);
+    char *out = result;
+    for (const char *c = name; result != NULL && *c != '\0'; ++c) {
+        if (c > name && isupper((unsigned char)*c) && islower((unsigned char)c[-1]))
+            *out++ = '_';
+        *out++ = (char)tolower((unsigned char)*c);
+    }
+    return result;
+}
+
+static aur_result make_node(file_reading *reader, const char *tag, const char **attributes,
+                            aur_xml_node **made) {
+    aur_arena *const arena = &reader->shared->document->arena;
+    aur_error *const error = reader->shared->error;
+    aur_xml_node *const node = *made = aur_arena_allocate(arena, sizeof *node);
+    size_t count = 0;
+    while (attributes[2 * count] != NULL)
+        ++count;
+    if (node == NULL)
+        return aur_fail_memory(error);
+    const bool look_at = reader->legacy && strcmp(tag, "lookAt") == 0;
+    node->tag = aur_arena_copy(arena, look_at ? "lookat" : tag, strlen(tag));
+    node->location = here(reader);
+    node->attributes = aur_arena_allocate(arena, (count + 1) * sizeof *node->attributes);
+    if (node->tag == NULL || node->attributes == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < count; ++i) {
+        const char *const name = attributes[2 * i];
+        char *value;
+        const aur_result result = aur_xml_variables_substitute(
+            &reader->shared->variables, attributes[2 * i + 1], node->location, &value, error);
+        if (result != AUR_OK)
+            return result;
+        if (reader->legacy && strcmp(name, "name") == 0)
+            value = snake_case(arena, value);
+        node->attributes[i] = (aur_xml_attribute){aur_arena_copy(arena, name, strlen(name)), value};
+        if (node->attributes[i].name == NULL || value == NULL)
+            return aur_fail_memory(error);
+        node->attribute_count = i + 1;
+    }
+    return AUR_OK;
+}
+
+static aur_result add_id(reading *shared, const char *id, aur_xml_node *node) {
+    aur_xml_document *const document = shared->document;
+    if (!aur_array_reserve(&document->ids, &document->id_capacity, document->id_count + 1,
+                           sizeof *document->ids))
+        return aur_fail_memory(shared->error);
+    document->ids[document->id_count] = (aur_xml_id){id, node, document->id_count};
+    ++document->id_count;
+    return AUR_OK;
+}
+
+/* --- elements that leave no node */
+
+static aur_result do_default(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
+    (void)parent;
+    return aur_xml_variables_default(&reader->shared->variables, aur_xml_attribute_value(node, "name"),
+                                     aur_xml_attribute_value(node, "value"), node->location,
+                                     reader->shared->error);
+}
+
+static aur_result do_include(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
+    reading *const shared = reader->shared;
+    if (reader->include_depth == DEEPEST_INCLUDE)
+        return aur_xml_fail(node, shared->error,
+                            "includes are nested deeper than %d: does a file include itself?",
+                            DEEPEST_INCLUDE);
+    char *path;
+    aur_result result = aur_xml_find_asset(shared->document, node->location,
+                                           aur_xml_attribute_value(node, "filename"), &path, shared->error);
+    if (result != AUR_OK)
+        return result;
+    result = read_file(shared, path, reader, parent);
+    free(path);
+    return result;
+}
+
+static aur_result do_path(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
+    (void)parent;
+    aur_xml_document *const document = reader->shared->document;
+    char *path;
+    const aur_result result = aur_xml_find_folder(
+        document, node->location, aur_xml_attribute_value(node, "value"), &path, reader->shared->error);
+    if (result != AUR_OK)
+        return result;
+    const char *const copy = aur_arena_copy(&document->arena, path, strlen(path));
+    free(path);
+    if (copy == NULL || !aur_array_reserve(&document->folders, &document->folder_capacity,
+                                           document->folder_count + 1, sizeof *document->folders))
+        return aur_fail_memory(reader->shared->error);
+    document->folders[document->folder_count++] = copy;
+    return AUR_OK;
+}
+
+/* <alias id="known" as="other">: the node is found when all ids are there. */
+static aur_result do_alias(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
+    (void)parent;
+    return add_id(reader->shared, aur_xml_attribute_value(node, "as"), node);
+}
+
+typedef struct directive {
+    aur_xml_rule rule;
+    aur_result (*act)(file_reading *reader, aur_xml_node *node, aur_xml_node *parent);
+} directive;
+
+static const directive directives[] = {{{"default", 2, {"name", "value"}}, do_default},
+                                       {{"include", 1, {"filename"}}, do_include},
+                                       {{"path", 1, {"value"}}, do_path},
+                                       {{"alias", 2, {"id", "as"}}, do_alias}};
+
+/* --- the tree */
+
+static bool read_version(const char *text, unsigned *major) {
+    uint64_t parts[3] = {0};
+    size_t count = 0;
+    for (; count < 3 && text != NULL; ++count) {
+        text = aur_read_integer(text, UINT32_MAX, &parts[count]);
+        if (text == NULL || *text != '.')
+            break;
+        ++text;
+    }
+    *major = (unsigned)parts[0];
+    return text != NULL && *text == '\0' && (count == 1 || count == 2);
+}
+
+static aur_result check_root(file_reading *reader, const aur_xml_node *node) {
+    const bool scene = strcmp(node->tag, "scene") == 0;
+    const char *const version = aur_xml_attribute_value(node, "version");
+    aur_error *const error = reader->shared->error;
+    if (!scene && reader->target == NULL)
+        return aur_xml_fail(node, error, "the first element must be <scene>, not <%s>", node->tag);
+    if (version == NULL && scene)
+        return aur_xml_fail(node, error, "<scene> needs the attribute 'version', such as version=\"3.0.0\"");
+    unsigned major = reader->legacy ? 1 : 2;
+    if (version != NULL && !read_version(version, &major))
+        return aur_xml_fail(node, error, "version must be like 3.0.0, not '%s'", version);
+    reader->legacy = major < 2;
+    return AUR_OK;
+}
+
+static aur_result open_element(file_reading *reader, const char *tag, const char **attributes) {
+    aur_error *const error = reader->shared->error;
+    if (reader->depth == DEEPEST_ELEMENT)
+        return aur_fail_at(error, here(reader), AUR_ERROR_FORMAT, "elements are nested deeper than %d",
+                           DEEPEST_ELEMENT);
+    aur_xml_node *node;
+    aur_result result = make_node(reader, tag, attributes, &node);
+    if (result == AUR_OK && reader->depth == 0)
+        result = check_root(reader, node);
+    if (result != AUR_OK)
+        return result;
+    aur_xml_node *const parent = reader->depth > 0 ? reader->open[reader->depth] : reader->target;
+    reader->open[++reader->depth] = NULL;
+    if (reader->depth > 1 && parent == NULL)
+        return aur_xml_fail(node, error, "<%s> cannot stand here", tag);
+    if (strcmp(tag, "scene") == 0) {
+        if (reader->depth > 1)
+            return aur_xml_fail(node, error, "<scene> must be the first element");
+        reader->open[1] = reader->target != NULL ? reader->target : node;
+        if (reader->target == NULL)
+            reader->shared->document->root = node;
+        return AUR_OK;
+    }
+    for (size_t i = 0; i < sizeof directives / sizeof directives[0]; ++i) {
+        if (strcmp(tag, directives[i].rule.tag) != 0)
+            continue;
+        result = aur_xml_check(node, &directives[i].rule, error);
+        return result == AUR_OK ? directives[i].act(reader, node, parent) : result;
+    }
+    reader->open[reader->depth] = node;
+    if (parent->last_child != NULL)
+        parent->last_child->next = node;
+    else
+        parent->first_child = node;
+    parent->last_child = node;
+    const char *const id = aur_xml_attribute_value(node, "id");
+    return id != NULL && strcmp(tag, "ref") != 0 ? add_id(reader->shared, id, node) : AUR_OK;
+}
+
+/* --- files */
+
+static void stop_at(file_reading *reader, aur_result result) {
+    reader->result = result;
+    if (result != AUR_OK)
+        XML_StopParser(reader->expat, XML_FALSE);
+}
+
+static void XMLCALL on_start(void *user, const XML_Char *tag, const XML_Char **attributes) {
+    file_reading *const reader = user;
+    if (reader->result == AUR_OK)
+        stop_at(reader, open_element(reader, tag, attributes));
+}
+
+static void XMLCALL on_end(void *user, const XML_Char *tag) {
+    (void)tag;
+    file_reading *const reader = user;
+    if (reader->depth > 0)
+        --reader->depth;
+}
+
+static void XMLCALL on_text(void *user, const XML_Char *text, int length) {
+    file_reading *const reader = user;
+    while (length > 0 && isspace((unsigned char)*text)) {
+        ++text;
+        --length;
+    }
+    if (reader->result == AUR_OK && length > 0)
+        stop_at(reader, aur_fail_at(reader->shared->error, here(reader), AUR_ERROR_FORMAT,
+                                    "text between elements: '%.*s'", length > 40 ? 40 : length, text));
+}
+
+/* `last`: nothing comes after it. */
+static aur_result parse(file_reading *reader, const char *data, size_t size, bool last) {
+    enum { CHUNK = 1 << 24 };
+    do {
+        const size_t piece = size < CHUNK ? size : CHUNK;
+        const enum XML_Status status = XML_Parse(reader->expat, data, (int)piece, last && piece == size);
+        if (reader->result != AUR_OK)
+            return reader->result;
+        if (status != XML_STATUS_OK)
+            return aur_fail_at(reader->shared->error, here(reader), AUR_ERROR_FORMAT,
+                               "not well-formed XML: %s", XML_ErrorString(XML_GetErrorCode(reader->expat)));
+        data += piece;
+        size -= piece;
+    } while (size > 0);
+    return AUR_OK;
+}
+
+/* One of Radiance's files, piece by piece: what a piece includes is read before the next one is made. */
+static aur_result parse_rad(file_reading *reader, const char *path, const char *data, size_t size) {
+    reading *const shared = reader->shared;
+    aur_rad *rad;
+    const char *xml;
+    aur_result result = aur_rad_open(&shared->rad, path, size, data, &rad, shared->error);
+    do {
+        if (result == AUR_OK)
+            result = aur_rad_next(rad, &xml, &size);
+        if (result == AUR_OK)
+            result = parse(reader, xml, size, size == 0);
+    } while (result == AUR_OK && size > 0);
+    aur_rad_close(rad);
+    return result;
+}
+
+/* A model, whose XML nobody sees: its places mean nothing. */
+static aur_result parse_model(file_reading *reader, const char *path, const char *data, size_t size) {
+    const reading *const shared = reader->shared;
+    char *xml;
+    const bool included = reader->include_depth > 0;
+    aur_result result = aur_xml_read_model(shared->document, shared->options, included, path, &size, data,
+                                           &xml, shared->error);
+    reader->from_model = true;
+    if (result == AUR_OK)
+        result = parse(reader, xml, size, true);
+    free(xml);
+    return result;
+}
+
+/* XML begins with '<', after white space and a byte order mark; of UTF-16 that mark is enough. */
+static bool may_be_xml(const char *path, const char *data, size_t size) {
+    static const char *const marks[] = {"\xef\xbb\xbf", "\xfe\xff", "\xff\xfe"};
+    const char *const dot = strrchr(path, '.');
+    size_t mark = 0;
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0] && mark == 0; ++i)
+        if (size >= strlen(marks[i]) && memcmp(data, marks[i], strlen(marks[i])) == 0)
+            mark = strlen(marks[i]);
+    size_t at = mark;
+    while (at < size && isspace((unsigned char)data[at]))
+        ++at;
+    return mark == 2 || (at < size && data[at] == '<') || (dot != NULL && strcasecmp(dot, ".xml") == 0);
+}
+
+static aur_result parse_xml(file_reading *reader, const char *path, const char *data, size_t size) {
+    if (may_be_xml(path, data, size))
+        return parse(reader, data, size, true);
+    return aur_fail_at(
+        reader->shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+        "unknown kind of file: expected a scene of XML, Radiance's .rad, or a model (.glb, .gltf, "
+        ".obj, .fbx, .dae, .stl, .ply, .off, .3ds)");
+}
+
+/* The scene's own files may be text in memory, and so are hashed at once. */
+static aur_result note_scene(reading *shared, const char *path, size_t size, const char *data) {
+    aur_xml_document *const document = shared->document;
+    const char *const slash = strrchr(path, '/');
+    const aur_result result =
+        aur_xml_note_file(document, slash != NULL ? slash + 1 : path, path, shared->error);
+    if (result == AUR_OK) {
+        aur_xml_file *const file = &document->files[document->file_count - 1];
+        file->hashed = true;
+        file->hash = aur_hash_bytes(size, data);
+    }
+    return result;
+}
+
+/* `from` is the file that includes this one, or NULL; without a parser, the scene, and this is a further file
+ * of it. */
+static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
+                            const file_reading *from, aur_xml_node *target) {
+    file_reading reader = {.shared = shared,
+                           .expat = XML_ParserCreate(NULL),
+                           .from_rad = aur_rad_is_name(path) || (from != NULL && from->from_rad),
+                           .file = aur_arena_copy(&shared->document->arena, path, strlen(path)),
+                           .include_depth = from != NULL ? from->include_depth + 1 : 0,
+                           .legacy = from != NULL && from->legacy,
+                           .target = target};
+    aur_result result = reader.expat != NULL && reader.file != NULL ? AUR_OK : aur_fail_memory(shared->error);
+    if (result == AUR_OK && (from == NULL || from->expat == NULL)) /* no other file names it */
+        result = note_scene(shared, path, size, data);
+    if (result == AUR_OK) {
+        XML_SetUserData(reader.expat, &reader);
+        XML_SetElementHandler(reader.expat, on_start, on_end);
+        XML_SetCharacterDataHandler(reader.expat, on_text);
+        result = aur_xml_is_model(path, size, data) ? parse_model(&reader, path, data, size)
+                 : reader.from_rad                  ? parse_rad(&reader, path, data, size)
+                                                    : parse_xml(&reader, path, data, size);
+    }
+    if (reader.expat != NULL)
+        XML_ParserFree(reader.expat);
+    return result;
+}
+
+static aur_result read_file(reading *shared, const char *path, const file_reading *from,
+                            aur_xml_node *target) {
+    char *data;
+    size_t size;
+    if (++shared->file_count > MOST_FILES)
+        return aur_fail_at(shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                           "more than %d files are included, counted each time", MOST_FILES);
+    aur_result result = aur_file_read(path, LARGEST_SCENE - shared->file_bytes, &data, &size, shared->error);
+    if (result != AUR_OK)
+        return result;
+    shared->file_bytes += size;
+    result = read_text(shared, path, size, data, from, target);
+    free(data);
+    return result;
+}
+
+/* A file more, as if the scene's own, `path`, included it at its end. */
+static aur_result read_further(reading *shared, const char *path, const char *further) {
+    const file_reading from = {.file = path, .from_rad = aur_rad_is_name(path)};
+    return read_file(shared, further, &from, shared->document->root);
+}
+
+aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
+                        aur_xml_document *document, aur_error *error) {
+    aur_error unseen;
+    error = error != NULL ? error : &unseen;
+    *document = (aur_xml_document){0};
+    reading shared = {
+        .document = document,
+        .variables = {.arena = &document->arena},
+        .rad = {.arena = &document->arena, .warnings = &options->warnings, .left_out = &document->left_out},
+
+        .options = options,
+        .error = error};
+    aur_result result = aur_xml_variables_define(&shared.variables, options, error);
+    if (result == AUR_OK && options->confine)
+        result = aur_xml_confine(document, path, error);
+    if (result == AUR_OK)
+        result = data != NULL ? read_text(&shared, path, bytes, data, NULL, NULL)
+                              : read_file(&shared, path, NULL, NULL);
+    for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
+        result = read_further(&shared, path, options->further[i]);
+    if (result == AUR_OK)
+        result = aur_xml_settle_ids(document, error);
+    if (result == AUR_OK)
+        result = aur_xml_variables_finish(&shared.variables, path, error);
+    free(shared.variables.items);
+    aur_rad_scene_release(&shared.rad);
+    if (result != AUR_OK) {
+        aur_warn_error(&options->warnings, &document->left_out);
+        aur_xml_release(document);
+    }
+    return result;
+}
+
+void aur_xml_release(aur_xml_document *document) {
+    free(document->ids);
+    free(document->folders);
+    free(document->files);
+    free(document->confines);
+    aur_model_release_files(&document->model_files);
+    aur_arena_release(&document->arena);
+    *document = (aur_xml_document){0};
+}

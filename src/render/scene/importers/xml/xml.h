@@ -1,0 +1,124 @@
+/* Reads a scene's XML files into one tree: includes are spliced in, $names substituted, legacy names renamed.
+ *
+ * Rules (as Mitsuba 3's parser has them): `version` stands on the root; <default> gives a value unless -D
+ * does; $name is replaced in every attribute, the longest name first, and \$ is a dollar; <include> goes 15
+ * deep and is looked for beside the including file; <path> adds a folder; <alias> gives an object a second
+ * id. */
+#pragma once
+
+#include <aureole/scene.h>
+
+#include "points/base/arena.h"
+#include "points/base/error.h"
+#include "render/scene/importers/model/model.h"
+
+#include <stdbool.h>
+#include <time.h>
+
+typedef struct aur_xml_attribute {
+    const char *name;
+    const char *value;
+} aur_xml_attribute;
+
+typedef enum aur_xml_state { AUR_XML_UNBUILT, AUR_XML_BUILDING, AUR_XML_BUILT } aur_xml_state;
+
+typedef struct aur_xml_node aur_xml_node;
+struct aur_xml_node {
+    const char *tag;
+    aur_location location;
+    size_t attribute_count;
+    aur_xml_attribute *attributes;
+    aur_xml_node *first_child, *last_child, *next;
+    /* The loader's: what the node has become. */
+    aur_xml_state state;
+    void *object;
+};
+
+typedef struct aur_xml_id {
+    const char *id;
+    aur_xml_node *node;
+    size_t order; /* in the files */
+} aur_xml_id;
+
+/* A file that was read: what it is called where it is named, where it was found, and a hash of its bytes, if
+ * it was known at once; else when it was changed last, as known before it was read. */
+typedef struct aur_xml_file {
+    const char *name, *path;
+    struct timespec changed;
+    bool hashed;
+    uint64_t hash;
+} aur_xml_file;
+
+typedef struct aur_xml_document {
+    aur_arena arena; /* holds the nodes and all texts */
+    aur_xml_node *root;
+    size_t folder_count, folder_capacity;
+    const char **folders; /* of <path> */
+    size_t id_count, id_capacity;
+    aur_xml_id *ids;             /* sorted */
+    aur_model_files model_files; /* in memory: parts of models */
+    size_t file_count, file_capacity;
+    char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */
+    aur_xml_file *files; /* the scene's own, and those of aur_xml_find_asset as often as they are named */
+    /* The last thing that is known not to be read, for which the scene must be refused when all others have
+     * been found; they have been warned of. */
+    aur_error left_out;
+} aur_xml_document;
+
+/* From the file at `path`, or from `data`, where it is given. On failure *document needs no release. */
+aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
+                        aur_xml_document *document, aur_error *error);
+void aur_xml_release(aur_xml_document *document);
+
+/* NULL when absent. */
+const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
+
+enum { AUR_XML_MOST_NAMES = 5 };
+
+/* What attributes an element may have; the first `required` of them must be given. */
+typedef struct aur_xml_rule {
+    const char *tag;
+    size_t required;
+    const char *names[AUR_XML_MOST_NAMES + 1]; /* ends with NULL */
+} aur_xml_rule;
+
+/* Errors: NAME for an attribute that the rule does not name, FORMAT for one that is missing. */
+aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur_error *error);
+
+/* A FORMAT error at the node. */
+aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) AUR_PRINTF(3, 4);
+
+/* An error for a tag that is none of the `count` known here. */
+aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
+                            aur_error *error);
+
+/* NULL when there is none. */
+aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
+
+/* Sorts the ids, and gives each alias the object that it stands for, when all files are read. Errors: FORMAT
+ * for an id that is given twice, NAME for an alias of none. */
+aur_result aur_xml_settle_ids(const aur_xml_document *document, aur_error *error);
+
+/* The path of a regular file under which an asset named in `location.file` can be read: beside that file,
+ * beside the scene, in a <path>, or in the working folder. `found` is allocated with malloc. The error names
+ * the places; where one of them has a text HOW-TO-MAKE beside the missing file, it quotes its first line, the
+ * command that makes the file. */
+aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location, const char *name,
+                              char **found, aur_error *error);
+/* The name under which a file is there that `name` means: itself; the same in other letter case; or what
+ * stands after the last slash, beside the file that names it, for paths of another machine. *used is
+ * malloc'ed, and NULL where there is none. Errors: MEMORY. */
+aur_result aur_xml_forgive_name(const aur_xml_document *document, aur_location location, const char *name,
+                                char **used, aur_error *error);
+/* From now on only files in the folder of `path` are found. */
+aur_result aur_xml_confine(aur_xml_document *document, const char *path, aur_error *error);
+/* Notes that a file is read. */
+aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
+                             aur_error *error);
+/* The same for the folder of a <path>. */
+aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
+                               char **found, aur_error *error);
+/* A point set's text in which the file that it names, by file:PATH or a key `file`, is found in the same way.
+ * Texts that name none are copied. */
+aur_result aur_xml_find_set(aur_xml_document *document, aur_location location, const char *set, char **found,
+                            aur_error *error);

@@ -1,0 +1,101 @@
+/* Choosing lights, and points and directions on them. */
+#include "render/scene/scene_data.h"
+
+static const aur_emitter *choose(const aur_scene *scene, float *u) {
+    if (!(scene->lights.total > 0.0))
+        return NULL;
+    return scene->emitters[aur_distribution_choose(&scene->lights, u)];
+}
+
+bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
+                             aur_light_sample *sample) {
+    aur_light_query query = {*reference, {u[0], u[1], u[2]}};
+    const aur_emitter *const emitter = choose(scene, &query.u[0]);
+    if (emitter == NULL)
+        return false;
+    *sample = (aur_light_sample){0};
+    if (!emitter->descriptor->sample(emitter, &query, sample))
+        return false;
+    sample->pdf *= emitter->probability;
+    sample->emitter = emitter->index;
+    sample->environment = emitter->descriptor->radiance_from != NULL;
+    /* What shines from the same direction counts as one light, as it does for rays that find it. */
+    if (sample->environment && scene->environment_count > 1) {
+        sample->radiance = aur_environment_light(scene, sample->direction, &sample->pdf);
+    }
+    return true;
+}
+
+bool aur_light_chooses(const aur_scene *scene) {
+    return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
+}
+
+float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,
+                           const aur_surface *surface) {
+    if (surface->emitter == AUR_NO_EMITTER)
+        return 0.0f;
+    const aur_emitter *const emitter = scene->emitters[surface->emitter];
+    if (!aur_emitter_glows(emitter))
+        return 0.0f;
+    const aur_vector way = aur_vector_subtract(surface->position, reference->position);
+    const float squared = aur_vector_dot(way, way);
+    const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
+    if (!(cosine > 0.0f))
+        return 0.0f;
+    const float pdf = emitter->descriptor->pdf_seen(emitter, reference, surface, cosine);
+    return isfinite(pdf) ? emitter->probability * pdf : 0.0f;
+}
+
+aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view) {
+    if (surface->emitter == AUR_NO_EMITTER || !(aur_vector_dot(view, surface->geometric_normal) > 0.0f))
+        return (aur_vector){0};
+    const aur_emitter *const emitter = scene->emitters[surface->emitter];
+    return aur_emitter_glows(emitter) ? aur_color_at(&emitter->radiance, surface->texture) : (aur_vector){0};
+}
+
+bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power) {
+    float rest[5] = {u[0], u[1], u[2], u[3], u[4]};
+    const aur_emitter *const emitter = choose(scene, &rest[0]);
+    if (emitter == NULL || !emitter->descriptor->emit(emitter, rest, ray, power))
+        return false;
+    *power = aur_vector_scale(*power, 1.0f / emitter->probability);
+    return true;
+}
+
+bool aur_scene_has_environment(const aur_scene *scene) {
+    return scene->environment_count > 0;
+}
+
+aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction) {
+    aur_vector sum = {0};
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        sum = aur_vector_add(sum, emitter->descriptor->radiance_from(emitter, direction));
+    }
+    return sum;
+}
+
+float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        sum += emitter->probability * emitter->descriptor->pdf_from(emitter, direction);
+    }
+    return sum;
+}
+
+aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, float *pdf) {
+    aur_vector sum = {0};
+    *pdf = 0.0f;
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        float density;
+        sum = aur_vector_add(sum, aur_emitter_light_from(emitter, direction, &density));
+        *pdf += emitter->probability * density;
+    }
+    return sum;
+}
+
+size_t aur_scene_emitter_count(const aur_scene *scene) {
+    return scene->emitter_count;
+}

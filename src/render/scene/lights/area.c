@@ -1,0 +1,216 @@
+/* Surfaces that emit the same radiance in all directions of the side that their normal shows. */
+#include <stdlib.h>
+
+#include "render/scene/emitter.h"
+#include "render/scene/lights/spherical_rectangle.h"
+#include "render/scene/materials/sampling.h"
+#include "render/scene/scene_data.h"
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_COLOR(aur_emitter, "radiance", radiance, 1e30, "1", "emitted radiance, RGB")},
+};
+
+static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    return aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
+}
+
+/* How points of the shape are drawn. */
+typedef struct area_light {
+    const aur_shape *shape;
+    aur_distribution triangles; /* of meshes, by area */
+    bool is_mesh, is_rectangle;
+    aur_rectangle_light rectangle; /* drawn by the solid angle under which it is seen */
+    const aur_rectangle_kernels *kernels;
+} area_light;
+
+/* Points that are drawn lie off the surface by more than they are rounded, so that rays to them do not end at
+ * the light itself just before. */
+static aur_vector lifted(aur_vector position, const aur_shape_point *on) {
+    return aur_vector_add_scaled(position, on->offset, on->normal);
+}
+
+/* `on`: any of its points. */
+static bool find_rectangle(const aur_shape *shape, const aur_shape_point *on, aur_rectangle *rectangle) {
+    const aur_vector corner = aur_mesh_position(&shape->mesh, 0);
+    const aur_vector x = aur_vector_subtract(aur_mesh_position(&shape->mesh, 1), corner);
+    const aur_vector y = aur_vector_subtract(aur_mesh_position(&shape->mesh, 3), corner);
+    *rectangle = (aur_rectangle){.corner = lifted(corner, on),
+                                 .x = aur_vector_normalize(x),
+                                 .y = aur_vector_normalize(y),
+                                 .width = aur_vector_length(x),
+                                 .height = aur_vector_length(y)};
+    return fabsf(aur_vector_dot(rectangle->x, rectangle->y)) < 1e-4f;
+}
+
+static aur_result find_triangles(area_light *light, aur_error *error) {
+    const aur_mesh *const mesh = &light->shape->mesh;
+    double *const areas = malloc(mesh->triangle_count * sizeof *areas);
+    if (areas == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(mesh, i, corner);
+        areas[i] = aur_triangle_area(corner);
+    }
+    const aur_result result = aur_distribution_create(&light->triangles, mesh->triangle_count, areas, error);
+    free(areas);
+    return result;
+}
+
+static aur_result prepare(aur_emitter *emitter, aur_error *error) {
+    const aur_shape *const shape = emitter->scene->shapes[emitter->shape];
+    if (shape->curved != NULL && shape->curved->sample == NULL)
+        return aur_fail_at(error, emitter->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter 'area': a shape '%s' cannot be a light", shape->descriptor->row.name);
+    if (!(shape->area > 0.0))
+        return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
+                           "emitter 'area': its shape has no area, so it gives no light");
+    emitter->extent = AUR_PI * shape->area;
+    area_light *const light = emitter->data = calloc(1, sizeof *light);
+    if (light == NULL)
+        return aur_fail_memory_at(error, emitter->location);
+    light->shape = shape;
+    light->is_mesh = emitter->needs_choice = shape->curved == NULL && !shape->parallelogram;
+    if (shape->parallelogram) {
+        const aur_shape_point on = aur_shape_sample(shape, NULL, (const float[3]){0.0f});
+        light->rectangle.normal = on.normal;
+        light->is_rectangle = find_rectangle(shape, &on, &light->rectangle.rectangle);
+    }
+    light->rectangle.area = (float)shape->area;
+    light->rectangle.radiance = emitter->radiance.constant;
+    light->kernels = aur_rectangle_kernels_here();
+    return light->is_mesh ? find_triangles(light, error) : AUR_OK;
+}
+
+static void release(aur_emitter *emitter) {
+    aur_distribution_release(&((area_light *)emitter->data)->triangles);
+}
+
+static aur_shape_point sample_area(const area_light *light, const float u[3]) {
+    if (light->is_rectangle) {
+        const aur_rectangle *const r = &light->rectangle.rectangle;
+        const aur_vector along = aur_vector_add_scaled(r->corner, u[1] * r->width, r->x);
+        return (aur_shape_point){.position = aur_vector_add_scaled(along, u[2] * r->height, r->y),
+                                 .normal = light->rectangle.normal,
+                                 .texture = {.u = u[1], .v = u[2]}};
+    }
+    return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
+}
+
+/* A density: a steradian, or where by_area over that of points drawn uniformly by area. */
+typedef struct area_density {
+    float value;
+    bool by_area;
+} area_density;
+
+/* By what the reference sees of the shape, where that is to be had. */
+static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query,
+                                   area_density *density) {
+    const aur_curved *const curved = light->shape->curved;
+    const aur_light_reference *const reference = &query->reference;
+    const float *const u = query->u;
+    aur_shape_point point;
+    *density = (area_density){0.0f, false};
+    if (curved != NULL && curved->sample_seen != NULL &&
+        curved->sample_seen(light->shape, reference->position, u[1], u[2], &point, &density->value))
+        return point;
+    if (light->is_rectangle) {
+        const aur_seen_rectangle seen = aur_rectangle_see(&light->rectangle.rectangle, reference);
+        float along[3] = {0.0f};
+        *density =
+            (area_density){aur_seen_rectangle_draw(&seen, u[1], u[2], &along[1], &along[2]), seen.by_area};
+        return sample_area(light, along);
+    }
+    *density = (area_density){1.0f, true};
+    return sample_area(light, u);
+}
+
+static area_density density_of(const area_light *light, const aur_light_reference *reference,
+                               const aur_surface *surface) {
+    const aur_curved *const curved = light->shape->curved;
+    if (curved != NULL && curved->pdf_seen != NULL) {
+        const float pdf = curved->pdf_seen(light->shape, reference->position);
+        if (pdf > 0.0f)
+            return (area_density){pdf, false};
+    }
+    if (!light->is_rectangle)
+        return (area_density){1.0f, true};
+    const aur_rectangle *const r = &light->rectangle.rectangle;
+    const aur_vector way = aur_vector_subtract(surface->position, r->corner);
+    const aur_seen_rectangle seen = aur_rectangle_see(r, reference);
+    return (area_density){aur_seen_rectangle_density(&seen, aur_vector_dot(way, r->x) / r->width,
+                                                     aur_vector_dot(way, r->y) / r->height),
+                          seen.by_area};
+}
+
+/* A steradian, at a distance and under a cosine. */
+static float pdf_of(const area_light *light, area_density density, float squared, float cosine) {
+    return density.by_area ? density.value * squared / (cosine * light->rectangle.area) : density.value;
+}
+
+static float pdf_seen(const aur_emitter *emitter, const aur_light_reference *reference,
+                      const aur_surface *surface, float cosine) {
+    const area_light *const light = emitter->data;
+    const aur_vector way = aur_vector_subtract(surface->position, reference->position);
+    return pdf_of(light, density_of(light, reference, surface), aur_vector_dot(way, way), cosine);
+}
+
+/* What a point of the shape gives to the reference. */
+static bool finish_sample(const aur_emitter *emitter, aur_vector reference, const aur_shape_point *point,
+                          area_density density, aur_light_sample *drawn) {
+    const aur_vector way = aur_vector_subtract(point->position, reference);
+    const float squared = aur_vector_dot(way, way);
+    drawn->delta = false;
+    drawn->distance = sqrtf(squared);
+    drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
+    const float cosine = -aur_vector_dot(drawn->direction, point->normal);
+    if (!(cosine > 0.0f) || !(squared > 0.0f))
+        return false;
+    const area_light *const light = emitter->data;
+    drawn->position = light->is_rectangle ? point->position : lifted(point->position, point);
+    drawn->normal = point->normal;
+    drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
+    drawn->pdf = pdf_of(light, density, squared, cosine);
+    return isfinite(drawn->pdf);
+}
+
+static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
+    area_density density;
+    const aur_shape_point point = sample_seen(emitter->data, query, &density);
+    return finish_sample(emitter, query->reference.position, &point, density, drawn);
+}
+
+static bool sample_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
+                         const float *u, const float *v, aur_light_lanes *drawn) {
+    (void)lanes; /* all sixteen, which costs as much */
+    const area_light *const light = emitter->data;
+    if (!light->is_rectangle || emitter->radiance.texture != NULL)
+        return false;
+    aur_rectangle_light all = light->rectangle;
+    all.probability = emitter->probability;
+    light->kernels->lanes(&all, references, u, v, drawn);
+    return true;
+}
+
+static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const aur_shape_point point = sample_area(emitter->data, u);
+    const aur_frame frame = aur_frame_about(point.normal);
+    const aur_surface surface = {
+        .position = point.position, .geometric_normal = point.normal, .offset = point.offset};
+    *ray = aur_surface_ray(&surface, aur_frame_to_world(&frame, aur_sample_cosine(u[3], u[4])));
+    *power = aur_vector_scale(aur_color_at(&emitter->radiance, point.texture),
+                              AUR_PI_F * ((const area_light *)emitter->data)->rectangle.area);
+    return true;
+}
+
+const aur_emitter_descriptor aur_emitter_area = {
+    .row = {.name = "area", .summary = "a shape that emits from the side of its normal", AUR_ROW_KEYS(keys)},
+    .needs_shape = true,
+    .create = create,
+    .prepare = prepare,
+    .sample = sample,
+    .lanes = sample_lanes,
+    .emit = emit,
+    .release = release,
+    .pdf_seen = pdf_seen,
+};

@@ -1,0 +1,300 @@
+/* Light from beyond the scene, from a picture. */
+#include "render/scene/lights/envmap.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/image/image.h"
+#include "render/scene/emitter.h"
+#include "render/scene/lights/envmap_body.h"
+#include "render/scene/scene_data.h"
+
+static void release_envmap(aur_emitter *emitter) {
+    aur_envmap *const self = emitter->data;
+    aur_patches_release(&self->patches);
+    free(self->heights);
+    free(self->texels);
+}
+
+typedef struct envmap_keys {
+    const char *filename;
+    double scale;
+    aur_transform to_world;
+    bool mis_compensation; /* read, and of no use */
+} envmap_keys;
+
+static const aur_key envmap_keys_table[] = {
+    {AUR_KEY_OF_TEXT(envmap_keys, "filename", filename, NULL,
+                     "the picture, beside the scene; must be given")},
+    {AUR_KEY_OF_REAL(envmap_keys, "scale", scale, 0.0, 1e30, "1", "radiance is the picture's times this")},
+    {AUR_KEY_OF_TRANSFORM(envmap_keys, "to_world", to_world, "a rotation")},
+    {AUR_KEY_OF_BOOLEAN(envmap_keys, "mis_compensation", mis_compensation, "false",
+                        "of no effect: directions are drawn by the picture alone")},
+};
+
+static aur_vector color_of(aur_texel texel) {
+    return (aur_vector){texel[0], texel[1], texel[2]};
+}
+
+/* The texels, with the first column at the end once more. */
+static aur_result keep_picture(size_t width, size_t height, const float *rgb, float scale, aur_envmap *self) {
+    self->width = width;
+    self->rows = height - 1;
+    self->texels = malloc((width + 1) * height * sizeof *self->texels);
+    for (size_t k = 0; self->texels != NULL && k < (width + 1) * height; ++k) {
+        const float *const from = &rgb[3 * (k / (width + 1) * width + k % (width + 1) % width)];
+        aur_texel texel = {from[0] * scale, from[1] * scale, from[2] * scale};
+        texel[3] = aur_luminance(color_of(texel));
+        self->texels[k] = texel;
+    }
+    return self->texels != NULL ? AUR_OK : AUR_ERROR_MEMORY;
+}
+
+static aur_result read_picture(const aur_parameters *parameters, const aur_parameter *held,
+                               const envmap_keys *p, aur_envmap *self, aur_error *error) {
+    if (p->filename == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'envmap' needs the string 'filename'");
+    if (held == NULL || held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0)
+        return aur_fail_at(error, held != NULL ? held->location : parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'envmap': the picture is named by the string 'filename'");
+    const aur_image *const image = held->object;
+    const size_t width = aur_image_width(image), height = aur_image_height(image);
+    float *rgb = NULL;
+    aur_result result = aur_image_radiance(p->filename, image, &rgb, error);
+    if (result == AUR_OK && (width < 2 || height < 2))
+        result =
+            aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the picture must be at least 2 x 2");
+    else if (result == AUR_OK && keep_picture(width, height, rgb, (float)p->scale, self) != AUR_OK)
+        result = aur_fail_memory_at(error, parameters->location);
+    free(rgb);
+    return result;
+}
+
+static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    aur_envmap *const self = emitter->data = calloc(1, sizeof *self);
+    if (self == NULL)
+        return aur_fail_memory_at(error, parameters->location);
+    envmap_keys p = {.filename = NULL};
+    const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
+    aur_transform to_local;
+    aur_result result = aur_row_read(&emitter->descriptor->row, parameters, &p, error);
+    if (result == AUR_OK)
+        result = aur_to_world_check(parameters, &p.to_world, &to_local, error);
+    if (result == AUR_OK)
+        result = read_picture(parameters, held, &p, self, error);
+    if (result != AUR_OK)
+        return result;
+    aur_vector *const axes[3] = {&self->frame.x, &self->frame.y, &self->frame.z};
+    for (size_t i = 0; i < 3; ++i)
+        *axes[i] = aur_vector_normalize(
+            aur_transform_direction_f(&p.to_world, (aur_vector){i == 0, i == 1, i == 2}));
+    const float skew = fabsf(aur_vector_dot(self->frame.x, self->frame.y)) +
+                       fabsf(aur_vector_dot(self->frame.y, self->frame.z)) +
+                       fabsf(aur_vector_dot(self->frame.z, self->frame.x));
+    if (skew > 1e-3f)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED, "'to_world' may only turn");
+    emitter->extent = AUR_PI;
+    return AUR_OK;
+}
+
+static const aur_texel *texel_at(const aur_envmap *self, size_t i, size_t j) {
+    return &self->texels[j * (self->width + 1) + i];
+}
+
+/* Patches by the means of their corners' luminances. */
+static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
+    aur_envmap *const self = emitter->data;
+    const size_t width = self->width, rows = self->rows;
+    double *const radiance = malloc((width + 1) * rows * sizeof *radiance);
+    self->heights = malloc((rows + 1) * sizeof *self->heights);
+    if (radiance == NULL || self->heights == NULL) {
+        free(radiance);
+        return aur_fail_memory_at(error, emitter->location);
+    }
+    for (size_t j = 0; j <= rows; ++j)
+        self->heights[j] = (float)cos(AUR_PI * (double)j / (double)rows);
+    double *const rises = radiance + width * rows;
+    for (size_t j = 0; j < rows; ++j) {
+        for (size_t i = 0; i < width; ++i) {
+            const aur_texel *const upper = texel_at(self, i, j), *const lower = texel_at(self, i, j + 1);
+            radiance[j * width + i] = 0.25 * (double)(upper[0][3] + upper[1][3] + lower[0][3] + lower[1][3]);
+        }
+        rises[j] = cos(AUR_PI * (double)j / (double)rows) - cos(AUR_PI * (double)(j + 1) / (double)rows);
+    }
+    const aur_result result = aur_patches_create(&self->patches, rows, width, radiance, rises, error);
+    free(radiance);
+    emitter->brightness = aur_patches_integral(&self->patches);
+    self->density = aur_patches_density(&self->patches, 1.0f);
+    self->kernels = aur_envmap_kernels_here();
+    return result;
+}
+
+/* --- what shines at a place */
+
+/* The density follows the radiance within patches, too: were it the same all over a patch, the ratio of both
+ * would jump from patch to patch, and what is even among the numbers that draw would be lost. It is
+ * interpolated by the height because a point in proportion to it is then drawn without a search. */
+static aur_vector light_at(const aur_envmap *self, const aur_envmap_place *at, float *pdf) {
+    const aur_texel *const row = texel_at(self, at->i, at->j), *const next = row + self->width + 1;
+    const aur_texel upper = row[0] + at->s * (row[1] - row[0]);
+    const aur_texel lower = next[0] + at->s * (next[1] - next[0]);
+    *pdf = self->density * ((1.0f - at->w) * upper[3] + at->w * lower[3]);
+    return color_of((1.0f - at->t) * upper + at->t * lower);
+}
+
+static void corners_of(const aur_envmap *self, size_t i, size_t j, float corner[4]) {
+    const aur_texel *const row = texel_at(self, i, j), *const next = row + self->width + 1;
+    corner[0] = row[0][3];
+    corner[1] = row[1][3];
+    corner[2] = next[0][3];
+    corner[3] = next[1][3];
+}
+
+static aur_vector envmap_light_from(const aur_emitter *emitter, aur_vector direction, float *pdf) {
+    const aur_envmap *const self = emitter->data;
+    const aur_envmap_place at = envmap_find(self, direction);
+    return light_at(self, &at, pdf);
+}
+
+static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
+    float unused;
+    return envmap_light_from(emitter, direction, &unused);
+}
+
+static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
+    float pdf;
+    envmap_light_from(emitter, direction, &pdf);
+    return pdf;
+}
+
+static aur_vector draw_direction(const aur_envmap *self, float u, float v, aur_envmap_place *at) {
+    size_t i, j;
+    aur_patches_choose(&self->patches, &u, &v, &i, &j);
+    *at = (aur_envmap_place){(uint32_t)i, (uint32_t)j, u, 0.0f, v};
+    float corner[4];
+    corners_of(self, i, j, corner);
+    return envmap_draw(self, corner, at);
+}
+
+static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
+    const aur_envmap *const self = emitter->data;
+    aur_envmap_place at;
+    const aur_vector direction = draw_direction(self, query->u[1], query->u[2], &at);
+    if (aur_vector_dot(query->reference.normal, direction) < 0.0f)
+        return false;
+    aur_sample_far(emitter->scene, query->reference.position, direction, drawn);
+    drawn->radiance = light_at(self, &at, &drawn->pdf);
+    return drawn->pdf > 0.0f;
+}
+
+/* --- sixteen at once: what all of them will read of the tables is asked for before it is read */
+
+/* The patches that the lanes' numbers fall on. */
+static void choose_patches(const aur_envmap *self, uint32_t lanes, const float *u, const float *v,
+                           aur_envmap_places *places) {
+    *places = (aur_envmap_places){0};
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        places->s[k] = u[k];
+        places->w[k] = v[k];
+        places->j[k] = (uint32_t)aur_distribution_choose(&self->patches.rows, &places->w[k]);
+        aur_distribution_prefetch_guide(&self->patches.cells[places->j[k]], (double)u[k]);
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        aur_distribution_prefetch_items(&self->patches.cells[places->j[k]], (double)u[k]);
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        places->i[k] = (uint32_t)aur_distribution_choose(&self->patches.cells[places->j[k]], &places->s[k]);
+        const aur_texel *const row = texel_at(self, places->i[k], places->j[k]);
+        __builtin_prefetch(row);
+        __builtin_prefetch(row + self->width + 1);
+    }
+}
+
+static aur_vector light_of_lane(const aur_envmap *self, const aur_envmap_places *places, size_t k,
+                                float *pdf) {
+    const aur_envmap_place at = {places->i[k], places->j[k], places->s[k], places->t[k], places->w[k]};
+    return light_at(self, &at, pdf);
+}
+
+static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
+                         const float *u, const float *v, aur_light_lanes *drawn) {
+    const aur_envmap *const self = emitter->data;
+    aur_envmap_places places;
+    aur_lane_vectors directions;
+    aur_lane_numbers corner[4];
+    choose_patches(self, lanes, u, v, &places);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        float own[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+        if ((lanes >> k & 1u) != 0)
+            corners_of(self, places.i[k], places.j[k], own);
+        for (size_t c = 0; c < 4; ++c)
+            corner[c][k] = own[c];
+    }
+    self->kernels->draw(self, (const aur_lane_numbers *)corner, &places, &directions);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        const aur_vector direction = aur_lane_vector(&directions, k);
+        drawn->rivals[k] = 1.0f;
+        drawn->pdf[k] = 0.0f;
+        if (aur_vector_dot(aur_lane_vector(references->normal, k), direction) < 0.0f)
+            continue;
+        aur_light_sample far;
+        aur_sample_far(emitter->scene, aur_lane_vector(references->position, k), direction, &far);
+        float pdf;
+        aur_lane_set(&drawn->position, k, far.position);
+        aur_lane_set(&drawn->direction, k, direction);
+        aur_lane_set(&drawn->radiance, k, light_of_lane(self, &places, k, &pdf));
+        drawn->pdf[k] = pdf * emitter->probability;
+    }
+    return true;
+}
+
+static void envmap_lights_from(const aur_emitter *emitter, uint32_t lanes, const aur_lane_vectors *directions,
+                               aur_lane_vectors *radiance, float *pdf) {
+    const aur_envmap *const self = emitter->data;
+    aur_envmap_places places;
+    self->kernels->find(self, directions, &places);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        const aur_texel *const row = texel_at(self, places.i[k], places.j[k]);
+        __builtin_prefetch(row);
+        __builtin_prefetch(row + self->width + 1);
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
+        aur_lane_set(radiance, k, light_of_lane(self, &places, k, &pdf[k]));
+    }
+}
+
+static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const aur_envmap *const self = emitter->data;
+    aur_envmap_place at;
+    return aur_emit_environment(emitter, draw_direction(self, u[1], u[2], &at), u[3], u[4], ray, power);
+}
+
+const aur_emitter_descriptor aur_emitter_envmap = {
+    .row = {.name = "envmap",
+            .summary = "a latitude-longitude picture around the scene, +y up",
+            AUR_ROW_KEYS(envmap_keys_table)},
+    .is_far = true,
+    .create = create_envmap,
+    .prepare = prepare_envmap,
+    .sample = sample_envmap,
+    .lanes = envmap_lanes,
+    .emit = emit_envmap,
+    .release = release_envmap,
+    .radiance_from = envmap_from,
+    .pdf_from = envmap_pdf,
+    .light_from = envmap_light_from,
+    .lights_from = envmap_lights_from,
+};
+
+static const aur_envmap_kernels aur_envmap_kernels_portable = AUR_ENVMAP_KERNELS;
+
+const aur_envmap_kernels *aur_envmap_kernels_here(void) {
+    return &AUR_KERNEL_HERE(aur_envmap_kernels);
+}

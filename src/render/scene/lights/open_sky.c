@@ -1,0 +1,139 @@
+#include "render/scene/lights/open_sky.h"
+
+#include <aureole/text.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "points/base/vector3d.h"
+#include "render/scene/scene_data.h"
+
+static bool is_zero(const double v[3]) {
+    return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0;
+}
+
+/* The up and north that are to hold; `north` may stay 0, which leaves it to `up`. */
+static void find_axes(const aur_scene *scene, double up[3], double north[3]) {
+    for (size_t i = 0; i < scene->environment_count && is_zero(up); ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        if (emitter->descriptor->position_of == NULL)
+            continue;
+        const aur_sun_position *const at = emitter->descriptor->position_of(emitter);
+        memcpy(up, at->up, sizeof at->up);
+        if (is_zero(north))
+            memcpy(north, at->north, sizeof at->north);
+    }
+    const char *const file = scene->document.root->location.file;
+    const char *const dot = file != NULL ? strrchr(file, '.') : NULL;
+    if (is_zero(up))
+        up[dot != NULL && strcasecmp(dot, ".rad") == 0 ? 2 : 1] = 1.0;
+}
+
+static aur_result add_number(aur_parameters *parameters, aur_parameter_kind kind, const char *name,
+                             size_t count, const double *values, aur_error *error) {
+    char text[128] = "";
+    for (size_t i = 0, length = 0; i < count; ++i)
+        length +=
+            (size_t)aur_format(text + length, sizeof text - length, i > 0 ? " %.17g" : "%.17g", values[i]);
+    return aur_parameters_add_text(parameters, kind, name, text, parameters->location, error);
+}
+
+static aur_result create_sky(double ground, const double up[3], const double north[3], aur_emitter **sky,
+                             aur_error *error) {
+    static const double one[3] = {1.0, 1.0, 1.0};
+    const double below[3] = {ground, ground, ground};
+    aur_parameters parameters;
+    aur_result result = aur_parameters_init(&parameters, "emitter", "sky", (aur_location){0}, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_parameters_add_text(&parameters, AUR_PARAMETER_STRING, "model", "uniform",
+                                     parameters.location, error);
+    if (result == AUR_OK)
+        result = add_number(&parameters, AUR_PARAMETER_COLOR, "zenith_radiance", 3, one, error);
+    if (result == AUR_OK)
+        result = add_number(&parameters, AUR_PARAMETER_COLOR, "ground", 3, below, error);
+    if (result == AUR_OK)
+        result = add_number(&parameters, AUR_PARAMETER_VECTOR, "up", 3, up, error);
+    if (result == AUR_OK && !is_zero(north))
+        result = add_number(&parameters, AUR_PARAMETER_VECTOR, "north", 3, north, error);
+    if (result == AUR_OK)
+        result = aur_emitter_create(&parameters, sky, error);
+    aur_parameters_release(&parameters);
+    return result;
+}
+
+/* The view: a copy of what the scene points to, with lights of its own. */
+typedef struct view {
+    aur_scene scene; /* first, so that it is found from its scene */
+    aur_emitter *dark, *sky;
+} view;
+
+/* The lights stay where shapes know them by their index, but dark; the sky comes after them. */
+static aur_result set_lights(const aur_scene *scene, view *made, aur_open_sky *open, aur_error *error) {
+    const size_t count = scene->emitter_count;
+    aur_scene *const copy = &made->scene;
+    double *const powers = calloc(count + 1, sizeof *powers);
+    made->dark = calloc(count + 1, sizeof *made->dark);
+    copy->emitters = calloc(count + 1, sizeof *copy->emitters);
+    copy->environments = calloc(1, sizeof *copy->environments);
+    aur_result result = AUR_OK;
+    if (powers == NULL || made->dark == NULL || copy->emitters == NULL || copy->environments == NULL) {
+        result = aur_fail_memory(error);
+    } else {
+        for (size_t i = 0; i < count; ++i) {
+            made->dark[i] = *scene->emitters[i];
+            made->dark[i].radiance = (aur_color){.texture = NULL};
+            made->dark[i].probability = 0.0f;
+            open->lamps += scene->emitters[i]->descriptor->radiance_from == NULL;
+            copy->emitters[i] = &made->dark[i];
+        }
+        copy->environments[0] = copy->emitters[count] = made->sky;
+        copy->emitter_count = count + 1;
+        copy->environment_count = 1;
+        made->sky->index = (uint32_t)count;
+        made->sky->scene = copy;
+        made->sky->probability = 1.0f;
+        powers[count] = 1.0;
+        result = made->sky->descriptor->prepare(made->sky, error);
+        if (result == AUR_OK)
+            result = aur_distribution_create(&copy->lights, count + 1, powers, error);
+    }
+    free(powers);
+    return result;
+}
+
+aur_result aur_open_sky_create(const aur_scene *scene, double ground, const double up[3],
+                               const double north[3], aur_open_sky *open, aur_error *error) {
+    *open = (aur_open_sky){.scene = NULL};
+    double own_up[3] = {up[0], up[1], up[2]}, own_north[3] = {north[0], north[1], north[2]};
+    find_axes(scene, own_up, own_north);
+    view *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory(error);
+    made->scene = *scene;
+    made->scene.emitters = NULL;
+    made->scene.environments = NULL;
+    made->scene.lights = (aur_distribution){0};
+    open->scene = &made->scene;
+    aur_result result = create_sky(ground, own_up, own_north, &made->sky, error);
+    if (result == AUR_OK)
+        result = set_lights(scene, made, open, error);
+    if (result == AUR_OK)
+        open->frame = *made->sky->descriptor->position_of(made->sky);
+    else
+        aur_open_sky_release(open);
+    return result;
+}
+
+void aur_open_sky_release(aur_open_sky *open) {
+    view *const made = (view *)(uintptr_t)open->scene;
+    if (made == NULL)
+        return;
+    aur_emitter_destroy(made->sky);
+    free(made->dark);
+    free(made->scene.emitters);
+    free(made->scene.environments);
+    aur_distribution_release(&made->scene.lights);
+    free(made);
+    *open = (aur_open_sky){.scene = NULL};
+}

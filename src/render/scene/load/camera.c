@@ -1,0 +1,321 @@
+/* The camera with its film, filter and sampler, and the integrator. */
+#include <aureole/sphere.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/text.h"
+#include "points/sphere/native.h"
+#include "render/scene/load/loader.h"
+
+/* How many objects are around those of a camera; what lies deeper is part of a camera in a batch. */
+enum { DEPTH_OF_SENSOR, DEPTH_OF_FILM, DEPTH_OF_FILTER };
+
+/* Whether a film, its filter or a sampler belongs to a camera in a batch, whose own takes its place. */
+static bool is_left_out(const aur_loader *self, const aur_parameters *parameters, size_t depth) {
+    if (self->depth <= depth)
+        return false;
+    aur_warn_at(self->warnings, parameters->location,
+                "the %s of a sensor in a batch is left out: the batch has one for all", parameters->kind);
+    return true;
+}
+
+aur_result aur_build_filter(aur_loader *self, aur_parameters *parameters, void **object) {
+    *object = &self->scene->filter;
+    if (is_left_out(self, parameters, DEPTH_OF_FILTER))
+        return AUR_OK;
+    return aur_filter_create(parameters, &self->scene->filter, self->error);
+}
+
+/* Warns of the parameters whose keys say in their help that they are of no effect. */
+static void warn_unused(aur_loader *self, aur_parameters *parameters, const aur_row *row) {
+    static const char start[] = "of no effect: ";
+    for (size_t i = 0; i < row->key_count; ++i) {
+        const aur_key *const key = &row->keys[i];
+        const bool unused = strncmp(key->help, start, sizeof start - 1) == 0;
+        const aur_parameter *const item = unused ? aur_parameters_find(parameters, key->name) : NULL;
+        if (item != NULL)
+            aur_warn_at(self->warnings, item->location, "%s '%s': '%s' has no effect: %s", parameters->kind,
+                        parameters->plugin, key->name, key->help + sizeof start - 1);
+    }
+}
+
+/* What is read of a film; a crop of -1 is not given. */
+typedef struct film_keys {
+    int64_t width, height, crop_x, crop_y, crop_width, crop_height;
+    const aur_parameter *rfilter;
+} film_keys;
+
+enum { LARGEST_SIDE = 65536 };
+
+static const aur_key film_key_table[] = {
+    {AUR_KEY_OF_INTEGER(film_keys, "width", width, 1, LARGEST_SIDE, "768", "of the picture, pixels"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(film_keys, "height", height, 1, LARGEST_SIDE, "576", "of the picture, pixels"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_offset_x", crop_x, 0, LARGEST_SIDE - 1, "0",
+                        "left edge of the part to render")},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_offset_y", crop_y, 0, LARGEST_SIDE - 1, "0",
+                        "upper edge of the part to render")},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_width", crop_width, 1, LARGEST_SIDE, "width",
+                        "of the part to render"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_height", crop_height, 1, LARGEST_SIDE, "height",
+                        "of the part to render"),
+     .computed = true},
+    {AUR_KEY_OF_ITEM(film_keys, "rfilter", rfilter, "gaussian", "how samples are weighed around a pixel",
+                     "rfilter")},
+    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "file_format", NULL, "not needed: the output file's name says it")},
+    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "pixel_format", NULL, "not needed: pictures are RGB")},
+    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "component_format", NULL,
+                        "not needed: pictures are 32-bit floats where the format has them")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "banner", NULL, "of no effect: pictures carry none")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "high_quality_edges", NULL, "of no effect: all edges are")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "sample_border", NULL,
+                        "of no effect: samples are drawn by the filter")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "compensate", NULL, "of no effect: sums are exact enough")},
+    {AUR_KEY_READ_APART(AUR_KEY_REAL, "gamma", NULL, "of no effect: pictures are linear, PNG is sRGB"),
+     .maximum = INFINITY},
+};
+
+static const aur_row hdrfilm = {
+    .name = "hdrfilm", .summary = "the picture", .source = "Mitsuba 3", AUR_ROW_KEYS(film_key_table)};
+static const aur_row ldrfilm = {
+    .name = "ldrfilm", .summary = "read as hdrfilm", .source = "Mitsuba 0.6", AUR_ROW_KEYS(film_key_table)};
+static const aur_row *const film_rows[] = {&hdrfilm, &ldrfilm};
+
+const aur_table aur_film_table = {.kind = "film", .summary = "sizes of pictures", AUR_TABLE_ROWS(film_rows)};
+
+/* The part of the picture that is to be rendered. */
+static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
+                           aur_error *error) {
+    const int64_t wide = p->crop_width < 0 ? p->width : p->crop_width;
+    const int64_t high = p->crop_height < 0 ? p->height : p->crop_height;
+    film->width = (size_t)p->width;
+    film->height = (size_t)p->height;
+    if (p->crop_x + wide > p->width || p->crop_y + high > p->height)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "the crop of %lld x %lld at %lld, %lld is not inside %zu x %zu",
+                                   (long long)wide, (long long)high, (long long)p->crop_x,
+                                   (long long)p->crop_y, film->width, film->height);
+    if (wide == p->width && high == p->height)
+        return AUR_OK;
+    film->crop_x0 = (size_t)p->crop_x;
+    film->crop_x1 = (size_t)(p->crop_x + wide);
+    film->crop_y0 = (size_t)p->crop_y;
+    film->crop_y1 = (size_t)(p->crop_y + high);
+    return AUR_OK;
+}
+
+aur_result aur_build_film(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_film_settings *const film = &self->scene->film;
+    *object = film;
+    if (is_left_out(self, parameters, DEPTH_OF_FILM))
+        return AUR_OK;
+    const aur_row *row;
+    aur_result result = aur_table_find(&aur_film_table, parameters, &row, self->error);
+    if (result != AUR_OK)
+        return result;
+    if (strcmp(row->name, "ldrfilm") == 0)
+        aur_warn_at(self->warnings, parameters->location,
+                    "film 'ldrfilm' is read as 'hdrfilm': write to a .png file for 8 bits");
+    film_keys p = {
+        .width = (int64_t)film->width, .height = (int64_t)film->height, .crop_width = -1, .crop_height = -1};
+    void *filter = NULL;
+    result = aur_keys_read(row->key_count, row->keys, parameters, &p, self->error);
+    if (result == AUR_OK)
+        result = set_crop(&p, parameters, film, self->error);
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "rfilter", &filter);
+    if (result != AUR_OK)
+        return result;
+    if (filter != NULL)
+        film->filter = filter;
+    warn_unused(self, parameters, row);
+    return aur_parameters_finish(parameters, self->error);
+}
+
+/* Samplers by other names, and the point sets that take their place. */
+static const char *set_for_sampler(const char *plugin) {
+    static const char *const others[][2] = {{"independent", "random"},
+                                            {"stratified", "sobol"},
+                                            {"multijitter", "sobol"},
+                                            {"orthogonal", "sobol"},
+                                            {"ldsampler", "sobol"}};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+        if (strcmp(others[i][0], plugin) == 0)
+            return others[i][1];
+    return plugin;
+}
+
+static const aur_key sampler_keys[] = {
+    {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples a pixel"),
+     .minimum = 1.0, .maximum = AUR_SAMPLES_PER_PIXEL_MAX, .computed = true},
+    {AUR_KEY_READ_APART(AUR_KEY_INTEGER, "seed", NULL, "of no effect: give it on the command line"),
+     .maximum = INFINITY},
+};
+
+static const aur_row sampler_common = {
+    .name = "sampler", .summary = "what every sampler takes", AUR_ROW_KEYS(sampler_keys)};
+
+const aur_table aur_sampler_table = {.kind = "sampler",
+                                     .summary = "the numbers of a camera's samples: any set of the square",
+                                     AUR_TABLE_ROWS(aur_set_rows),
+                                     .common = &sampler_common};
+
+aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    *object = scene;
+    if (is_left_out(self, parameters, DEPTH_OF_FILM))
+        return AUR_OK;
+    aur_result result =
+        aur_keys_read(sampler_common.key_count, sampler_common.keys, parameters, scene, self->error);
+    if (result != AUR_OK)
+        return result;
+    warn_unused(self, parameters, &sampler_common);
+    /* Parameters that are left are keys of the set. */
+    char text[1024];
+    const char *const set = set_for_sampler(parameters->plugin);
+    const aur_row *row;
+    if (set == parameters->plugin && strncmp(set, "file:", 5) != 0)
+        result = aur_table_find(&aur_sampler_table, parameters, &row, self->error);
+    if (result != AUR_OK)
+        return result;
+    int used = snprintf(text, sizeof text, "%s", set);
+    for (size_t i = 0, keys = 0; i < parameters->count && used < (int)sizeof text; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        if (item->used || item->text == NULL)
+            continue;
+        if (set != parameters->plugin) {
+            if (strcmp(item->name, "jitter") != 0 && strcmp(item->name, "dimension") != 0 &&
+                strcmp(item->name, "strength") != 0)
+                break;
+            aur_warn_at(self->warnings, item->location, "sampler '%s': '%s' has no effect: it is read as %s",
+                        parameters->plugin, item->name, set);
+        } else {
+            used += snprintf(text + used, sizeof text - (size_t)used, "%c%s=%s", keys++ == 0 ? ':' : ',',
+                             item->name, item->text);
+        }
+        item->used = true;
+    }
+    result = aur_parameters_finish(parameters, self->error);
+    if (result != AUR_OK)
+        return result;
+    if (used >= (int)sizeof text)
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT, "its keys are too long");
+    free(scene->sampler);
+    scene->sampler = NULL;
+    result = aur_xml_find_set(&scene->document, parameters->location, text, &scene->sampler, self->error);
+    *object = scene->sampler;
+    return result;
+}
+
+/* Where a camera goes: that of the scene, or the next one of a batch. */
+static aur_result place_sensor(aur_loader *self, const aur_parameters *parameters, aur_sensor **sensor) {
+    aur_scene *const scene = self->scene;
+    *sensor = &scene->sensor;
+    if (self->depth == DEPTH_OF_SENSOR)
+        return AUR_OK;
+    if (strcmp(parameters->plugin, "batch") == 0)
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
+                                   "it cannot stand inside another one");
+    const aur_result result =
+        aur_loader_reserve(self, &scene->parts, scene->part_count, &scene->part_capacity);
+    if (result != AUR_OK)
+        return result;
+    *sensor = calloc(1, sizeof **sensor);
+    if (*sensor == NULL)
+        return aur_fail_memory_at(self->error, parameters->location);
+    scene->parts[scene->part_count++] = *sensor;
+    return AUR_OK;
+}
+
+/* The cameras of a batch have been built. They stand in one medium. */
+static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, const aur_medium *medium) {
+    aur_scene *const scene = self->scene;
+    scene->sensor.part_count = scene->part_count;
+    scene->sensor.parts = scene->parts;
+    for (size_t i = 0; i < scene->part_count; ++i) {
+        const aur_medium *const here = scene->parts[i]->medium != NULL ? scene->parts[i]->medium : medium;
+        if (i > 0 && here != scene->sensor.medium)
+            return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
+                                       "its sensors must stand in one medium, not in several");
+        scene->sensor.medium = here;
+    }
+    return AUR_OK;
+}
+
+aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_sensor *sensor;
+    /* A nested film and sampler have been built, and have set those of the scene. */
+    void *inner;
+    aur_result result = place_sensor(self, parameters, &sensor);
+    *object = sensor;
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "film", &inner);
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "sampler", &inner);
+    void *medium = NULL;
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "medium", &medium);
+    if (result != AUR_OK)
+        return result;
+    scene->has_sensor = true;
+    const aur_row *row;
+    warn_unused(self, parameters, aur_sensor_table.common);
+    result = aur_table_find(&aur_sensor_table, parameters, &row, self->error);
+    if (result != AUR_OK)
+        return result;
+    warn_unused(self, parameters, row);
+    result = aur_sensor_create(parameters, sensor, self->error);
+    sensor->medium = medium;
+    return result == AUR_OK && sensor == &scene->sensor ? set_parts(self, parameters, medium) : result;
+}
+
+/* <integrator type="moment">: what stands inside takes its place. */
+static aur_result unwrap_moment(aur_loader *self, aur_parameters *parameters) {
+    aur_scene *const scene = self->scene;
+    if (aur_parameters_find(parameters, "integrator") == NULL || !scene->has_nested_integrator)
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT,
+                                   "it needs an <integrator> inside");
+    aur_warn_at(self->warnings, parameters->location,
+                "integrator 'moment' is read as the one inside it, '%s', without second moments",
+                scene->nested_integrator.plugin);
+    scene->integrator = scene->nested_integrator;
+    scene->nested_integrator = (aur_parameters){0};
+    scene->has_nested_integrator = false;
+    return aur_parameters_finish(parameters, self->error);
+}
+
+aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    const bool nested = self->node != self->top;
+    bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
+    aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
+    *object = made;
+    if (*has && nested)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "a second <integrator> inside another: one is the most");
+    if (*has) {
+        aur_warn_at(self->warnings, parameters->location, "a second integrator is left out");
+        return AUR_OK;
+    }
+    *has = true;
+    if (!nested && strcmp(parameters->plugin, "moment") == 0)
+        return unwrap_moment(self, parameters);
+    for (size_t i = 0; i < parameters->count; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        char *set;
+        if (item->kind != AUR_PARAMETER_STRING)
+            continue;
+        /* Sets that a scene names in files are looked for where its meshes are. */
+        const aur_result result =
+            aur_xml_find_set(&scene->document, item->location, item->text, &set, self->error);
+        if (result != AUR_OK)
+            return result;
+        free(item->text);
+        item->text = set;
+    }
+    return aur_parameters_copy(parameters, made, self->error);
+}

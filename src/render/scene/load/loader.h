@@ -1,0 +1,57 @@
+/* The walk from the tree of elements to the objects of a scene, and what builds an object of each kind. */
+#pragma once
+
+#include "render/image/image.h"
+#include "render/scene/scene_data.h"
+
+typedef struct aur_loader aur_loader;
+
+/* Builds the object that the loader's `node` is; `parameters` holds its properties and nested objects. */
+typedef aur_result aur_object_builder(aur_loader *self, aur_parameters *parameters, void **object);
+
+typedef struct aur_object_kind {
+    const char *tag;
+    aur_object_builder *build;
+} aur_object_kind;
+
+struct aur_loader {
+    aur_scene *scene;
+    const aur_warnings *warnings;
+    size_t kind_count;
+    const aur_object_kind *kinds;
+    const aur_bsdf *default_bsdf; /* of shapes that name none; NULL before the first */
+    const aur_bsdf *black_bsdf;   /* of lights that name none; NULL before the first */
+    const aur_xml_node *top;      /* the child of <scene> that is being built */
+    const aur_xml_node *node;     /* the node, that one or one inside it, whose builder runs */
+    bool said_unpolarized;        /* that light is, which is said once */
+    aur_image *image;             /* the last picture of a texture, or NULL */
+    char *image_name;
+    size_t depth; /* objects that are being built, each inside the one before */
+    aur_error *error;
+};
+
+/* The type of a <shape> whose inner shapes become no parameters: it goes through them itself. */
+#define AUR_GROUP_PLUGIN "shapegroup"
+
+/* The kind that a tag stands for, or NULL. */
+const aur_object_kind *aur_loader_find_kind(const aur_loader *self, const char *tag);
+/* Builds the object of a node, unless it has been built. */
+aur_result aur_loader_build(aur_loader *self, aur_xml_node *node);
+/* The object that a child is or refers to; it may not be built yet. */
+aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml_node **target);
+/* The nested object that is called by its kind, or NULL when it is absent. A texture may be given any name,
+ * and a number or a string too: they are refused. */
+aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const char *kind, void **object);
+/* The same for a medium, which is called by what it is for. */
+aur_result aur_loader_medium(aur_loader *self, aur_parameters *parameters, const char *name, void **medium);
+/* Whether a <shape> of this type is made of others: a group or an instance. */
+bool aur_is_shape_of_shapes(const char *plugin);
+/* Forgets the last picture. */
+void aur_loader_drop_image(aur_loader *self);
+/* Makes room for one more pointer in one of the scene's arrays, `array` being its address. */
+aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_t *capacity);
+
+aur_object_builder aur_build_bsdf, aur_build_texture, aur_build_emitter, aur_build_shape;
+aur_object_builder aur_build_medium, aur_build_phase, aur_build_volume;
+aur_object_builder aur_build_film, aur_build_filter, aur_build_sampler, aur_build_sensor;
+aur_object_builder aur_build_integrator;

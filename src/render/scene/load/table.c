@@ -1,0 +1,142 @@
+/* Every kind of object, and the walk over the children of <scene>. */
+#include <string.h>
+
+#include "render/scene/load/loader.h"
+#include "render/scene/load/properties.h"
+#include "render/scene/load/spectrum.h"
+
+static const aur_object_kind kinds[] = {
+    {"shape", aur_build_shape},     {"bsdf", aur_build_bsdf},       {"texture", aur_build_texture},
+    {"emitter", aur_build_emitter}, {"sensor", aur_build_sensor},   {"film", aur_build_film},
+    {"rfilter", aur_build_filter},  {"sampler", aur_build_sampler}, {"integrator", aur_build_integrator},
+    {"medium", aur_build_medium},   {"phase", aur_build_phase},     {"volume", aur_build_volume},
+};
+
+/* Whether a child of <scene> is a part of something else: it is built when that refers to it. */
+static bool is_part(const aur_xml_node *node) {
+    static const char *const parts[] = {"film", "rfilter", "sampler"};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+        if (strcmp(node->tag, parts[i]) == 0)
+            return true;
+    return false;
+}
+
+static aur_result build_top(aur_loader *self, aur_xml_node *node) {
+    static const char *const names[] = {"integrator", "sensor",  "shape",  "bsdf",    "emitter", "texture",
+                                        "film",       "default", "alias",  "include", "path",    "ref",
+                                        "rfilter",    "sampler", "medium", "phase",   "volume"};
+    if (is_part(node))
+        return aur_xml_attribute_value(node, "id") != NULL
+                   ? AUR_OK
+                   : aur_xml_fail(
+                         node, self->error,
+                         "<%s> cannot stand here: it belongs inside a <%s>, or needs an 'id' by which "
+                         "one refers to it",
+                         node->tag, strcmp(node->tag, "rfilter") == 0 ? "film" : "sensor");
+    if (aur_loader_find_kind(self, node->tag) == NULL)
+        return aur_xml_fail_tag(node, sizeof names / sizeof names[0], names, self->error);
+    if (strcmp(node->tag, "sensor") == 0 && self->scene->has_sensor) {
+        aur_warn_at(self->warnings, node->location, "a second sensor is left out");
+        return AUR_OK;
+    }
+    self->top = node;
+    return aur_loader_build(self, node);
+}
+
+/* What only the whole scene can tell of a child of <scene>: whether something refers to it. */
+static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
+    if (is_part(node) && node->state == AUR_XML_UNBUILT)
+        aur_warn_at(self->warnings, node->location, "nothing refers to this <%s>: it is left out", node->tag);
+    if (strcmp(node->tag, "emitter") != 0)
+        return AUR_OK;
+    const aur_emitter *const emitter = node->object;
+    if (!emitter->descriptor->needs_shape || emitter->shape != UINT32_MAX)
+        return AUR_OK;
+    return aur_xml_fail(node, self->error, "emitter '%s' must stand inside a <shape>, or a shape refer to it",
+                        emitter->descriptor->row.name);
+}
+
+/* The table of what an element may be, or NULL where its type is not one of these. Films and filters count
+ * where they stand in the scene's own sensor: those of a sensor in a `batch` are left out, and so are those
+ * at scene level that nothing refers to. */
+static const aur_table *table_of(const aur_xml_node *node, const char *plugin, size_t depth) {
+    const struct {
+        const char *tag;
+        const aur_table *table;
+        size_t depth; /* 0: any */
+    } tables[] = {{"bsdf", &aur_bsdf_table, 0},         {"texture", &aur_texture_table, 0},
+                  {"shape", &aur_shape_table, 0},       {"emitter", &aur_emitter_table, 0},
+                  {"sensor", &aur_sensor_table, 0},     {"medium", &aur_medium_table, 0},
+                  {"phase", &aur_phase_table, 0},       {"volume", &aur_volume_table, 0},
+                  {"spectrum", &aur_spectrum_table, 0}, {"film", &aur_film_table, 1},
+                  {"rfilter", &aur_filter_table, 2}};
+    if (strcmp(node->tag, "shape") == 0 && aur_is_shape_of_shapes(plugin))
+        return NULL;
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; ++i)
+        if (strcmp(node->tag, tables[i].tag) == 0)
+            return tables[i].depth == 0 || tables[i].depth == depth ? tables[i].table : NULL;
+    return NULL;
+}
+
+/* The error of an element whose type is not known. */
+static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *error) {
+    const char *const plugin = aur_xml_attribute_value(node, "type");
+    const aur_table *const table = plugin != NULL ? table_of(node, plugin, depth) : NULL;
+    if (table == NULL)
+        return AUR_OK;
+    aur_parameters parameters;
+    const aur_row *row;
+    aur_result result = aur_parameters_init(&parameters, node->tag, plugin, node->location, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_table_find(table, &parameters, &row, error);
+    aur_parameters_release(&parameters);
+    return result;
+}
+
+/* Finds all elements whose type is not known, before anything is read: the last one found is the error, and
+ * the others are warnings before it. */
+static void refuse_unknown(const aur_loader *self, const aur_xml_node *node, size_t depth, aur_error *last) {
+    bool has_sensor = false;
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        const bool sensor = strcmp(child->tag, "sensor") == 0;
+        if (sensor && has_sensor && depth == 0)
+            continue;
+        has_sensor = has_sensor || sensor;
+        aur_error error = {0};
+        if (check_type(child, depth, &error) != AUR_OK) {
+            aur_warn_error(self->warnings, last);
+            *last = error;
+        }
+        refuse_unknown(self, child, depth + 1, last);
+    }
+}
+
+aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
+    aur_loader self = {.scene = scene,
+                       .warnings = warnings,
+                       .kind_count = sizeof kinds / sizeof kinds[0],
+                       .kinds = kinds,
+                       .error = error};
+    scene->film = (aur_film_settings){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
+    scene->samples_per_pixel = 4;
+    aur_xml_node *const root = scene->document.root;
+    aur_error *const left_out = &scene->document.left_out;
+    refuse_unknown(&self, root, 0, left_out);
+    if (left_out->result != AUR_OK)
+        return aur_fail_at(error, (aur_location){left_out->file, left_out->line, left_out->column},
+                           left_out->result, "%s", left_out->message);
+    aur_result result = AUR_OK;
+    for (aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
+        result = build_top(&self, node);
+    aur_loader_drop_image(&self);
+    for (const aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
+        result = check_top(&self, node);
+    if (result != AUR_OK)
+        return result;
+    if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
+        return aur_fail_memory(error);
+    if (scene->has_integrator)
+        return AUR_OK;
+    return aur_parameters_init(&scene->integrator, "integrator", "path", root->location, error);
+}

@@ -1,0 +1,139 @@
+/* The table of materials, and making them by name: a new one is one file, which defines aur_bsdf_<name>, and
+ * one line here. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/scene/materials/texture.h"
+
+#define MATERIALS(ROW)                                                                                       \
+    ROW(diffuse)                                                                                             \
+    ROW(twosided)                                                                                            \
+    ROW(phong)                                                                                               \
+    ROW(phong_lobe)                                                                                          \
+    ROW(conductor)                                                                                           \
+    ROW(roughconductor)                                                                                      \
+    ROW(dielectric)                                                                                          \
+    ROW(glass)                                                                                               \
+    ROW(thindielectric)                                                                                      \
+    ROW(roughdielectric)                                                                                     \
+    ROW(plastic)                                                                                             \
+    ROW(roughplastic)                                                                                        \
+    ROW(pplastic)                                                                                            \
+    ROW(principled)                                                                                          \
+    ROW(principledthin)                                                                                      \
+    ROW(mask)                                                                                                \
+    ROW(blendbsdf)                                                                                           \
+    ROW(bumpmap)                                                                                             \
+    ROW(normalmap)                                                                                           \
+    ROW(null)                                                                                                \
+    ROW(polarizer)                                                                                           \
+    ROW(retarder)                                                                                            \
+    ROW(circular)
+
+#define DECLARE(name) extern const aur_bsdf_descriptor aur_bsdf_##name;
+MATERIALS(DECLARE)
+
+#define ADDRESS(name) &aur_bsdf_##name.row,
+static const aur_row *const rows[] = {MATERIALS(ADDRESS)};
+
+const aur_table aur_bsdf_table = {
+    .kind = "bsdf", .summary = "materials: how surfaces scatter light", AUR_TABLE_ROWS(rows)};
+
+/* A material that names another one twice, in a chain of such, is asked 2^n times. */
+enum { MOST_ASKED = 1 << 12 };
+
+static aur_result count_asked(const aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    bsdf->asked = 1;
+    for (size_t i = 0; i < parameters->count; ++i) {
+        const aur_parameter *const item = &parameters->items[i];
+        if (item->kind == AUR_PARAMETER_OBJECT && strcmp(item->object_kind, "bsdf") == 0)
+            bsdf->asked += ((const aur_bsdf *)item->object)->asked;
+    }
+    return bsdf->asked <= MOST_ASKED ? AUR_OK
+                                     : aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                                                   "bsdf '%s' has %zu bsdfs inside, counted as often as they "
+                                                   "are named, and at most %d can be "
+                                                   "rendered",
+                                                   parameters->plugin, bsdf->asked - 1, (int)MOST_ASKED - 1);
+}
+
+/* What a material has from the textures and materials among its parameters. */
+static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        const aur_parameter *const item = &parameters->items[i];
+        if (item->kind != AUR_PARAMETER_OBJECT)
+            continue;
+        const aur_bsdf *const nested = strcmp(item->object_kind, "bsdf") == 0 ? item->object : NULL;
+        bsdf->textured = bsdf->textured || nested == NULL || nested->textured;
+        if (nested == NULL && strcmp(item->object_kind, "texture") == 0)
+            aur_attributes_add(&bsdf->attributes, &((const aur_texture *)item->object)->attributes);
+        if (nested != NULL)
+            aur_attributes_add(&bsdf->attributes, &nested->attributes);
+        bsdf->bumpy = bsdf->bumpy || (nested != NULL && nested->bumpy);
+        bsdf->anisotropic = bsdf->anisotropic || (nested != NULL && nested->anisotropic);
+    }
+}
+
+static unsigned kind_of(const aur_bsdf_lobe *lobe) {
+    switch (lobe->shape) {
+    case AUR_LOBE_SHAPE_SPECULAR:
+        return AUR_SCATTERS_SPECULAR;
+    case AUR_LOBE_SHAPE_SAMPLED:
+        return AUR_SCATTERS_SAMPLED;
+    case AUR_LOBE_SHAPE_COSINE_POWER:
+        break;
+    }
+    return lobe->diffuse ? AUR_SCATTERS_DIFFUSE : AUR_SCATTERS_GLOSSY;
+}
+
+/* What follows from the lobes. */
+static void summarise(aur_bsdf *bsdf) {
+    bsdf->plain_diffuse = !bsdf->textured;
+    for (size_t i = 0; i < bsdf->lobe_count; ++i) {
+        const aur_bsdf_lobe *const lobe = &bsdf->lobes[i];
+        for (size_t side = 0; side < 2; ++side)
+            bsdf->scatters[side] |= (lobe->sides >> side & 1u) != 0 ? kind_of(lobe) : 0;
+        bsdf->transmits = bsdf->transmits || lobe->transmits;
+        bsdf->passes =
+            bsdf->passes || (lobe->shape == AUR_LOBE_SHAPE_SPECULAR && lobe->way == AUR_LOBE_WAY_STRAIGHT);
+        bsdf->plain_diffuse = bsdf->plain_diffuse && lobe->diffuse && lobe->factor == NULL;
+    }
+    bsdf->scatters_from_behind = bsdf->scatters[1] != 0;
+}
+
+static aur_result fill(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    bsdf->data = calloc(1, bsdf->descriptor->size);
+    if (bsdf->data == NULL)
+        return aur_fail_memory_at(error, parameters->location);
+    aur_result result = aur_colors_read(&bsdf->descriptor->row, parameters, bsdf->data, error);
+    if (result == AUR_OK)
+        result = count_asked(parameters, bsdf, error);
+    if (result == AUR_OK)
+        result = bsdf->descriptor->create(parameters, bsdf, error);
+    if (result == AUR_OK && bsdf->lobe_count > AUR_BSDF_LOBE_CAPACITY)
+        result = aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                             "bsdf '%s' has %zu lobes that differ, and at most %d can be rendered",
+                             parameters->plugin, bsdf->lobe_count, (int)AUR_BSDF_LOBE_CAPACITY);
+    return result;
+}
+
+aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
+    *bsdf = NULL;
+    const aur_row *row;
+    aur_result result = aur_table_find(&aur_bsdf_table, parameters, &row, error);
+    if (result != AUR_OK)
+        return result;
+    aur_bsdf *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory_at(error, parameters->location);
+    made->descriptor = (const aur_bsdf_descriptor *)row;
+    result = fill(parameters, made, error);
+    if (result != AUR_OK) {
+        aur_bsdf_destroy(made);
+        return result;
+    }
+    inherit(parameters, made);
+    summarise(made);
+    *bsdf = made;
+    return AUR_OK;
+}

@@ -1,0 +1,280 @@
+/* A picture; (0, 0) is its top left corner and (1, 1) its bottom right one. */
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "render/image/channels.h"
+#include "render/scene/materials/texture.h"
+
+typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;
+
+typedef struct bitmap {
+    size_t width, height;
+    float *rgb;     /* 3 * width * height */
+    float *heights; /* the same with negative values, or NULL where there are none */
+    aur_uv_map to_uv;
+    enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
+    wrap_mode wrap;
+    /* Read, and of no use afterwards: */
+    bool raw, accelerated;
+    int format;
+    enum { CHANNEL_RGB, CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_ALPHA } channel;
+    float factor[3], cutoff;
+    const char *path;
+    aur_uv_keys uv;
+} bitmap;
+
+/* What sRGB stores for a linear value: undoes the reader's decoding for `raw` pictures of 8 bits. */
+static float encode(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+static bool has_8_bits(const char *path) {
+    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga"};
+    const char *const dot = strrchr(path, '.');
+    for (size_t i = 0; dot != NULL && i < sizeof endings / sizeof endings[0]; ++i)
+        if (strcasecmp(dot, endings[i]) == 0)
+            return true;
+    return false;
+}
+
+/* The channels of red, green and blue, or grey three times, with their signs; what is NaN becomes 0. */
+static aur_result take_rgb(const aur_image *image, const size_t channel[3], float **rgb, aur_error *error) {
+    const float largest = 65504.0f; /* the largest half: what other renderers make of infinity */
+    const size_t count = image->width * image->height;
+    *rgb = malloc((3 * count + 1) * sizeof **rgb);
+    if (*rgb == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t k = 0; k < 3; ++k) {
+            const float value = image->data[i * image->channel_count + channel[k]];
+            (*rgb)[3 * i + k] = isfinite(value) ? value : isnan(value) ? 0.0f : copysignf(largest, value);
+        }
+    }
+    return AUR_OK;
+}
+
+/* Whether there was a negative value. */
+static bool cut_negative(float *rgb, size_t count) {
+    bool found = false;
+    for (size_t i = 0; i < count; ++i) {
+        found = found || rgb[i] < 0.0f;
+        rgb[i] = fmaxf(rgb[i], 0.0f);
+    }
+    return found;
+}
+
+aur_result aur_image_radiance(const char *name, const aur_image *image, float **rgb, aur_error *error) {
+    size_t channel[3];
+    *rgb = NULL;
+    aur_result result = aur_image_require_color(name, image, channel, error);
+    if (result == AUR_OK)
+        result = take_rgb(image, channel, rgb, error);
+    if (result == AUR_OK)
+        cut_negative(*rgb, 3 * image->width * image->height);
+    return result;
+}
+
+/* The channels that the key `channel` names; none of alpha where there is none. */
+static aur_result choose_channels(const bitmap *self, const aur_image *image, size_t channel[3],
+                                  aur_error *error) {
+    if (self->channel == CHANNEL_ALPHA) {
+        const char *const layer =
+            aur_image_color_channels(image, channel) ? image->channel_names[channel[0]] : "";
+        channel[0] = channel[1] = channel[2] = aur_image_find_role(image, layer, AUR_CHANNEL_ALPHA);
+        return AUR_OK;
+    }
+    const aur_result result = aur_image_require_color(self->path, image, channel, error);
+    if (result == AUR_OK && self->channel != CHANNEL_RGB)
+        channel[0] = channel[1] = channel[2] = channel[self->channel - CHANNEL_RED];
+    return result;
+}
+
+/* What the keys make of the picture. Colours are not negative, heights may be. */
+static aur_result take_texels(bitmap *self, const aur_image *image, aur_error *error) {
+    size_t channel[3];
+    self->width = image->width;
+    self->height = image->height;
+    aur_result result = choose_channels(self, image, channel, error);
+    const bool opaque = result == AUR_OK && channel[0] == SIZE_MAX;
+    if (opaque)
+        channel[0] = channel[1] = channel[2] = 0;
+    if (result == AUR_OK)
+        result = take_rgb(image, channel, &self->rgb, error);
+    const bool encodes = self->raw && self->channel != CHANNEL_ALPHA && has_8_bits(self->path);
+    const size_t count = 3 * self->width * self->height;
+    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
+        float value = opaque ? 1.0f : encodes ? encode(self->rgb[i]) : self->rgb[i];
+        value *= self->factor[i % 3];
+        self->rgb[i] = !(self->cutoff > 0.0f) ? value : value < self->cutoff ? 0.0f : 1.0f;
+    }
+    if (result != AUR_OK)
+        return result;
+    self->heights = malloc((count + 1) * sizeof *self->heights);
+    if (self->heights == NULL)
+        return aur_fail_memory(error);
+    memcpy(self->heights, self->rgb, count * sizeof *self->heights);
+    if (!cut_negative(self->rgb, count)) {
+        free(self->heights);
+        self->heights = NULL;
+    }
+    return AUR_OK;
+}
+
+static void note_range(aur_texture *texture, const bitmap *self) {
+    double sum[3] = {0.0, 0.0, 0.0};
+    const size_t count = self->width * self->height;
+    for (size_t i = 0; i < 3 * count; ++i) {
+        sum[i % 3] += (double)self->rgb[i];
+        texture->maximum = fmaxf(texture->maximum, self->rgb[i]);
+    }
+    const double n = (double)count;
+    texture->mean = (aur_vector){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n)};
+}
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_CHOICE(bitmap, "filter_type", filter, "bilinear", "between pixels", "bilinear", "nearest")},
+    {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode", wrap, "repeat", "beyond the picture", "repeat", "mirror",
+                       "clamp")},
+    {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
+    {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "the picture, beside the scene; must be given")},
+    {AUR_KEY_OF_CHOICE(bitmap, "format", format, "variant",
+                       "of no effect: texels are kept in single precision", "variant", "fp16", "float16",
+                       "uint8", "auto")},
+    {AUR_KEY_OF_CHOICE(bitmap, "channel", channel, "rgb",
+                       "what of the picture is used; alpha is 1 in a picture that has none", "rgb", "red",
+                       "green", "blue", "alpha")},
+    {AUR_KEY_OF_VECTOR(bitmap, "factor", factor, 0.0, 1e30, "1 1 1", "factors of red, green and blue")},
+    {AUR_KEY_OF_REAL(bitmap, "cutoff", cutoff, 0.0, 1e30, "0",
+                     "if above 0: texels become 1 from there on, after the factor, and 0 below")},
+    {AUR_KEY_OF_BOOLEAN(bitmap, "accel", accelerated, "true", "of no effect")},
+    AUR_UV_KEYS(bitmap),
+};
+
+static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
+    bitmap *const self = texture->data;
+    /* A model's picture, which is in memory. */
+    const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
+    aur_image *image = NULL;
+    if (held != NULL && (held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0))
+        return aur_fail_at(error, held->location, AUR_ERROR_FORMAT,
+                           "texture 'bitmap': the picture is named by the string 'filename'");
+    aur_result result = aur_row_read(&texture->descriptor->row, parameters, self, error);
+    if (result == AUR_OK && self->path == NULL)
+        result = aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                             "texture 'bitmap' needs the string 'filename'");
+    if (result == AUR_OK && held == NULL)
+        result = aur_image_read(self->path, &image, error);
+    if (result == AUR_OK)
+        result = take_texels(self, held != NULL ? held->object : image, error);
+    aur_image_destroy(image);
+    if (result != AUR_OK)
+        return result;
+    texture->aspect = (float)self->width / (float)self->height;
+    self->to_uv = aur_uv_map_of(&self->uv);
+    note_range(texture, self);
+    return AUR_OK;
+}
+
+static void release(aur_texture *texture) {
+    bitmap *const self = texture->data;
+    free(self->rgb);
+    free(self->heights);
+}
+
+static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
+    if ((uint64_t)index < size) /* no division where nothing is to be wrapped */
+        return (size_t)index;
+    const int64_t n = (int64_t)size;
+    if (mode == WRAP_CLAMP)
+        return (size_t)(index < 0 ? 0 : index < n ? index : n - 1);
+    const int64_t period = mode == WRAP_MIRROR ? 2 * n : n;
+    /* Division of 32 bits takes a third of the time. */
+    int64_t rest = index == (int32_t)index && period == (int32_t)period ? (int32_t)index % (int32_t)period
+                                                                        : index % period;
+    if (rest < 0)
+        rest += period;
+    return (size_t)(rest < n ? rest : period - 1 - rest);
+}
+
+static aur_vector texel_at(const bitmap *self, size_t x, size_t y) {
+    const float *const rgb = &self->rgb[3 * (y * self->width + x)];
+    return (aur_vector){rgb[0], rgb[1], rgb[2]};
+}
+
+static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
+    return texel_at(self, wrapped(x, self->width, self->wrap), wrapped(y, self->height, self->wrap));
+}
+
+static float height_at(const bitmap *self, int64_t x, int64_t y) {
+    const size_t at =
+        wrapped(y, self->height, self->wrap) * self->width + wrapped(x, self->width, self->wrap);
+    const float *const rgb = &(self->heights != NULL ? self->heights : self->rgb)[3 * at];
+    return aur_luminance((aur_vector){rgb[0], rgb[1], rgb[2]});
+}
+
+/* The texel left above a point, and how far beyond the middle of it the point lies, in texels. */
+typedef struct texel_place {
+    int64_t i, j;
+    float s, t;
+} texel_place;
+
+static bool place_of(const bitmap *self, aur_bsdf_point point, texel_place *place) {
+    const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, point.u, point.v);
+    const float offset = self->filter == FILTER_NEAREST ? 0.0f : 0.5f;
+    const float x = at.u * (float)self->width - offset, y = at.v * (float)self->height - offset;
+    if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
+        return false;
+    const float left = floorf(x), top = floorf(y);
+    *place = (texel_place){(int64_t)left, (int64_t)top, x - left, y - top};
+    return true;
+}
+
+static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
+    const bitmap *const self = texture->data;
+    texel_place at;
+    if (!place_of(self, point, &at))
+        return (aur_vector){0};
+    if (self->filter == FILTER_NEAREST)
+        return texel(self, at.i, at.j);
+    const float s = at.s, t = at.t;
+    const size_t x[2] = {wrapped(at.i, self->width, self->wrap), wrapped(at.i + 1, self->width, self->wrap)};
+    const size_t y[2] = {wrapped(at.j, self->height, self->wrap),
+                         wrapped(at.j + 1, self->height, self->wrap)};
+    aur_vector sum = aur_vector_scale(texel_at(self, x[0], y[0]), (1.0f - s) * (1.0f - t));
+    sum = aur_vector_add_scaled(sum, s * (1.0f - t), texel_at(self, x[1], y[0]));
+    sum = aur_vector_add_scaled(sum, (1.0f - s) * t, texel_at(self, x[0], y[1]));
+    return aur_vector_add_scaled(sum, s * t, texel_at(self, x[1], y[1]));
+}
+
+/* Of the bilinear patch that the point lies on. */
+static void slope(const aur_texture *texture, aur_bsdf_point point, float result[2]) {
+    const bitmap *const self = texture->data;
+    texel_place at;
+    result[0] = result[1] = 0.0f;
+    if (self->filter == FILTER_NEAREST || !place_of(self, point, &at))
+        return;
+    float corner[2][2];
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i)
+            corner[j][i] = height_at(self, at.i + i, at.j + j);
+    const float x = ((1.0f - at.t) * (corner[0][1] - corner[0][0]) + at.t * (corner[1][1] - corner[1][0])) *
+                    (float)self->width;
+    const float y = ((1.0f - at.s) * (corner[1][0] - corner[0][0]) + at.s * (corner[1][1] - corner[0][1])) *
+                    (float)self->height;
+    const float *const m = self->to_uv.m;
+    result[0] = m[0] * x + m[3] * y;
+    result[1] = m[1] * x + m[4] * y;
+}
+
+const aur_texture_descriptor aur_texture_bitmap = {
+    .row = {.name = "bitmap",
+            .summary = "a picture from an EXR, PFM, HDR, PNG, JPEG, BMP or TGA file",
+            .source = "",
+            AUR_ROW_KEYS(keys)},
+    .size = sizeof(bitmap),
+    .create = create,
+    .release = release,
+    .evaluate = evaluate,
+    .slope = slope,
+};

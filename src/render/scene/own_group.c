@@ -1,0 +1,63 @@
+#include "render/scene/own_group.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/array.h"
+
+/* A copy of `bytes` and as many more as arrays of meshes have; NULL stays NULL, which is no failure. */
+static void *copy_of(const void *array, size_t bytes, bool *good) {
+    void *const copy = array != NULL ? calloc(1, bytes + sizeof(double)) : NULL;
+    if (copy != NULL)
+        memcpy(copy, array, bytes);
+    *good = *good && (copy != NULL || array == NULL);
+    return copy;
+}
+
+static aur_shape *copy_shape(const aur_shape *from) {
+    aur_shape *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return NULL;
+    bool good = true;
+    *made = *from;
+    const aur_mesh *const mesh = &from->mesh;
+    const size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
+    made->file = copy_of(from->file, from->file != NULL ? strlen(from->file) + 1 : 0, &good);
+    made->flaws = (aur_face_flaws){0}; /* those of the first copy are told */
+    made->mesh.points = copy_of(mesh->points, 3 * vertices * sizeof(double), &good);
+    made->mesh.normals = copy_of(mesh->normals, 3 * vertices * sizeof(float), &good);
+    made->mesh.uvs = copy_of(mesh->uvs, 2 * vertices * sizeof(float), &good);
+    made->mesh.vertex_colors = copy_of(mesh->vertex_colors, 3 * vertices * sizeof(float), &good);
+    made->mesh.indices = copy_of(mesh->indices, 3 * triangles * sizeof(uint32_t), &good);
+    made->mesh.sources = copy_of(mesh->sources, triangles * sizeof(uint32_t), &good);
+    made->mesh.face_colors = copy_of(mesh->face_colors, 3 * triangles * sizeof(float), &good);
+    if (good)
+        return made;
+    aur_shape_destroy(made);
+    return NULL;
+}
+
+aur_result aur_instance_own_group(aur_scene *scene, aur_instance *instance, aur_error *error) {
+    const aur_shape_group *const from = instance->group;
+    if (!aur_array_reserve(&scene->groups, &scene->group_capacity, scene->group_count + 1,
+                           sizeof *scene->groups) ||
+        !aur_array_reserve(&scene->shapes, &scene->shape_capacity, scene->shape_count + from->count,
+                           sizeof *scene->shapes))
+        return aur_fail_memory(error);
+    aur_shape_group *const group = calloc(1, sizeof *group);
+    if (group == NULL)
+        return aur_fail_memory(error);
+    scene->groups[scene->group_count++] = group;
+    group->shapes = malloc((from->count + 1) * sizeof *group->shapes);
+    if (group->shapes == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < from->count; ++i) {
+        aur_shape *const copy = copy_shape(scene->shapes[from->shapes[i]]);
+        if (copy == NULL)
+            return aur_fail_memory(error);
+        copy->index = group->shapes[group->count++] = (uint32_t)scene->shape_count;
+        scene->shapes[scene->shape_count++] = copy;
+    }
+    instance->group = group;
+    return AUR_OK;
+}

@@ -1,0 +1,120 @@
+/* Sixteen rays at once, in Embree's own layout: an array a field, so that rays are made where they are traced
+ * and nothing is copied. Where the processor has registers for fewer, sixteen rays are traced as two packets
+ * of 8 or four of 4, which are copies: a rule of the processor, and nothing that depends on time.
+ *
+ * A packet is filled lane by lane (aur_packet_set), or by writing query.ray's arrays org_x .. tfar and valid
+ * in loops of 16. Lanes whose `valid` is 0 are not traced. */
+#pragma once
+
+#include "render/scene/embree.h"
+#include "render/scene/scene.h"
+
+enum { AUR_PACKET_SIZE = 16 };
+
+typedef struct aur_packet {
+    _Alignas(64) int valid[AUR_PACKET_SIZE]; /* -1: a ray, 0: none */
+    struct RTCRayHit16 query;                /* directions of unit length */
+} aur_packet;
+
+/* No rays; what all rays share is set. Once a packet, however often it is refilled. */
+void aur_packet_clear(aur_packet *packet);
+
+static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray *ray) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    packet->valid[lane] = -1;
+    rays->org_x[lane] = ray->origin.x;
+    rays->org_y[lane] = ray->origin.y;
+    rays->org_z[lane] = ray->origin.z;
+    rays->tnear[lane] = ray->nearest;
+    rays->dir_x[lane] = ray->direction.x;
+    rays->dir_y[lane] = ray->direction.y;
+    rays->dir_z[lane] = ray->direction.z;
+    rays->tfar[lane] = ray->farthest;
+}
+
+/* The ray of a lane, which ends at its hit once the packet has been traced. */
+static inline aur_ray aur_packet_ray(const aur_packet *packet, size_t lane) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
+                     .nearest = rays->tnear[lane],
+                     .direction = {rays->dir_x[lane], rays->dir_y[lane], rays->dir_z[lane]},
+                     .farthest = rays->tfar[lane]};
+}
+
+/* The nearest hits. Bit k of the result is set when the ray of lane k hits something; aur_packet_hit tells
+ * what. A hit's distance takes the place of tfar, so tfar must be set again before the next call. */
+uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+/* The same by single rays: the oracle of packets, and their rival. */
+uint32_t aur_scene_intersect_each(const aur_scene *scene, aur_packet *packet);
+aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
+
+/* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */
+uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+/* The same by single rays; changes nothing. */
+uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packet);
+
+/* --- what the sixteen hits need, an array a coordinate */
+
+typedef float aur_lane_numbers[AUR_PACKET_SIZE];
+
+typedef struct aur_lane_vectors {
+    aur_lane_numbers x, y, z;
+} aur_lane_vectors;
+
+static inline aur_vector aur_lane_vector(const aur_lane_vectors *vectors, size_t lane) {
+    return (aur_vector){vectors->x[lane], vectors->y[lane], vectors->z[lane]};
+}
+
+static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vector v) {
+    vectors->x[lane] = v.x;
+    vectors->y[lane] = v.y;
+    vectors->z[lane] = v.z;
+}
+
+/* Ask the memory for what aur_scene_surface will read of these lanes' hits: first where their vertices stand,
+ * then, by that, the vertices. In scenes that no cache holds the sixteen then come together instead of one
+ * after another. */
+void aur_packet_prefetch_indices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes);
+void aur_packet_prefetch_vertices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes);
+
+/* The corners of the triangles that the lanes whose bit is set have hit. They must be triangles of meshes
+ * that stand in no instance. */
+void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
+                        aur_lane_vectors corner[3]);
+
+/* Texture coordinates, and the mesh's colours there, of such a hit. */
+aur_bsdf_point aur_packet_texture(const aur_scene *scene, const aur_packet *packet, size_t lane);
+
+/* Sixteen aur_light_reference. */
+typedef struct aur_light_references {
+    const aur_lane_vectors *position, *normal;
+} aur_light_references;
+
+/* aur_light_sample_direct of sixteen points. */
+typedef struct aur_light_lanes {
+    aur_lane_vectors position, radiance;
+    aur_lane_vectors direction; /* set by aur_light_lanes_each only */
+    aur_lane_numbers pdf;       /* 0: no light from there */
+    aur_lane_numbers rivals;    /* 1, or 0 for lights that no ray finds */
+} aur_light_lanes;
+
+/* One of them, drawn by aur_light_lanes_each. */
+static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, size_t lane) {
+    return (aur_light_sample){.position = aur_lane_vector(&lights->position, lane),
+                              .direction = aur_lane_vector(&lights->direction, lane),
+                              .radiance = aur_lane_vector(&lights->radiance, lane),
+                              .pdf = lights->pdf[lane],
+                              .delta = lights->rivals[lane] == 0.0f};
+}
+
+/* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
+ * aur_light_chooses, and may then be NULL. To the bits of single samples; those of environment maps are drawn
+ * together. */
+void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                          const float *choice, const float *u, const float *v, aur_light_lanes *lights);
+/* The same, but for rounding: a light that stands alone and is a rectangle is drawn by vector code. */
+void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                            const float *choice, const float *u, const float *v, aur_light_lanes *lights);
+/* aur_environment_light for the lanes whose bit is set. */
+void aur_environment_lanes(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *directions,
+                           aur_lane_vectors *radiance, float *pdf);

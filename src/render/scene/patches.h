@@ -1,0 +1,47 @@
+/* Rows of patches that cover the sphere between circles of latitude: directions are drawn in proportion to
+ * how bright the patches are, and within each to the values at its corners, so that the density is continuous
+ * as radiance is. */
+#pragma once
+
+#include "points/base/vector.h"
+#include "render/scene/bilinear.h"
+#include "render/scene/distribution.h"
+
+typedef struct aur_patches {
+    size_t row_count, columns;
+    aur_distribution rows;   /* by the integral of what is bright */
+    aur_distribution *cells; /* [row_count], each over the columns, by what is bright */
+} aur_patches;
+
+/* radiance[row_count][columns], >= 0 and finite, and for each row how much the height, the cosine of the
+ * polar angle, changes over it. Errors: MEMORY; it is to be released then too. */
+aur_result aur_patches_create(aur_patches *patches, size_t row_count, size_t columns, const double *radiance,
+                              const double *rises, aur_error *error);
+void aur_patches_release(aur_patches *patches);
+
+/* The patch that u (along the columns) and v (along the rows) in [0,1) fall on; they become what is left. The
+ * integral must not be 0. */
+void aur_patches_choose(const aur_patches *patches, float *u, float *v, size_t *column, size_t *row);
+
+/* Moves u and v, uniform in a patch, so that what is drawn is in proportion to what the values at its corners
+ * are between them; one of them is not 0. */
+static inline void aur_patch_draw(const aur_bilinear *corners, float *u, float *v) {
+    const float *const w = corners->corner;
+    const float scale = 1.0f / (w[0] + w[1] + w[2] + w[3]);
+    aur_bilinear weights; /* which squares of neither overflow, nor are 0 beside each other */
+    for (size_t k = 0; k < 4; ++k)
+        weights.corner[k] = aur_larger(w[k] * scale, 1e-12f);
+    aur_bilinear_draw(&weights, u, v);
+}
+
+/* The integral over all directions of the radiance that was given. */
+static inline double aur_patches_integral(const aur_patches *patches) {
+    return patches->rows.total * 2.0 * AUR_PI / (double)patches->columns;
+}
+
+/* The density, a steradian, of directions that are drawn in proportion to what is bright: where it is
+ * `value`. Within a patch it may vary, if its mean over azimuth and height there is the one that was given.
+ */
+static inline float aur_patches_density(const aur_patches *patches, float value) {
+    return patches->rows.total > 0.0 ? (float)((double)value / aur_patches_integral(patches)) : 0.0f;
+}

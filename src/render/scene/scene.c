@@ -1,0 +1,332 @@
+/* Loading a scene, and asking it about itself. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/array.h"
+#include "points/base/options.h"
+#include "render/scene/importers/rad/rad.h"
+#include "render/scene/materials/sampling.h"
+#include "render/scene/overlap_cut.h"
+#include "render/scene/scene_data.h"
+
+static void find_sphere(aur_scene *scene) {
+    scene->center = aur_vector_scale(aur_vector_add(scene->lower, scene->upper), 0.5f);
+    const float radius = 0.5f * aur_vector_length(aur_vector_subtract(scene->upper, scene->lower));
+    scene->radius = radius > 0.0f ? 1.001f * radius : 1.0f;
+}
+
+/* The largest coordinate of a shape in the world, either side of 0. Corners beyond what Embree takes (1.8e18)
+ * are left out: it draws no triangle that has one. */
+static double reach_of(const aur_shape *shape, const double origin[3]) {
+    double reach = 0.0;
+    for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
+        double lower[3], upper[3];
+        shape->curved->bounds(shape, k, lower, upper);
+        for (size_t i = 0; i < 3; ++i)
+            reach = fmax(reach, fmax(fabs(lower[i] + origin[i]), fabs(upper[i] + origin[i])));
+    }
+    for (size_t i = 0; i < 3 * shape->mesh.vertex_count; ++i) {
+        const double size = fabs((double)shape->mesh.positions[i] + origin[i % 3]);
+        if (size > reach && size < 1.8e18)
+            reach = size;
+    }
+    return reach;
+}
+
+/* Rays leave surfaces by at least 1e-9 (AUR_LEAST_OFFSET), which in a tiny scene is as far as walls are. */
+static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
+    const double width = 2.0 * (double)scene->radius;
+    if (width < 1e-5)
+        aur_warn_at(warnings, scene->document.root->location,
+                    "the scene is %.2g wide, too small to be exact: scale it to 1e-5 or more", width);
+}
+
+/* The largest coordinate of the scene's bounds, counted from a point that is `origin` from its own. */
+static double bounds_reach(const aur_scene *scene, const double origin[3]) {
+    const double sides[6] = {scene->lower.x, scene->lower.y, scene->lower.z,
+                             scene->upper.x, scene->upper.y, scene->upper.z};
+    double reach = 0.0;
+    for (size_t i = 0; i < 6; ++i)
+        reach = fmax(reach, fabs(sides[i] + origin[i % 3]));
+    return reach;
+}
+
+/* Where rays may begin, in the space of an instance, must not be beyond what Embree takes, with room for
+ * what lies around the scene. */
+static aur_result check_instance(const aur_instance *instance, double reach, aur_error *error) {
+    const double *const m = instance->to_local.m;
+    for (size_t i = 0; i < 3; ++i)
+        if ((fabs(m[4 * i]) + fabs(m[4 * i + 1]) + fabs(m[4 * i + 2])) * reach + fabs(m[4 * i + 3]) > 1e17)
+            return aur_fail_at(error, instance->location, AUR_ERROR_FORMAT,
+                               "shape 'instance': 'to_world' shrinks too much for a scene that reaches to %g "
+                               "from the origin: seen from the shapes of the group that is more than 1e17",
+                               reach);
+    return AUR_OK;
+}
+
+/* How far a camera reaches from the origin. */
+static double sensor_reach(const aur_sensor *sensor) {
+    double reach = 0.0;
+    for (size_t i = 0; i < 12; ++i)
+        reach = fmax(reach, fabs((double)sensor->to_world[i]) * fmax(1.0, sensor->aperture_radius));
+    for (size_t i = 0; i < sensor->part_count; ++i)
+        reach = fmax(reach, sensor_reach(sensor->parts[i]));
+    return reach;
+}
+
+/* Refuses what is so far away that Embree would end the process. */
+static aur_result check_reach(const aur_scene *scene, aur_error *error) {
+    double reach = bounds_reach(scene, scene->origin);
+    const double most = 1.00001 * AUR_REACH; /* bounds are a little wider than shapes */
+    for (size_t i = 0; reach > most && i < scene->shape_count; ++i) {
+        const aur_shape *const shape = scene->shapes[i];
+        if (!shape->grouped && reach_of(shape, scene->origin) > most)
+            return aur_fail_at(error, shape->location, AUR_ERROR_FORMAT,
+                               "shape '%s' reaches to %g from the origin; %g is the most",
+                               shape->descriptor->row.name, reach_of(shape, scene->origin), AUR_REACH);
+    }
+    if (reach > most)
+        return aur_fail_at(error, scene->document.root->location, AUR_ERROR_FORMAT,
+                           "instances reach to %g from the origin; %g is the most", reach, AUR_REACH);
+    reach = fmax(bounds_reach(scene, (const double[3]){0.0}), sensor_reach(&scene->sensor));
+    for (size_t i = 0; i < scene->instance_count; ++i) {
+        const aur_result result = check_instance(scene->instances[i], reach, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return AUR_OK;
+}
+
+/* Of those that do not add up with others there may be one. */
+static aur_result add_environment(aur_scene *scene, const aur_emitter *emitter, aur_error *error) {
+    for (size_t i = 0; i < scene->environment_count && !emitter->descriptor->adds; ++i) {
+        const aur_emitter *const first = scene->environments[i];
+        if (!first->descriptor->adds)
+            return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
+                               "a second environment: the first is at %s:%zu:%zu", first->location.file,
+                               first->location.line, first->location.column);
+    }
+    if (!aur_array_reserve(&scene->environments, &scene->environment_capacity, scene->environment_count + 1,
+                           sizeof(aur_emitter *)))
+        return aur_fail_memory(error);
+    scene->environments[scene->environment_count++] = emitter;
+    return AUR_OK;
+}
+
+/* Lights on meshes without area give no light: they are left out with a warning, as such faces are. */
+static void leave_out_dark_lights(aur_scene *scene, const aur_warnings *warnings) {
+    size_t kept = 0, count = 0;
+    aur_location first = {0};
+    for (size_t i = 0; i < scene->emitter_count; ++i) {
+        aur_emitter *const emitter = scene->emitters[i];
+        aur_shape *const shape = emitter->shape < scene->shape_count ? scene->shapes[emitter->shape] : NULL;
+        if (shape != NULL && shape->curved == NULL && !(shape->area > 0.0)) {
+            first = count++ == 0 ? emitter->location : first;
+            shape->emitter = AUR_NO_EMITTER;
+            aur_emitter_destroy(emitter);
+            continue;
+        }
+        if (shape != NULL)
+            shape->emitter = (uint32_t)kept;
+        emitter->index = (uint32_t)kept;
+        scene->emitters[kept++] = emitter;
+    }
+    scene->emitter_count = kept;
+    if (count > 0)
+        aur_warn_at(warnings, first, "%zu lights have no area and give no light (the first is here)", count);
+}
+
+static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
+    double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
+    if (powers == NULL)
+        return aur_fail_memory(error);
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < scene->emitter_count && result == AUR_OK; ++i) {
+        aur_emitter *const emitter = scene->emitters[i];
+        emitter->scene = scene;
+        emitter->brightness = (double)aur_luminance(aur_color_mean(&emitter->radiance));
+        if (emitter->descriptor->prepare != NULL)
+            result = emitter->descriptor->prepare(emitter, error);
+        emitter->power = emitter->extent;
+        if (emitter->descriptor->is_far)
+            emitter->power = emitter->power * (double)scene->radius * (double)scene->radius;
+        powers[i] = emitter->power *= emitter->brightness;
+        if (emitter->descriptor->radiance_from == NULL)
+            continue;
+        if (result == AUR_OK)
+            result = add_environment(scene, emitter, error);
+    }
+    if (result == AUR_OK)
+        result = aur_distribution_create(&scene->lights, scene->emitter_count, powers, error);
+    for (size_t i = 0; i < scene->emitter_count && result == AUR_OK && scene->lights.total > 0.0; ++i)
+        scene->emitters[i]->probability = (float)aur_distribution_probability(&scene->lights, i);
+    free(powers);
+    return result;
+}
+
+/* From the file at `path`, or from `data`, where it is given. */
+static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
+                       bool keep_points, aur_overlap_rule rule, aur_scene **scene, aur_error *error) {
+    *scene = NULL;
+    aur_scene_options options = aur_scene_options_default();
+    aur_result result = aur_options_read(given, sizeof options, &options, "aur_scene_options", error);
+    if (result != AUR_OK)
+        return result;
+    aur_scene *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory(error);
+    made->keeps_points = keep_points;
+    made->overlap_rule = rule;
+    made->definitions = aur_definitions_text(&options);
+    result = made->definitions != NULL ? aur_xml_read(path, bytes, data, &options, &made->document, error)
+                                       : aur_fail_memory(error);
+    if (result == AUR_OK)
+        result = aur_scene_build(made, &options.warnings, error);
+    if (result == AUR_OK)
+        result = aur_scene_cut_overlaps(made, options.threads, error);
+    if (result == AUR_OK && !keep_points)
+        aur_scene_warn_of_overlaps(made, &options.warnings);
+    if (result == AUR_OK)
+        result = aur_scene_recenter(made, &options.warnings, error);
+    if (result == AUR_OK)
+        result = aur_scene_build_accel(made, options.threads, error);
+    if (result == AUR_OK)
+        result = check_reach(made, error);
+    if (result == AUR_OK) {
+        find_sphere(made);
+        warn_of_tiny(made, &options.warnings);
+        aur_scene_warn_of_faces(made, &options.warnings);
+        leave_out_dark_lights(made, &options.warnings);
+        result = prepare_lights(made, error);
+    }
+    if (result != AUR_OK) {
+        aur_scene_destroy(made);
+        return result;
+    }
+    *scene = made;
+    return AUR_OK;
+}
+
+bool aur_scene_is_name(const char *path) {
+    return aur_rad_is_name(path) || aur_model_is_name(path);
+}
+
+aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
+                          aur_error *error) {
+    return load(path, 0, NULL, options, false, AUR_OVERLAPS_CUT, scene, error);
+}
+
+aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
+                                 const aur_scene_options *options, aur_scene **scene, aur_error *error) {
+    return load(name, bytes, data, options, false, AUR_OVERLAPS_CUT, scene, error);
+}
+
+aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data, aur_overlap_rule rule,
+                                      const aur_scene_options *options, aur_scene **scene, aur_error *error) {
+    return load(path, bytes, data, options, true, rule, scene, error);
+}
+
+void aur_scene_destroy(aur_scene *scene) {
+    if (scene == NULL)
+        return;
+    aur_scene_release_accel(scene);
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        aur_shape_destroy(scene->shapes[i]);
+    for (size_t i = 0; i < scene->emitter_count; ++i)
+        aur_emitter_destroy(scene->emitters[i]);
+    for (size_t i = 0; i < scene->bsdf_count; ++i)
+        aur_bsdf_destroy(scene->bsdfs[i]);
+    for (size_t i = 0; i < scene->texture_count; ++i)
+        aur_texture_destroy(scene->textures[i]);
+    for (size_t i = 0; i < scene->medium_count; ++i)
+        aur_medium_destroy(scene->media[i]);
+    for (size_t i = 0; i < scene->phase_count; ++i)
+        aur_phase_destroy(scene->phases[i]);
+    for (size_t i = 0; i < scene->volume_count; ++i)
+        aur_volume_destroy(scene->volumes[i]);
+    for (size_t i = 0; i < scene->group_count; ++i) {
+        free(scene->groups[i]->shapes);
+        free(scene->groups[i]);
+    }
+    for (size_t i = 0; i < scene->instance_count; ++i)
+        free(scene->instances[i]);
+    free(scene->groups);
+    free(scene->instances);
+    for (size_t i = 0; i < scene->part_count; ++i)
+        free(scene->parts[i]);
+    free(scene->parts);
+    free(scene->shapes);
+    free(scene->emitters);
+    free(scene->environments);
+    free(scene->bsdfs);
+    free(scene->textures);
+    free(scene->media);
+    free(scene->phases);
+    free(scene->volumes);
+    free(scene->sampler);
+    aur_distribution_release(&scene->lights);
+    aur_parameters_release(&scene->integrator);
+    aur_parameters_release(&scene->nested_integrator);
+    free(scene->definitions);
+    aur_xml_release(&scene->document);
+    free(scene);
+}
+
+aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description, aur_error *error) {
+    aur_scene_description own = {
+        .size = sizeof own,
+
+        .shapes = scene->shape_count,
+        .emitters = scene->emitter_count,
+        .materials = scene->bsdf_count,
+        .width = scene->film.width,
+        .height = scene->film.height,
+        .samples_per_pixel = scene->samples_per_pixel,
+        .integrator = scene->integrator.plugin,
+        .sampler = scene->sampler,
+        .filter = aur_filter_name(scene->film.filter),
+    };
+    aur_vector_to_doubles(scene->lower, own.lower);
+    aur_vector_to_doubles(scene->upper, own.upper);
+    for (size_t i = 0; i < 3; ++i) {
+        own.lower[i] += scene->origin[i];
+        own.upper[i] += scene->origin[i];
+    }
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        own.triangles += scene->shapes[i]->mesh.triangle_count;
+    return aur_description_write(&own, sizeof own, description, "aur_scene_description", error);
+}
+
+aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {
+    return scene->has_sensor ? AUR_OK
+                             : aur_xml_fail(scene->document.root, error, "the scene has no <sensor>");
+}
+
+const aur_film_settings *aur_scene_film(const aur_scene *scene) {
+    return &scene->film;
+}
+
+size_t aur_scene_samples_per_pixel(const aur_scene *scene) {
+    return scene->samples_per_pixel;
+}
+
+const char *aur_scene_sampler(const aur_scene *scene) {
+    return scene->sampler;
+}
+
+const aur_parameters *aur_scene_integrator(const aur_scene *scene) {
+    return &scene->integrator;
+}
+
+struct RTCSceneTy *aur_scene_embree(const aur_scene *scene) {
+    return scene->accel;
+}
+
+const double *aur_scene_origin(const aur_scene *scene) {
+    return scene->origin;
+}
+
+void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper) {
+    *lower = scene->lower;
+    *upper = scene->upper;
+}

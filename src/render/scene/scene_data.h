@@ -1,0 +1,106 @@
+/* What a loaded scene is made of. */
+#pragma once
+
+#include "render/scene/distribution.h"
+#include "render/scene/emitter.h"
+#include "render/scene/filter.h"
+#include "render/scene/importers/xml/xml.h"
+#include "render/scene/medium.h"
+#include "render/scene/sensor.h"
+#include "render/scene/shape.h"
+
+typedef struct RTCDeviceTy *aur_embree_device;
+typedef struct RTCSceneTy *aur_embree_scene;
+
+/* Shapes that are seen through the instances of their group only. */
+typedef struct aur_shape_group {
+    size_t count;
+    uint32_t *shapes;
+    double origin[3]; /* of its shapes' coordinates */
+    aur_embree_scene accel;
+} aur_shape_group;
+
+typedef struct aur_instance {
+    aur_location location;
+    const aur_shape_group *group;
+    aur_transform to_world,
+        to_local; /* between coordinates that count from the two origins, when recentred */
+} aur_instance;
+
+/* What becomes of surfaces in one plane (overlap_cut.h). */
+typedef enum aur_overlap_rule {
+    AUR_OVERLAPS_CUT,       /* the first one covers the others */
+    AUR_OVERLAPS_OF_FRONTS, /* only what looks the same way covers each other: back to back they are a sheet
+                             */
+    AUR_OVERLAPS_STAY
+} aur_overlap_rule;
+
+/* How many triangles were cut, and the first pair: the one that covers, and the other one. */
+typedef struct aur_scene_overlap {
+    size_t count;
+    uint32_t shapes[2], triangles[2];
+} aur_scene_overlap;
+
+struct aur_scene {
+    aur_xml_document document; /* owns the file names that locations point to */
+    char *definitions;         /* of the options, a line "define NAME=VALUE" each; NULL: none */
+    size_t bsdf_count, bsdf_capacity;
+    aur_bsdf **bsdfs;
+    size_t texture_count, texture_capacity;
+    aur_texture **textures;
+    size_t volume_count, volume_capacity;
+    aur_volume **volumes;
+    size_t phase_count, phase_capacity;
+    aur_phase **phases;
+    size_t medium_count, medium_capacity;
+    aur_medium **media;
+    size_t shape_count, shape_capacity;
+    aur_shape **shapes;
+    size_t group_count, group_capacity;
+    aur_shape_group **groups;
+    size_t instance_count, instance_capacity;
+    aur_instance **instances;
+    size_t emitter_count, emitter_capacity;
+    aur_emitter **emitters;
+    aur_distribution lights; /* the emitters by their power */
+    size_t environment_count, environment_capacity;
+    const aur_emitter **environments; /* those of them whose radiance_from is for rays that hit nothing */
+    bool has_sensor, has_integrator;
+    aur_sensor sensor;
+    size_t part_count, part_capacity;
+    aur_sensor **parts; /* the cameras inside a batch */
+    aur_filter filter;
+    aur_film_settings film;
+    char *sampler;
+    size_t samples_per_pixel;
+    aur_parameters integrator;
+    bool has_nested_integrator;
+    aur_parameters nested_integrator; /* the one that stands inside the integrator, as for `aov` */
+    aur_embree_device device;
+    aur_embree_scene accel;
+    size_t packet_size; /* 16, 8, 4 or 0: aur_embree_packet_size */
+    double origin[3];   /* of the coordinates of all that follows, and of shapes, lights and cameras */
+    bool keeps_points;  /* of meshes, in doubles */
+    aur_overlap_rule overlap_rule;
+    aur_scene_overlap overlap;
+    aur_vector lower, upper;
+    aur_vector center; /* of a sphere around the scene */
+    float radius;
+};
+
+/* As aur_scene_load or, with data, aur_scene_load_memory; but meshes keep their points in doubles, and no
+ * warning is sent of overlaps. */
+aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data, aur_overlap_rule rule,
+                                      const aur_scene_options *options, aur_scene **scene, aur_error *error);
+/* Builds the objects of the document into the empty scene (loader.c). */
+aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
+/* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */
+char *aur_definitions_text(const aur_scene_options *options);
+/* One counted warning for each flaw of polygons, and of the faces of each file (flaws.c). */
+void aur_scene_warn_of_faces(const aur_scene *scene, const aur_warnings *warnings);
+/* Chooses the origins of the scene and of groups, and makes all coordinates count from them; warns of shapes
+ * that are too small for where they stand (recenter.c). */
+aur_result aur_scene_recenter(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
+/* Hands the shapes to Embree (accel.c). */
+aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
+void aur_scene_release_accel(aur_scene *scene);

@@ -1,0 +1,60 @@
+/* Cameras. Each stands in a file of the folder sensors and has one line in sensors/table.c. */
+#pragma once
+
+#include "points/base/keys.h"
+#include "render/scene/scene.h"
+#include "render/scene/transform.h"
+
+typedef enum aur_fov_axis {
+    AUR_FOV_X,
+    AUR_FOV_Y,
+    AUR_FOV_DIAGONAL,
+    AUR_FOV_SMALLER,
+    AUR_FOV_LARGER
+} aur_fov_axis;
+
+typedef struct aur_sensor aur_sensor;
+
+typedef struct aur_sensor_descriptor {
+    aur_row row; /* first, so that a row of the table is its descriptor */
+    /* Reads its keys; may be NULL where it has none but those of all cameras. */
+    aur_result (*create)(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
+    /* The ray in camera space through the film point; `aspect` is width over height and x, y are in [0, 1], y
+     * downwards. The direction is of any length; the origin is that of the camera unless it is set.
+     * NULL for a batch, each part of which has its own. */
+    void (*ray)(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2], aur_ray *ray);
+    bool is_pinhole; /* all rays begin at the origin, in directions aur_sensor_direction */
+} aur_sensor_descriptor;
+
+struct aur_sensor {
+    const aur_sensor_descriptor *descriptor;
+    double place[3];    /* where it stands */
+    float to_world[12]; /* row major 3x4, to coordinates that count from the scene's origin */
+    float near_clip, far_clip;
+    float offset_x, offset_y; /* principal point, as a share of the film */
+    aur_fov_axis axis;
+    float tangent; /* of half the field of view, along `axis` */
+    float aperture_radius, focus_distance;
+    const struct aur_medium *medium; /* which it stands in; NULL: none */
+    size_t part_count;               /* of a batch; else 0 */
+    struct aur_sensor *const *parts;
+};
+
+extern const aur_table aur_sensor_table;
+
+/* Builds the sensor that parameters->plugin names. */
+aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
+
+/* The scene's origin has been chosen. */
+void aur_sensor_recenter(aur_sensor *sensor, const double origin[3]);
+
+/* Half the film's width at z = 1. */
+float aur_sensor_half_width(const aur_sensor *sensor, float aspect);
+
+/* The direction with z = 1 through the film point, by half the film's width. */
+static inline aur_vector aur_sensor_direction(const aur_sensor *sensor, float half, float aspect, float x,
+                                              float y) {
+    /* +x is the left of the picture. */
+    return (aur_vector){(1.0f - 2.0f * (x + sensor->offset_x)) * half,
+                        (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
+}

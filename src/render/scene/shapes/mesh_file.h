@@ -1,0 +1,48 @@
+/* What shapes that are read from files have in common, most of them meshes. */
+#pragma once
+
+#include "render/scene/importers/meshes/text_scanner.h"
+#include "render/scene/shape.h"
+
+/* All of a file, closed by a zero byte. */
+typedef struct aur_shape_file {
+    const char *path;
+    size_t size;
+    const char *data;
+    char *own_path, *own_data; /* for closing; NULL where they are a model's */
+} aur_shape_file;
+
+/* Finds and reads the file that the key "filename" names, beside the scene or within a model. */
+aur_result aur_shape_file_open(const aur_shape_input *input, const char *filename, aur_shape_file *file,
+                               aur_error *error);
+void aur_shape_file_close(aur_shape_file *file);
+
+/* A file that is being read. */
+struct aur_mesh_file {
+    aur_scanner scanner; /* at the file's first byte; `line` is that of errors, 0 for none */
+    const char *path;
+    bool face_normals, flip_v; /* as the keys have them; the file may ask for flat triangles, too */
+    uint64_t shape_index;
+    aur_error *error;
+};
+
+typedef struct aur_mesh_file_keys {
+    const char *filename;
+    bool face_normals, flip_v;
+    uint64_t shape_index;
+} aur_mesh_file_keys;
+
+/* Rows that every such shape has, of a table of aur_mesh_file_keys. */
+#define AUR_MESH_FILE_KEYS                                                                                   \
+    {AUR_KEY_OF_TEXT(aur_mesh_file_keys, "filename", filename, NULL,                                         \
+                     "the file, beside the scene; must be given")},                                          \
+    {                                                                                                        \
+        AUR_KEY_OF_BOOLEAN(aur_mesh_file_keys, "face_normals", face_normals, "false",                        \
+                           "flat triangles, whatever normals the file has")                                  \
+    }
+
+/* The `create` of shapes with a `read_file`. */
+aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, aur_error *error);
+
+/* A FORMAT error at the file's line. */
+aur_result aur_mesh_file_fail(const aur_mesh_file *file, const char *format, ...) AUR_PRINTF(2, 3);

@@ -1,0 +1,154 @@
+/* Mitsuba's .serialized files: meshes as zlib streams, with their places at the end of the file (the format
+ * is in Mitsuba 0.6's manual, "Serialized mesh loader"). */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include "render/scene/shapes/mesh_file.h"
+
+enum {
+    MAGIC = 0x041c,
+    HAS_NORMALS = 0x0001,
+    HAS_UVS = 0x0002,
+    HAS_COLORS = 0x0008,
+    FACE_NORMALS = 0x0010,
+    DOUBLE = 0x2000 /* without it, single precision, whatever 0x1000 says */
+};
+
+typedef struct serialized {
+    z_stream stream;
+    size_t left; /* compressed bytes not yet given to zlib */
+    uint32_t flags;
+    aur_mesh_file *file;
+} serialized;
+
+static uint64_t little(const char *at, size_t size) {
+    uint64_t value = 0;
+    for (size_t i = 0; i < size; ++i)
+        value |= (uint64_t)(unsigned char)at[i] << (8 * i);
+    return value;
+}
+
+static aur_result inflate_bytes(serialized *self, void *bytes, size_t size) {
+    unsigned char *out = bytes;
+    while (size > 0) {
+        const size_t piece = size < INT_MAX ? size : INT_MAX;
+        self->stream.next_out = out;
+        self->stream.avail_out = (uInt)piece;
+        while (self->stream.avail_out > 0) {
+            if (self->stream.avail_in == 0) {
+                self->stream.avail_in = (uInt)(self->left < INT_MAX ? self->left : INT_MAX);
+                self->left -= self->stream.avail_in;
+            }
+            const int status = inflate(&self->stream, Z_NO_FLUSH);
+            if (status == Z_OK || (status == Z_STREAM_END && self->stream.avail_out == 0))
+                continue;
+            return aur_mesh_file_fail(self->file, "the compressed mesh is broken or ends too soon");
+        }
+        out += piece;
+        size -= piece;
+    }
+    return AUR_OK;
+}
+
+/* `count` numbers of the file's precision into `doubles` or `values`; both may be NULL. */
+static aur_result read_numbers(serialized *self, size_t count, double *doubles, float *values) {
+    double wide[256];
+    float narrow[256];
+    const bool is_double = (self->flags & DOUBLE) != 0;
+    aur_result result = AUR_OK;
+    for (size_t done = 0; done < count && result == AUR_OK; done += 256) {
+        const size_t part = count - done < 256 ? count - done : 256;
+        result = is_double ? inflate_bytes(self, wide, part * sizeof *wide)
+                           : inflate_bytes(self, narrow, part * sizeof *narrow);
+        for (size_t i = 0; result == AUR_OK && i < part; ++i) {
+            const double value = is_double ? wide[i] : (double)narrow[i];
+            const double kept = !is_double || fabs(value) <= 1e30 ? value : (double)NAN;
+            if (doubles != NULL)
+                doubles[done + i] = kept;
+            else if (values != NULL)
+                values[done + i] = (float)kept;
+        }
+    }
+    return result;
+}
+
+static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) {
+    aur_mesh_file *const file = self->file;
+    const size_t compressed = self->left;
+    uint64_t counts[2];
+    aur_result result = inflate_bytes(self, &self->flags, sizeof self->flags);
+    char letter = version == 4 ? 'x' : '\0';
+    while (result == AUR_OK && letter != '\0')
+        result = inflate_bytes(self, &letter, 1); /* the name */
+    if (result == AUR_OK)
+        result = inflate_bytes(self, counts, sizeof counts);
+    if (result != AUR_OK)
+        return result;
+    /* zlib makes at most 1032 bytes of one; a count that lies is found out before memory is asked for. */
+    const uint64_t most = 1032 * ((uint64_t)compressed + 64) / 12;
+    if (counts[0] > most || counts[1] > most)
+        return aur_mesh_file_fail(file, "the counts of vertices or triangles cannot be right");
+    const uint32_t flags = self->flags;
+    file->face_normals = file->face_normals || (flags & FACE_NORMALS);
+    const bool normals = (flags & HAS_NORMALS) && !file->face_normals;
+    const unsigned parts = (normals ? AUR_MESH_NORMALS : 0u) | (flags & HAS_UVS ? AUR_MESH_UVS : 0u);
+    const size_t vertices = (size_t)counts[0], triangles = (size_t)counts[1];
+    result =
+        aur_mesh_allocate(mesh, vertices, triangles, parts, (aur_location){.file = file->path}, file->error);
+    if (result == AUR_OK)
+        result = read_numbers(self, 3 * vertices, mesh->points, NULL);
+    if (result == AUR_OK && (flags & HAS_NORMALS))
+        result = read_numbers(self, 3 * vertices, NULL, mesh->normals);
+    if (result == AUR_OK && (flags & HAS_UVS))
+        result = read_numbers(self, 2 * vertices, NULL, mesh->uvs);
+    if (result == AUR_OK && (flags & HAS_COLORS))
+        result = read_numbers(self, 3 * vertices, NULL, NULL);
+    return result == AUR_OK ? inflate_bytes(self, mesh->indices, 3 * triangles * sizeof *mesh->indices)
+                            : result;
+}
+
+/* The table at the end of the file has the place of each mesh, and their count last. */
+static aur_result read_file(aur_mesh_file *file, aur_shape *shape) {
+    const char *const data = file->scanner.at;
+    const size_t size = (size_t)(file->scanner.end - data);
+    if (size < 12 || little(data, 2) != MAGIC)
+        return aur_mesh_file_fail(file, "this is no serialized mesh file");
+    const uint64_t version = little(data + 2, 2);
+    if (version != 3 && version != 4)
+        return aur_mesh_file_fail(file, "version %u of the format is not known: it must be 3 or 4",
+                                  (unsigned)version);
+    const size_t width = version == 4 ? 8 : 4;
+    const size_t count = (size_t)little(data + size - 4, 4), index = file->shape_index;
+    if (count > (size - 8) / width)
+        return aur_mesh_file_fail(file, "the table of meshes at the end is broken");
+    if (index >= count)
+        return aur_mesh_file_fail(file, "'shape_index' is %zu, but there are %zu meshes", index, count);
+    const size_t table = size - 4 - count * width;
+    const char *const entry = data + table + index * width;
+    const uint64_t first = little(entry, width),
+                   next = index + 1 < count ? little(entry + width, width) : table;
+    if (first >= table || next > table || next <= first || next - first < 5)
+        return aur_mesh_file_fail(file, "the table of meshes at the end is broken");
+    serialized self = {.left = (size_t)(next - first - 4), .file = file};
+    self.stream.next_in = (unsigned char *)(uintptr_t)data + first + 4;
+    if (inflateInit(&self.stream) != Z_OK)
+        return aur_fail_memory(file->error);
+    const aur_result result = read_mesh(&self, little(data + first + 2, 2), &shape->mesh);
+    inflateEnd(&self.stream);
+    if (result == AUR_OK && shape->mesh.triangle_count == 0)
+        return aur_mesh_file_fail(file, "no face in this file");
+    return result;
+}
+
+static const aur_key keys[] = {
+    AUR_MESH_FILE_KEYS,
+    {AUR_KEY_OF_INTEGER(aur_mesh_file_keys, "shape_index", shape_index, 0, INFINITY, "0",
+                        "which mesh of the file")},
+};
+
+const aur_shape_descriptor aur_shape_serialized = {
+    .row = {.name = "serialized", .summary = "a mesh of Mitsuba's .serialized files", AUR_ROW_KEYS(keys)},
+    .create = aur_mesh_file_create,
+    .read_file = read_file};

@@ -1,0 +1,132 @@
+/* Every shape by name. One new shape is one new file and one line here. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/scene/shape.h"
+
+#define SHAPES(ROW)                                                                                          \
+    ROW(rectangle)                                                                                           \
+    ROW(polygon)                                                                                             \
+    ROW(cube)                                                                                                \
+    ROW(obj)                                                                                                 \
+    ROW(ply)                                                                                                 \
+    ROW(stl)                                                                                                 \
+    ROW(off)                                                                                                 \
+    ROW(serialized)                                                                                          \
+    ROW(sphere)                                                                                              \
+    ROW(disk)                                                                                                \
+    ROW(cylinder)                                                                                            \
+    ROW(linearcurve)                                                                                         \
+    ROW(bsplinecurve)
+
+#define DECLARE(name) extern const aur_shape_descriptor aur_shape_##name;
+SHAPES(DECLARE)
+
+#define ADDRESS(name) &aur_shape_##name.row,
+static const aur_row *const rows[] = {SHAPES(ADDRESS)};
+
+static const aur_key common_keys[] = {
+    {AUR_KEY_OF_TRANSFORM(aur_shape_keys, "to_world", to_world,
+                          "from the shape's own coordinates to the scene's")},
+    {AUR_KEY_OF_BOOLEAN(aur_shape_keys, "flip_normals", flip_normals, "false",
+                        "normals point to the other side")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL,
+                     "what it is made of; else grey, or black for a light", "bsdf")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "emitter", emitter, NULL, "makes it a light", "emitter")},
+    {AUR_KEY_OF_REAL(aur_shape_keys, "silhouette_sampling_weight", silhouette_weight, 0.0, 1e30, "1",
+                     "of no effect: nothing is differentiated")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "interior", interior, NULL, "what is behind its surface", "medium")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "exterior", exterior, NULL, "what is before its surface", "medium")},
+};
+
+static const aur_row common = {
+    .name = "shape", .summary = "what every shape takes", AUR_ROW_KEYS(common_keys)};
+
+const aur_table aur_shape_table = {
+    .kind = "shape", .summary = "surfaces", AUR_TABLE_ROWS(rows), .common = &common};
+
+aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *document, aur_shape **shape,
+                            aur_error *error) {
+    *shape = NULL;
+    const aur_row *row;
+    aur_shape_keys keys = {.bsdf = NULL};
+    aur_shape_input input = {.parameters = parameters, .document = document};
+    aur_result result = aur_table_find(&aur_shape_table, parameters, &row, error);
+    if (result == AUR_OK)
+        result = aur_keys_read(common.key_count, common.keys, parameters, &keys, error);
+    if (result == AUR_OK)
+        result = aur_to_world_check(parameters, &keys.to_world, &input.to_local, error);
+    if (result != AUR_OK)
+        return result;
+    input.to_world = keys.to_world;
+    input.flip_normals = keys.flip_normals;
+    aur_shape *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory_at(error, parameters->location);
+    made->descriptor = (const aur_shape_descriptor *)row;
+    made->location = parameters->location;
+    made->emitter = AUR_NO_EMITTER;
+    made->curved = made->descriptor->curved;
+    made->flipped = keys.flip_normals;
+    result = made->descriptor->create(&input, made, error);
+    if (result == AUR_OK)
+        result = aur_mesh_check(&made->mesh, parameters->location, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(parameters, error);
+    if (result != AUR_OK) {
+        aur_shape_destroy(made);
+        return result;
+    }
+    *shape = made;
+    return AUR_OK;
+}
+
+static void measure_mesh(aur_shape *shape) {
+    for (size_t i = 0; i < shape->mesh.triangle_count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(&shape->mesh, i, corner);
+        const double area = aur_triangle_area(corner);
+        const float squared = (float)(4.0 * area * area);
+        shape->area += area;
+        shape->extreme = shape->extreme || (area > 0.0 && !aur_is_usual_square(squared));
+    }
+}
+
+static void recenter_curves(aur_shape *shape, const double origin[3]) {
+    aur_curves *const curves = &shape->curves;
+    for (size_t i = 0; i < curves->point_count; ++i)
+        for (size_t k = 0; k < 3; ++k)
+            curves->points[4 * i + k] = (float)(curves->places[3 * i + k] - origin[k]);
+    free(curves->places);
+    curves->places = NULL;
+    for (size_t i = 0; i < curves->segment_count; ++i)
+        shape->area += shape->curved->area(shape, i);
+}
+
+aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool keep_points, aur_error *error) {
+    shape->center = aur_place_from(origin, shape->place);
+    if (shape->curves.segment_count > 0)
+        recenter_curves(shape, origin);
+    if (shape->curved != NULL)
+        return AUR_OK;
+    aur_result result = aur_mesh_recenter(&shape->mesh, origin, keep_points, shape->location, error);
+    if (result == AUR_OK && shape->smooth)
+        result = aur_mesh_smooth(&shape->mesh, shape->location, error);
+    if (result == AUR_OK && shape->descriptor->read_file != NULL)
+        aur_mesh_drop_flat_normals(&shape->mesh);
+    if (result == AUR_OK)
+        measure_mesh(shape);
+    return result;
+}
+
+void aur_shape_destroy(aur_shape *shape) {
+    if (shape == NULL)
+        return;
+    aur_mesh_release(&shape->mesh);
+    aur_shape_release_attributes(shape);
+    free(shape->file);
+    free(shape->curves.places);
+    free(shape->curves.points);
+    free(shape->curves.firsts);
+    free(shape);
+}

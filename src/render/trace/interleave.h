@@ -1,0 +1,102 @@
+/* Interleaved pixels (Keller and Heidrich 2001): a tile of 16 x 16 pixels is done in 16 groups of 16 pixels,
+ * one of each 4 x 4 block of the tile. What a group has in common, its pixels have as the same error. So they
+ * are not those at one place of all blocks, where the eye would see a weave of period 4: each block has its
+ * pixels permuted by four bits of a hash, and in half of the blocks columns and rows change places:
+ * neighbours in a row differ by other rotations than those in a column do, and the eye would see streaks. A
+ * hash of 0 leaves them as they are. */
+#pragma once
+
+#include "points/base/random.h"
+#include "render/film/tile.h"
+#include "render/scene/packet.h"
+
+enum {
+    /* Groups, and pixels of a group, along each side of the tile. */
+    AUR_GROUPS_A_SIDE = 4,
+    AUR_GROUP_COUNT = AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE,
+    AUR_TILE_PIXELS = AUR_TILE_SIZE * AUR_TILE_SIZE
+};
+
+/* The hash that permutes the pixels of a tile, from one of the seed and the tile. */
+static inline uint64_t aur_group_arrangement(uint64_t tile) {
+    return aur_hash2(tile, UINT64_C(0x7765617665));
+}
+
+/* Where the pixel of a group's lane lies in its block, which is number `lane`, both counted row by row. */
+static inline uint32_t aur_group_place(uint64_t hash, uint32_t group, size_t lane) {
+    const bool transposed = (aur_mix64(hash) >> lane & 1u) != 0;
+    const uint32_t turned =
+        transposed ? group % AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + group / AUR_GROUPS_A_SIDE : group;
+    return turned ^ (uint32_t)(hash >> 4 * lane & (AUR_GROUP_COUNT - 1));
+}
+
+/* The pixel of a group's lane, counted row by row within the tile. */
+static inline size_t aur_group_pixel(uint64_t hash, uint32_t group, size_t lane) {
+    const uint32_t place = aur_group_place(hash, group, lane);
+    const size_t x = place % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
+    const size_t y = place / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
+    return y * AUR_TILE_SIZE + x;
+}
+
+/* Columns and rows in the picture of a group's pixels, whose tile begins at (x0, y0). */
+static inline void aur_group_pixels(uint64_t hash, uint32_t group, size_t x0, size_t y0,
+                                    size_t x[AUR_PACKET_SIZE], size_t y[AUR_PACKET_SIZE]) {
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const size_t pixel = aur_group_pixel(hash, group, lane);
+        x[lane] = x0 + pixel % AUR_TILE_SIZE;
+        y[lane] = y0 + pixel / AUR_TILE_SIZE;
+    }
+}
+
+/* Columns and rows of the pixels of block `block`, 4 x 4 neighbours. Paths with numbers of their own go by
+ * blocks: their first hits lie close together, so packets are tighter, and lanes read the same triangles. */
+static inline void aur_block_pixels(uint32_t block, size_t x0, size_t y0, size_t x[AUR_PACKET_SIZE],
+                                    size_t y[AUR_PACKET_SIZE]) {
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        x[lane] = x0 + block % AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + lane % AUR_GROUPS_A_SIDE;
+        y[lane] = y0 + block / AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + lane / AUR_GROUPS_A_SIDE;
+    }
+}
+
+/* The lanes of a group whose pixels lie in columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of the picture. */
+static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
+                                              const size_t y[AUR_PACKET_SIZE], size_t x0, size_t x1,
+                                              size_t y0, size_t y1) {
+    uint32_t lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const bool inside = x[lane] >= x0 && x[lane] < x1 && y[lane] >= y0 && y[lane] < y1;
+        lanes |= (uint32_t)inside << lane;
+    }
+    return lanes;
+}
+
+/* The lanes of a group to trace for sample `index`: those of `lanes`, or the ones that want it alone, where
+ * not all do. */
+static inline uint32_t aur_group_lanes_wanted(const aur_tile *tile, const size_t x[AUR_PACKET_SIZE],
+                                              const size_t y[AUR_PACKET_SIZE], uint32_t lanes,
+                                              uint32_t index) {
+    if (tile->begins == NULL)
+        return lanes;
+    uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        if ((wanted >> lane & 1u) != 0 && !aur_tile_wants(tile, x[lane], y[lane], index))
+            wanted &= ~(1u << lane);
+    return wanted;
+}
+
+/* The lanes of a group whose pixels are marked: bit `lane` of marks[place] is for the pixel at that place of
+ * that block. */
+static inline uint32_t aur_group_lanes_marked(uint64_t hash, uint32_t group,
+                                              const uint32_t marks[AUR_GROUP_COUNT]) {
+    uint32_t lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        lanes |= marks[aur_group_place(hash, group, lane)] & 1u << lane;
+    return lanes;
+}
+
+/* The rank of a group in an order that keeps neighbours far apart, a 4 x 4 ordered dither: of 16 rotations
+ * of a pattern, neighbouring pixels get two that differ much. */
+static inline uint32_t aur_group_rank(uint32_t group) {
+    static const uint8_t ranks[AUR_GROUP_COUNT] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+    return ranks[group];
+}

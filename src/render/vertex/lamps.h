@@ -1,0 +1,37 @@
+/* Lamps that the camera sees directly. A small bright one may be met by none of a pixel's first samples, and
+ * replicas that all miss it agree: so it is looked for from the other end, by points on the lamps. */
+#pragma once
+
+#include "render/film/film.h"
+#include "render/scene/scene.h"
+
+/* Of one sample of a pixel, uniform in it: [pixels of the film] each. NULL where the camera is no pinhole. */
+typedef struct aur_lamps {
+    double *share;    /* how often it is expected to meet a lamp */
+    double *variance; /* what that alone makes of its variance, summed over R, G and B */
+    bool *edges; /* the edge of a lamp is there, of which so many points lie in a pixel that this is known */
+} aur_lamps;
+
+/* From so many points on all lamps together, drawn in proportion to power. To be released in every case.
+ * Errors: MEMORY. */
+enum { AUR_LAMP_POINTS = 4096 }; /* where a fiftieth of the power is to be known to a tenth */
+/* For surveys of a whole picture: so many that lamps are known pixel by pixel where they are small. */
+size_t aur_lamp_points(size_t pixels);
+/* Whether a survey can find them: through the pixels of a pinhole camera, in a picture that is not so large
+ * that what is found of each pixel takes gigabytes for a while. */
+bool aur_lamps_can_be_found(const aur_view *view);
+aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
+                          aur_lamps *lamps, aur_error *error);
+/* Where a sample of a pixel has several rays for lamps (looks.h), of all pixels of the picture; NULL: none.
+ * Their mean takes the place of what the sample's own ray meets: of n rays that are uniform in the pixel n
+ * times as many are expected to meet a lamp, and the variance is the n-th part (at most: they are a
+ * sequence's points, not random). */
+void aur_lamps_take_looks(const aur_film_layout *layout, const uint16_t *looks, aur_lamps *lamps);
+/* Leaves out pixels beside one that is covered by half at least: an integrator that looks again where
+ * neighbours see a lamp's edge (`edges` of final gathering) finds the lamp there by itself. */
+void aur_lamps_leave_edges(const aur_film_layout *layout, aur_lamps *lamps);
+void aur_lamps_release(aur_lamps *lamps);
+
+/* The variance of the mean of `samples` samples of a pixel, at least: where they are expected to have met
+ * its lamps so seldom that replicas do not tell it yet, that of the lamps; else 0. */
+double aur_lamps_variance(const aur_lamps *lamps, size_t pixel, uint32_t samples);

@@ -1,0 +1,58 @@
+/* A surface point seen from a direction: its BSDF asked in world directions. */
+#pragma once
+
+#include "render/scene/scene.h"
+
+typedef struct aur_shading {
+    const aur_surface *surface;
+    aur_vector view; /* local, unit */
+} aur_shading;
+
+static inline aur_shading aur_shading_at(const aur_surface *surface, aur_vector view_world) {
+    return (aur_shading){surface, aur_frame_to_local(&surface->frame, view_world)};
+}
+
+/* As drawing lights sees the point. Where light comes through the surface, it counts from all sides. */
+static inline aur_light_reference aur_shading_reference(const aur_shading *shading) {
+    const aur_surface *const surface = shading->surface;
+    aur_light_reference reference = {.position = surface->position};
+    if (!surface->bsdf->transmits) {
+        reference.normal = aur_vector_scale(surface->frame.z, shading->view.z < 0.0f ? -1.0f : 1.0f);
+        reference.position = aur_surface_leave(surface, reference.normal);
+    }
+    return reference;
+}
+
+/* BSDF * |cos| towards a world direction, and the density that aur_shading_sample has there. A light on one
+ * side of the surface and shaded on the other is black. */
+static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_vector light_world,
+                                              float *pdf) {
+    const aur_surface *const surface = shading->surface;
+    const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
+    *pdf = 0.0f;
+    if (aur_vector_dot(surface->geometric_normal, light_world) * light.z <= 0.0f)
+        return (aur_vector){0};
+    return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light, pdf);
+}
+
+/* A point on a light, u[0] chooses which. */
+static inline bool aur_shading_draw_light(const aur_scene *scene, const aur_shading *shading,
+                                          const float u[3], aur_light_sample *light) {
+    const aur_light_reference reference = aur_shading_reference(shading);
+    return aur_light_sample_direct(scene, &reference, u, light);
+}
+
+/* sample->light comes back in world coordinates. */
+static inline bool aur_shading_draw(const aur_shading *shading, aur_bsdf_part part, const float u[3],
+                                    aur_bsdf_sample *sample) {
+    const aur_surface *const surface = shading->surface;
+    if (!aur_bsdf_draw(surface->bsdf, part, surface->texture, shading->view, u, sample))
+        return false;
+    const float side = sample->light.z;
+    sample->light = aur_frame_to_world(&surface->frame, sample->light);
+    return aur_vector_dot(surface->geometric_normal, sample->light) * side > 0.0f;
+}
+
+static inline bool aur_shading_sample(const aur_shading *shading, const float u[3], aur_bsdf_sample *sample) {
+    return aur_shading_draw(shading, AUR_BSDF_WHOLE, u, sample);
+}

@@ -1,9 +1,0 @@
-/* Models that are one mesh: OBJ with its materials, PLY, STL and OFF, by the readers of shapes. */
-#pragma once
-
-#include "scene/meshes/mesh_data.h"
-#include "scene/model/model.h"
-
-/* Errors: FORMAT with the line, MEMORY, OPEN for a file that may not be read. */
-aur_result aur_model_from_mesh(const aur_model_source *source, aur_mesh_format format, aur_model_files *files,
-                               char **xml, size_t *xml_size, aur_error *error);

@@ -1,8 +1,0 @@
-#include "core/simd.h"
-#include "transport/paths/path_lanes_body.h"
-
-static const aur_path_kernels aur_path_kernels_portable = AUR_PATH_KERNELS;
-
-const aur_path_kernels *aur_path_kernels_here(void) {
-    return &AUR_KERNEL_HERE(aur_path_kernels);
-}

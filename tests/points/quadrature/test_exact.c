@@ -1,0 +1,534 @@
+/* Weights that are exact to a degree. Oracles: closed moments of monomials, a harmonic from its formula,
+ * designs whose degree is known, and the golden figures of spherical Fibonacci sets. */
+#include <aureole/exact.h>
+#include <aureole/quality.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "points/base/simd.h"
+#include "points/base/vector.h"
+#include "points/quadrature/exact/fast.h"
+#include "points/quadrature/exact/system.h"
+
+static double *points_of(const char *set, size_t count, aur_domain domain, double exponent, double cap) {
+    aur_directions_options options = aur_directions_options_default(count, domain);
+    options.lobe.exponent = exponent;
+    options.cap_degrees = cap;
+    aur_directions *directions;
+    aur_error error;
+    double *const xyz = malloc(3 * count * sizeof *xyz);
+    assert_non_null(xyz);
+    assert_int_equal(aur_directions_create(set, &options, &directions, &error), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, count, 3 * count, xyz, NULL, &error), AUR_OK);
+    aur_directions_destroy(directions);
+    return xyz;
+}
+
+/* The mean of x^a y^b z^c over the density (m+1) z^m on the cap z >= low, where m = 0 unless low = 0. */
+static double moment(int a, int b, int c, double low, double m) {
+    if (a % 2 != 0 || b % 2 != 0)
+        return 0.0;
+    /* The mean of cos^a sin^b of the azimuth by 64 equal steps, exact below degree 64. */
+    double mean = 0.0, sum = 0.0, mass = 0.0;
+    for (int k = 0; k < 64; ++k)
+        mean += pow(cos(2.0 * AUR_PI * k / 64.0), a) * pow(sin(2.0 * AUR_PI * k / 64.0), b) / 64.0;
+    /* (1-z^2)^{(a+b)/2} z^{c+m}, term by term. */
+    const int half = (a + b) / 2;
+    double binomial = 1.0;
+    for (int j = 0; j <= half; ++j) {
+        const double power = c + m + 2.0 * j + 1.0;
+        const double term = (1.0 - (low != 0.0 ? pow(low, power) : 0.0)) / power;
+        sum += (j % 2 != 0 ? -1.0 : 1.0) * binomial * term;
+        binomial *= (double)(half - j) / (j + 1.0);
+    }
+    mass = (1.0 - (low != 0.0 ? pow(low, m + 1.0) : 0.0)) / (m + 1.0);
+    return mean * sum / mass;
+}
+
+/* The largest error among all monomials to the degree. */
+static double worst_monomial(size_t count, const double *xyz, const double *weights, int degree, double low,
+                             double m) {
+    double worst = 0.0;
+    for (int a = 0; a <= degree; ++a)
+        for (int b = 0; a + b <= degree; ++b)
+            for (int c = 0; a + b + c <= degree; ++c) {
+                double sum = 0.0;
+                for (size_t i = 0; i < count; ++i)
+                    sum += weights[i] * pow(xyz[3 * i], a) * pow(xyz[3 * i + 1], b) * pow(xyz[3 * i + 2], c);
+                worst = fmax(worst, fabs(sum - moment(a, b, c, low, m)));
+            }
+    return worst;
+}
+
+/* The figures that were found before this was written, by an independent program. */
+static void golden(void **state) {
+    (void)state;
+    enum { N = 1000 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N];
+    const aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_report report;
+    aur_error error;
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_int_equal(report.degree, 30);
+    assert_true(report.residual <= 1.5e-15);
+    assert_near(report.least, 0.869413059, 1e-6);
+    assert_near(report.largest, 1.138763250, 1e-6);
+    free(xyz);
+}
+
+/* On every domain, against closed moments of all monomials: those are at most 1, so that rounding of N terms
+ * of mean 1/N leaves some 1e-15. */
+static void monomials(void **state) {
+    (void)state;
+    const struct {
+        aur_domain domain;
+        double cap, exponent;
+        size_t degree;
+    } cases[] = {{AUR_DOMAIN_SPHERE, 0.0, 0.0, 12},     {AUR_DOMAIN_HEMISPHERE, 0.0, 0.0, 8},
+                 {AUR_DOMAIN_HEMISPHERE, 0.0, 1.0, 6},  {AUR_DOMAIN_HEMISPHERE, 0.0, 2.5, 4},
+                 {AUR_DOMAIN_HEMISPHERE, 40.0, 0.0, 6}, {AUR_DOMAIN_SPHERE, 130.0, 0.0, 8},
+                 {AUR_DOMAIN_HEMISPHERE, 0.0, 20.0, 3}};
+    enum { N = 400 };
+    double weights[N];
+    aur_error error;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        double *const xyz =
+            points_of("spherical-fibonacci", N, cases[k].domain, cases[k].exponent, cases[k].cap);
+        aur_exact_options options = aur_exact_options_default(cases[k].domain);
+        options.cap_degrees = cases[k].cap;
+        options.lobe.exponent = cases[k].exponent;
+        options.degree = cases[k].degree;
+        assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, NULL, &error), AUR_OK);
+        const double low = cases[k].cap > 0.0                     ? cos(cases[k].cap / 180.0 * AUR_PI)
+                           : cases[k].domain == AUR_DOMAIN_SPHERE ? -1.0
+                                                                  : 0.0;
+        assert_near(worst_monomial(N, xyz, weights, (int)cases[k].degree, low, cases[k].exponent), 0.0,
+                    1e-13);
+        free(xyz);
+    }
+}
+
+/* Designs whose degree is known, with fewer points than there are harmonics: the vertices of the octahedron
+ * have degree 3, of the cube 3, of the icosahedron 5, each with equal weights; with the octahedron the cube
+ * has 5 (the Lebedev rule of 14 points, weights 1/15 and 3/40). */
+static void designs(void **state) {
+    (void)state;
+    double xyz[3 * 14] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1}, weights[14];
+    for (size_t i = 0; i < 24; ++i)
+        xyz[18 + i] = ((i / 3) >> (i % 3) & 1 ? 1.0 : -1.0) / sqrt(3.0);
+    const double golden_ratio = 0.5 * (1.0 + sqrt(5.0)), length = sqrt(1.0 + golden_ratio * golden_ratio);
+    double icosahedron[36];
+    for (size_t i = 0; i < 12; ++i) {
+        const double one = (i & 1 ? 1.0 : -1.0) / length,
+                     two = (i & 2 ? golden_ratio : -golden_ratio) / length;
+        icosahedron[3 * i + i / 4] = 0.0;
+        icosahedron[3 * i + (i / 4 + 1) % 3] = one;
+        icosahedron[3 * i + (i / 4 + 2) % 3] = two;
+    }
+    const aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_report report;
+    aur_error error;
+    assert_int_equal(aur_weights_exact(6, xyz, &options, 14, weights, &report, &error), AUR_OK);
+    assert_int_equal(report.degree, 3);
+    assert_int_equal(aur_weights_exact(8, xyz + 18, &options, 14, weights, &report, &error), AUR_OK);
+    assert_int_equal(report.degree, 3);
+    assert_int_equal(aur_weights_exact(12, icosahedron, &options, 14, weights, &report, &error), AUR_OK);
+    assert_int_equal(report.degree, 5);
+    assert_int_equal(aur_weights_exact(14, xyz, &options, 14, weights, &report, &error), AUR_OK);
+    assert_int_equal(report.degree, 5);
+    assert_near(weights[0], 1.0 / 15.0, 1e-15);
+    assert_near(weights[13], 3.0 / 40.0, 1e-15);
+}
+
+/* The two ways of solving find the same weights, which are unique. */
+static void two_ways(void **state) {
+    (void)state;
+    enum { N = 700, DEGREE = 20 };
+    double *const xyz = points_of("sobol", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double near[N], direct[N], iterated[N], storage[4 * N];
+    for (size_t i = 0; i < N; ++i)
+        near[i] = (1.0 + 0.5 * sin((double)i)) / N;
+    const aur_exact_system system = {
+        .points = aur_polar_points_make(N, xyz, storage), .near = near, .places = N, .lowest = -1.0};
+    aur_exact_found found = {0};
+    aur_error error;
+    assert_int_equal(aur_exact_direct(&system, DEGREE, false, direct, &found, &error), AUR_OK);
+    assert_true(found.exact);
+    assert_int_equal(aur_exact_iterate(&system, DEGREE, AUR_EXACT_STEPS, iterated, &found, &error), AUR_OK);
+    assert_true(found.exact && found.iterations > 5);
+    for (size_t i = 0; i < N; ++i) /* residuals of 1e-15 times a condition of some 1e3 */
+        assert_near(direct[i] * N, iterated[i] * N, 1e-11);
+    free(xyz);
+}
+
+/* Sums from the definition: no bit depends on instruction set or threads, and both directions are adjoint. */
+static void transforms(void **state) {
+    (void)state;
+    enum { N = 1111, DEGREE = 9 };
+    const size_t size = aur_coefficient_count(DEGREE);
+    double *const xyz = points_of("random", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double storage[4 * N], weights[N], values[N], sums[2][200], reference[N];
+    double *const room = malloc(AUR_TRANSFORM_BANDS * aur_transform_room(DEGREE) * sizeof *room);
+    const aur_polar_points points = aur_polar_points_make(N, xyz, storage);
+    aur_basis basis;
+    aur_error error;
+    assert_int_equal(aur_basis_create(DEGREE, -1.0, 0.0, &basis, &error), AUR_OK);
+    for (size_t i = 0; i < N; ++i)
+        weights[i] = sin(3.0 * (double)i);
+    const char *const sets[] = {"portable", "avx2", "avx512"};
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t threads = 1; threads <= 3; threads += 2) {
+            setenv("AUREOLE_ISA", sets[k], 1);
+            aur_isa_ask_again();
+            const aur_transform transform = {
+                .basis = &basis, .points = &points, .threads = threads, .sums = room};
+            const bool first = k == 0 && threads == 1;
+            assert_int_equal(aur_transform_analyse(&transform, weights, sums[!first], &error), AUR_OK);
+            assert_int_equal(
+                aur_transform_synthesise(&transform, sums[0], first ? reference : values, &error), AUR_OK);
+            if (first)
+                continue;
+            assert_memory_equal(sums[0], sums[1], size * sizeof(double));
+            assert_memory_equal(reference, values, sizeof values);
+        }
+    unsetenv("AUREOLE_ISA");
+    aur_isa_ask_again();
+    double squares = 0.0, product = 0.0;
+    for (size_t j = 0; j < size; ++j)
+        squares += sums[0][j] * sums[0][j];
+    for (size_t i = 0; i < N; ++i)
+        product += weights[i] * reference[i];
+    assert_relative(product, squares, 1e-13);
+    /* Degree 3, order 2, the cosine, of mean square 1: sqrt(105)/2 z (x^2 - y^2). */
+    double sum = 0.0;
+    for (size_t i = 0; i < N; ++i)
+        sum += weights[i] * 0.5 * sqrt(105.0) * xyz[3 * i + 2] *
+               (xyz[3 * i] * xyz[3 * i] - xyz[3 * i + 1] * xyz[3 * i + 1]);
+    assert_near(sums[0][2 * (aur_basis_at(DEGREE, 2) + 1)], sum, 1e-12);
+    aur_basis_release(&basis);
+    free(room);
+    free(xyz);
+}
+
+/* The fast transforms against the plain ones, poles, seams and doubled points among them, at an even and an
+ * odd degree; no bit depends on threads, and both directions are adjoint. The window errs by 1e-11 of the
+ * largest value. */
+static void fast_transforms(void **state) {
+    (void)state;
+    enum { N = 500 };
+    double *const xyz = points_of("random", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    const double special[] = {0, 0, 1, 0, 0, -1, 1, 0, 0, -1, 0, 0, -1, -0.0, 0, 0, -1, 0, 0, -1, 0};
+    memcpy(xyz, special, sizeof special);
+    double storage[4 * N], weights[N], values[2][N];
+    const aur_polar_points points = aur_polar_points_make(N, xyz, storage);
+    aur_error error;
+    for (size_t degree = 33; degree <= 64; degree += 31) {
+        const size_t size = aur_coefficient_count(degree);
+        double *const sums =
+            malloc((2 * size + AUR_TRANSFORM_BANDS * aur_transform_room(degree)) * sizeof *sums);
+        aur_basis basis;
+        assert_int_equal(aur_basis_create(degree, -1.0, 0.0, &basis, &error), AUR_OK);
+        const aur_transform transform = {
+            .basis = &basis, .points = &points, .threads = 1, .sums = sums + 2 * size};
+        for (size_t i = 0; i < N; ++i)
+            weights[i] = sin(3.0 * (double)i);
+        assert_int_equal(aur_transform_analyse(&transform, weights, sums, &error), AUR_OK);
+        assert_int_equal(aur_transform_synthesise(&transform, sums, values[0], &error), AUR_OK);
+        double largest = 0.0, most = 0.0;
+        for (size_t i = 0; i < N; ++i)
+            largest = fmax(largest, fabs(values[0][i]));
+        for (size_t threads = 1; threads <= 3; threads += 2) {
+            aur_fast_transform *fast;
+            double *const found = sums + size;
+            assert_int_equal(
+                aur_fast_transform_create(&basis, &points, threads, (aur_progress){0}, &fast, &error),
+                AUR_OK);
+            assert_int_equal(aur_fast_transform_analyse(fast, weights, found, &error), AUR_OK);
+            for (size_t j = 0; j < size; ++j)
+                most = fmax(most, fabs(found[j]));
+            for (size_t j = 0; j < size; ++j)
+                assert_near(found[j], sums[j], 1e-11 * most);
+            double before[N];
+            memcpy(before, values[1], sizeof before);
+            assert_int_equal(aur_fast_transform_synthesise(fast, sums, values[1], &error), AUR_OK);
+            for (size_t i = 0; i < N; ++i)
+                assert_near(values[1][i], values[0][i], 1e-11 * largest);
+            if (threads > 1)
+                assert_memory_equal(before, values[1], sizeof before);
+            double left = 0.0, right = 0.0;
+            for (size_t j = 0; j < size; ++j)
+                left += found[j] * sums[j];
+            for (size_t i = 0; i < N; ++i)
+                right += weights[i] * values[1][i];
+            assert_relative(left, right, 1e-13);
+            aur_fast_transform_destroy(fast);
+        }
+        aur_basis_release(&basis);
+        free(sums);
+    }
+    free(xyz);
+}
+
+/* More points than the factorisation takes, and a degree with its neighbours. */
+static void many_points(void **state) {
+    (void)state;
+    enum { N = 2600 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double *const weights = malloc(2 * N * sizeof *weights);
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.degree = 40;
+    aur_exact_report report;
+    aur_error error;
+    for (size_t threads = 1; threads <= 3; threads += 2) {
+        options.threads = threads;
+        assert_int_equal(
+            aur_weights_exact(N, xyz, &options, N, weights + (threads > 1 ? N : 0), &report, &error), AUR_OK);
+        assert_true(report.residual < 1e-14 && report.iterations > 0 && report.least > 0.85);
+    }
+    assert_memory_equal(weights, weights + N, N * sizeof *weights);
+    free(weights);
+    free(xyz);
+}
+
+static void bad_input(void **state) {
+    (void)state;
+    double xyz[15] = {0, 0, 1, 0, 0, -1, 0, 0, 1, 1, 0, 0, 0, 0, 1.1}, weights[5];
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_report report;
+    aur_error error;
+    assert_int_equal(aur_weights_exact(0, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_weights_exact(5, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "point 5,"));
+    assert_int_equal(aur_weights_exact(2, xyz, &options, 1, weights, NULL, &error), AUR_ERROR_CAPACITY);
+    /* One point and two: degree 0; the two poles: degree 1. */
+    assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, &report, &error), AUR_OK);
+    assert_true(report.degree == 0 && weights[0] == 1.0);
+    assert_int_equal(aur_weights_exact(2, xyz, &options, 5, weights, &report, &error), AUR_OK);
+    assert_int_equal(report.degree, 1);
+    /* Doubled points share; given weights are kept as they are. */
+    assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_OK);
+    assert_true(report.degree == 1 && report.places == 2);
+    assert_near(weights[0], 0.25, 1e-15);
+    assert_near(weights[1], 0.5, 1e-15);
+    options.near = (const double[]){0.0, 2.0, 2.0};
+    assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_OK);
+    assert_true(weights[0] == 0.0 && report.places == 2);
+    options.near = (const double[]){0.0, -2.0, 2.0};
+    assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    options.near = (const double[]){0.0, 0.0, 0.0};
+    assert_int_equal(aur_weights_exact(3, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    options.near = NULL;
+    options.degree = 2;
+    assert_int_equal(aur_weights_exact(4, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "degree 2"));
+    options.degree = AUR_EXACT_DEGREE_MAX + 1;
+    assert_int_equal(aur_weights_exact(4, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    options = aur_exact_options_default(AUR_DOMAIN_HEMISPHERE);
+    assert_int_equal(aur_weights_exact(4, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "point 2 "));
+    options = aur_exact_options_default(AUR_DOMAIN_DISK);
+    assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
+    options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.lobe.exponent = 1.0;
+    assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
+    options.lobe.exponent = NAN;
+    assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
+    options.lobe.exponent = 0.0;
+    options.cap_degrees = 181.0;
+    assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
+}
+
+/* The largest error among the harmonics to a degree, whose mean square is 1, by the recurrence in the degree
+ * of Holmes and Featherstone 2002, eq. 11. */
+static double worst_harmonic(size_t count, const double *xyz, const double *weights, size_t degree) {
+    double worst = 0.0;
+    for (size_t m = 0; m <= degree; ++m) {
+        double sums[2 * 64] = {0.0};
+        assert_in_range(degree, 0, 63);
+        for (size_t i = 0; i < count; ++i) {
+            const double z = xyz[3 * i + 2], phi = atan2(xyz[3 * i + 1], xyz[3 * i]);
+            double here = 1.0, before = 0.0;
+            for (size_t k = 1; k <= m; ++k)
+                here *= sqrt(1.0 - z * z) * (k == 1 ? sqrt(3.0) : sqrt(1.0 + 0.5 / (double)k));
+            for (size_t l = m; l <= degree; ++l) {
+                sums[2 * l] += weights[i] * here * cos((double)m * phi);
+                sums[2 * l + 1] += weights[i] * here * sin((double)m * phi);
+                const double n = (double)l + 1.0, q = n * n - (double)(m * m);
+                const double next =
+                    sqrt((4.0 * n * n - 1.0) / q) * z * here -
+                    (l > m ? sqrt((2.0 * n + 1.0) * (q - 2.0 * n + 1.0) / (q * (2.0 * n - 3.0))) * before
+                           : 0.0);
+                before = here;
+                here = next;
+            }
+        }
+        for (size_t k = 2 * m; k < 2 * degree + 2; ++k)
+            worst = fmax(worst, fabs(sums[k] - (m == 0 && k == 0 ? 1.0 : 0.0)));
+    }
+    return worst;
+}
+
+/* The residual that is reported is the one of the weights that are returned; that one is the largest error
+ * among harmonics, which equal weights show far above rounding. Axes count once. */
+static void reports(void **state) {
+    (void)state;
+    enum { N = 300, DEGREE = 24 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N],
+                  storage[4 * N];
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_report report;
+    aur_exact_found found = {0};
+    aur_error error;
+    for (size_t i = 0; i < N; ++i)
+        weights[i] = 1.0 / N;
+    const aur_exact_system system = {
+        .points = aur_polar_points_make(N, xyz, storage), .near = weights, .places = N, .lowest = -1.0};
+    assert_int_equal(aur_exact_residual(&system, DEGREE, weights, &found, &error), AUR_OK);
+    assert_true(found.residual > 1e-6);
+    assert_relative(found.residual, worst_harmonic(N, xyz, weights, DEGREE), 1e-9);
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_int_equal(aur_exact_residual(&system, report.degree, weights, &found, &error), AUR_OK);
+    assert_true(report.residual == found.residual && report.residual > 0.0);
+    options.domain = AUR_DOMAIN_AXES;
+    memcpy(xyz + 3, xyz, 3 * sizeof *xyz);
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_true(report.points == N && report.places == N - 1);
+    free(xyz);
+}
+
+/* A random set at a degree that needs a negative weight: refused with the least one, or allowed. */
+static void negative(void **state) {
+    (void)state;
+    enum { N = 200 };
+    double *const xyz = points_of("random", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N];
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.degree = 11;
+    aur_exact_report report;
+    aur_error error;
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "negative weights, the least of them -"));
+    options.negative = true;
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_true(report.least < 0.0);
+    assert_true(worst_monomial(N, xyz, weights, 11, -1.0, 0.0) < 1e-12);
+    free(xyz);
+}
+
+/* Each level of a grid is exact by itself, and what stands behind it has no weight. */
+static void nested(void **state) {
+    (void)state;
+    enum { N = 512, LEVELS = 4 };
+    const size_t counts[LEVELS] = {64, 128, 256, 512};
+    double *const xyz = points_of("esfg:base=64", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double weights[LEVELS * N];
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.degree = 4;
+    aur_exact_report reports[LEVELS];
+    aur_error error;
+    assert_int_equal(
+        aur_weights_nested(N, xyz, LEVELS, counts, &options, LEVELS * N, weights, reports, &error), AUR_OK);
+    for (size_t k = 0; k < LEVELS; ++k) {
+        assert_true(reports[k].least > 0.0);
+        assert_true(worst_monomial(N, xyz, weights + k * N, 4, -1.0, 0.0) < 1e-14);
+        for (size_t i = counts[k]; i < N; ++i)
+            assert_true(weights[k * N + i] == 0.0);
+    }
+    options.degree = 20; /* too much for the first level */
+    assert_int_equal(
+        aur_weights_nested(N, xyz, LEVELS, counts, &options, LEVELS * N, weights, reports, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_int_equal(strncmp(error.message, "level 0: ", 9), 0);
+    assert_int_equal(
+        aur_weights_nested(N, xyz, LEVELS, counts, &options, LEVELS * N - 1, weights, reports, &error),
+        AUR_ERROR_CAPACITY);
+    assert_int_equal(
+        aur_weights_nested(300, xyz, LEVELS, counts, &options, LEVELS * N, weights, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_int_equal(
+        aur_weights_nested(N, xyz, 2, (const size_t[]){64, 64}, &options, LEVELS * N, weights, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    free(xyz);
+}
+
+/* Areas of cells: the cube's vertices have one each; doubled points share; two points have a hemisphere each;
+ * the cosine multiplies. */
+static void cells(void **state) {
+    (void)state;
+    double xyz[27], weights[9];
+    for (size_t i = 0; i < 24; ++i)
+        xyz[i] = ((i / 3) >> (i % 3) & 1 ? 1.0 : -1.0) / sqrt(3.0);
+    memcpy(xyz + 24, xyz, 3 * sizeof *xyz);
+    aur_error error;
+    assert_int_equal(aur_weights_voronoi(9, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 9, weights, &error), AUR_OK);
+    assert_near(weights[0], 1.0 / 16.0, 1e-15);
+    assert_near(weights[1], 1.0 / 8.0, 1e-15);
+    assert_int_equal(aur_weights_voronoi(2, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 9, weights, &error), AUR_OK);
+    assert_near(weights[0], 0.5, 0.0);
+    assert_int_equal(aur_weights_voronoi(8, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 7, weights, &error),
+                     AUR_ERROR_CAPACITY);
+    assert_int_equal(aur_weights_voronoi(8, xyz, AUR_DOMAIN_DISK, NULL, NULL, 9, weights, &error),
+                     AUR_ERROR_UNSUPPORTED);
+    enum { N = 500 };
+    double *const half = points_of("sobol", N, AUR_DOMAIN_HEMISPHERE, 0.0, 0.0), areas[N], weighed[N],
+                  sum = 0.0;
+    const aur_lobe cosine = {.exponent = 1.0};
+    assert_int_equal(aur_weights_voronoi(N, half, AUR_DOMAIN_HEMISPHERE, NULL, NULL, N, areas, &error),
+                     AUR_OK);
+    assert_int_equal(aur_weights_voronoi(N, half, AUR_DOMAIN_HEMISPHERE, &cosine, NULL, N, weighed, &error),
+                     AUR_OK);
+    for (size_t i = 0; i < N; ++i)
+        sum += areas[i] * half[3 * i + 2];
+    for (size_t i = 0; i < N; ++i)
+        assert_near(weighed[i], areas[i] * half[3 * i + 2] / sum, 1e-15);
+    free(half);
+}
+
+/* Stops at call `last`. */
+typedef struct countdown {
+    size_t calls, last;
+} countdown;
+
+static int count_down(void *user, const char *what, uint64_t done, uint64_t total) {
+    countdown *const c = user;
+    (void)what;
+    assert_true(done <= total);
+    return ++c->calls == c->last;
+}
+
+/* A step over many points takes seconds: whether to stop is asked within it, and the answer holds at once. */
+static void stops_within_a_step(void **state) {
+    (void)state;
+    enum { N = 40000 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double *const weights = malloc(N * sizeof *weights);
+    assert_non_null(weights);
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    countdown all = {0};
+    aur_exact_report report;
+    aur_error error;
+    options.degree = 40;
+    options.threads = 1;
+    options.progress = (aur_progress){.function = count_down, .user = &all};
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_true(all.calls > 10 * (report.iterations + 1));
+    for (size_t last = 1; last < all.calls; last += all.calls / 7) {
+        countdown some = {.last = last};
+        options.progress.user = &some;
+        assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error),
+                         AUR_ERROR_CANCELLED);
+        assert_int_equal(some.calls, last);
+    }
+    free(weights);
+    free(xyz);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(golden),      cmocka_unit_test(monomials),  cmocka_unit_test(designs),
+        cmocka_unit_test(two_ways),    cmocka_unit_test(transforms), cmocka_unit_test(fast_transforms),
+        cmocka_unit_test(many_points), cmocka_unit_test(bad_input),  cmocka_unit_test(negative),
+        cmocka_unit_test(cells),       cmocka_unit_test(nested),     cmocka_unit_test(stops_within_a_step),
+        cmocka_unit_test(reports)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,634 @@
+#include "check.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "points/base/vector3d.h"
+#include "points/quality/spacing.h"
+#include "points/quality/sphere/sphere_grid.h"
+#include "points/quality/sphere/voronoi.h"
+#include "sphere_sets.h"
+
+static double measured(const char *metric, const own_points *points) {
+    double value = NAN;
+    aur_error error = {0};
+    assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
+                     AUR_OK);
+    return value;
+}
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void the_grid_finds_all_neighbours(void **state) {
+    (void)state;
+    own_points points = random_directions(700, 3);
+    points.coordinates[0] = points.coordinates[1] = 0.0; /* a pole */
+    points.coordinates[2] = 1.0;
+    const aur_points_view view = seen(&points);
+    aur_arena arena = {0};
+    aur_sphere_grid grid;
+    assert_int_equal(aur_sphere_grid_create(&view, AUR_PI, &arena, &grid, NULL), AUR_OK);
+    aur_neighbours near = {0};
+    for (size_t i = 0; i < points.count; i += 7) {
+        const double angle = 0.01 * (double)(1 + i % 400);
+        assert_int_equal(aur_sphere_grid_near(&grid, i, angle, &near), AUR_OK);
+        size_t expected = 0;
+        for (size_t j = 0; j < points.count; ++j) {
+            double square = 0.0;
+            for (size_t d = 0; d < 3; ++d) {
+                const double apart = points.coordinates[3 * i + d] - points.coordinates[3 * j + d];
+                square += apart * apart;
+            }
+            const double chord = angle < AUR_PI ? 2.0 * sin(0.5 * angle) : 3.0;
+            expected += j != i && square <= chord * chord;
+        }
+        assert_int_equal(near.count, expected);
+        for (size_t n = 1; n < near.count; ++n)
+            assert_true(near.items[n - 1].square <= near.items[n].square);
+    }
+    free(near.items);
+    aur_arena_release(&arena);
+    release_points(&points);
+}
+
+static void regular_sets_have_regular_cells(void **state) {
+    (void)state;
+    own_points points = octahedron();
+    assert_near(measured("covering", &points), acos(1.0 / sqrt(3.0)), 1e-9);
+    assert_near(measured("mesh-ratio", &points), acos(1.0 / sqrt(3.0)) / (AUR_PI / 4.0), 1e-9);
+    assert_near(measured("voronoi-min", &points), 1.0, 1e-9);
+    assert_near(measured("voronoi-max", &points), 1.0, 1e-9);
+    aur_series *series;
+    assert_int_equal(
+        aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL), AUR_OK);
+    assert_int_equal(aur_series_row_count(series), 6);
+    assert_string_equal(aur_series_column(series, 3), "sides");
+    for (size_t i = 0; i < 6; ++i)
+        assert_near(aur_series_values(series)[4 * i + 3], 4.0, 0.0);
+    aur_series_destroy(series);
+    /* A corner of the octahedron twice: the two share a cell. */
+    points.coordinates = realloc(points.coordinates, 21 * sizeof(double));
+    memcpy(points.coordinates + 18, points.coordinates, 3 * sizeof(double));
+    points.count = 7;
+    assert_near(measured("voronoi-min", &points), 7.0 / 12.0, 1e-9);
+    assert_near(measured("voronoi-max", &points), 7.0 / 6.0, 1e-9);
+    release_points(&points);
+}
+
+/* Cells tile the sphere, or the hemisphere. */
+static void areas_add_up(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 4; ++seed) {
+        own_points points = random_directions(300, seed);
+        if (seed % 2 == 1) {
+            points.domain = AUR_DOMAIN_HEMISPHERE;
+            for (size_t i = 0; i < points.count; ++i)
+                points.coordinates[3 * i + 2] = fabs(points.coordinates[3 * i + 2]);
+        }
+        aur_series *series;
+        assert_int_equal(
+            aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL),
+            AUR_OK);
+        double sum = 0.0;
+        for (size_t i = 0; i < aur_series_row_count(series); ++i)
+            sum += aur_series_values(series)[4 * i + 1];
+        assert_relative(sum, (double)points.count, 1e-9);
+        aur_series_destroy(series);
+        release_points(&points);
+    }
+}
+
+/* The least and greatest area and the standard deviation, by the table of all areas. */
+static void figures_are_those_of_the_table(void **state) {
+    (void)state;
+    own_points points = random_directions(50, 9);
+    aur_series *series;
+    assert_int_equal(
+        aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL), AUR_OK);
+    double least = INFINITY, greatest = 0.0, squares = 0.0, farthest = 0.0;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double *const row = aur_series_values(series) + 4 * i;
+        least = fmin(least, row[1]);
+        greatest = fmax(greatest, row[1]);
+        squares += (row[1] - 1.0) * (row[1] - 1.0);
+        farthest = fmax(farthest, row[2]);
+    }
+    assert_near(measured("voronoi-min", &points), least, 1e-12);
+    assert_near(measured("voronoi-max", &points), greatest, 1e-12);
+    assert_relative(measured("voronoi-deviation", &points), sqrt(squares / 50.0), 1e-12);
+    assert_near(measured("covering", &points), farthest, 1e-12);
+    aur_series_destroy(series);
+    release_points(&points);
+}
+
+static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
+    own_points points = sphere_points(count);
+    const double half = sin(degrees * (AUR_PI / 360.0));
+    for (size_t j = 0; j < count; ++j) {
+        /* By half the polar angle, of which small caps keep the digits. */
+        const double sine = half * sqrt(aur_unit_double(aur_hash3(seed, j, 0)));
+        const double phi = 2.0 * AUR_PI * aur_unit_double(aur_hash3(seed, j, 1));
+        const double r = 2.0 * sine * sqrt(1.0 - sine * sine);
+        points.coordinates[3 * j] = r * cos(phi);
+        points.coordinates[3 * j + 1] = r * sin(phi);
+        points.coordinates[3 * j + 2] = 1.0 - 2.0 * sine * sine;
+    }
+    return points;
+}
+
+static aur_series *cells_of_cap(const own_points *points, double degrees, size_t threads) {
+    aur_measure_options options = aur_measure_options_default();
+    options.cap_degrees = degrees;
+    options.threads = threads;
+    aur_series *series;
+    aur_error error = {0};
+    if (aur_measure_series("voronoi", (const aur_points_view[]){seen(points)}, &options, &series, &error) !=
+        AUR_OK)
+        fail_msg("%s", error.message);
+    return series;
+}
+
+/* Cells tile caps of every size, from a grain to nearly all of the sphere, with the same bits on any number
+ * of threads. */
+static void areas_of_caps_add_up(void **state) {
+    (void)state;
+    static const double caps[] = {1e-6, 1e-3, 0.5, 20.0, 34.0, 60.0, 89.9999, 90.0, 90.0001, 120.0, 179.0};
+    for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
+        own_points points = random_in_cap(300, caps[c], c);
+        aur_series *const series = cells_of_cap(&points, caps[c], 1), *const other =
+                                                                          cells_of_cap(&points, caps[c], 3);
+        assert_memory_equal(aur_series_values(series), aur_series_values(other), 1200 * sizeof(double));
+        double sum = 0.0;
+        for (size_t i = 0; i < 300; ++i)
+            sum += aur_series_values(series)[4 * i + 1];
+        assert_relative(sum, 300.0, 1e-9);
+        aur_series_destroy(series);
+        aur_series_destroy(other);
+        release_points(&points);
+    }
+}
+
+/* Beside a spiral of `samples` points in the cap, each of which belongs to its nearest point: areas to the
+ * spiral's error along the cells' edges, radii to its covering radius. */
+static void cells_of_caps_hold_what_is_nearest(void **state) {
+    (void)state;
+    enum { COUNT = 24, SAMPLES = 100000 };
+    static const double caps[] = {5.0, 50.0, 90.0, 130.0};
+    for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
+        own_points points = random_in_cap(COUNT, caps[c], 7 + c);
+        aur_series *const series = cells_of_cap(&points, caps[c], 1);
+        double share[COUNT] = {0.0}, farthest[COUNT] = {0.0};
+        const double half = sin(caps[c] * (AUR_PI / 360.0));
+        for (size_t k = 0; k < SAMPLES; ++k) {
+            const double z = 1.0 - 2.0 * half * half * ((double)k + 0.5) / SAMPLES,
+                         r = sqrt((1.0 - z) * (1.0 + z));
+            const double phi = 2.0 * AUR_PI * fmod(0.6180339887498949 * (double)k, 1.0);
+            const double y[3] = {r * cos(phi), r * sin(phi), z};
+            size_t nearest = 0;
+            for (size_t i = 1; i < COUNT; ++i)
+                if (dot(y, points.coordinates + 3 * i) > dot(y, points.coordinates + 3 * nearest))
+                    nearest = i;
+            share[nearest] += (double)COUNT / SAMPLES;
+            farthest[nearest] =
+                fmax(farthest[nearest], acos(fmin(dot(y, points.coordinates + 3 * nearest), 1.0)));
+        }
+        /* Twice the mean distance of the spiral's points: a cell's edge is off by no more. */
+        const double spacing = 2.0 * half * sqrt(4.0 * AUR_PI / SAMPLES);
+        for (size_t i = 0; i < COUNT; ++i) {
+            const double *const row = aur_series_values(series) + 4 * i;
+            assert_near(row[1], share[i], 0.01);
+            assert_true(row[2] > farthest[i] - 1e-7 && row[2] < farthest[i] + spacing);
+        }
+        aur_series_destroy(series);
+        release_points(&points);
+    }
+}
+
+enum { WALK = 20000 };
+
+/* How often a walk around a circle comes to places where `there` is true. */
+static size_t arcs_of(const bool *there) {
+    size_t arcs = 0;
+    for (size_t k = 0; k < WALK; ++k)
+        arcs += there[k] && !there[k > 0 ? k - 1 : WALK - 1];
+    return arcs == 0 && there[0] ? 1 : arcs;
+}
+
+static size_t nearest_of(const own_points *points, const double way[3]) {
+    size_t best = 0;
+    for (size_t i = 1; i < points->count; ++i)
+        if (dot(way, points->coordinates + 3 * i) > dot(way, points->coordinates + 3 * best))
+            best = i;
+    return best;
+}
+
+/* Arcs of the cell of point i: along the rim, and along the great circles between it and other points. */
+static size_t walked_sides(const own_points *points, double radians, size_t i) {
+    static bool there[WALK];
+    const double *const x = points->coordinates + 3 * i;
+    for (size_t k = 0; k < WALK; ++k) {
+        const double phi = 2.0 * AUR_PI * (double)k / WALK;
+        const double way[3] = {sin(radians) * cos(phi), sin(radians) * sin(phi), cos(radians)};
+        there[k] = nearest_of(points, way) == i;
+    }
+    size_t sides = arcs_of(there);
+    for (size_t j = 0; j < points->count; ++j) {
+        const double *const y = points->coordinates + 3 * j;
+        double normal[3], first[3], second[3];
+        if (j == i)
+            continue;
+        for (size_t d = 0; d < 3; ++d)
+            normal[d] = x[d] - y[d];
+        aur_normalize3(normal);
+        aur_frame3(normal, first, second);
+        for (size_t k = 0; k < WALK; ++k) {
+            const double phi = 2.0 * AUR_PI * (double)k / WALK;
+            double way[3];
+            for (size_t d = 0; d < 3; ++d)
+                way[d] = cos(phi) * first[d] + sin(phi) * second[d];
+            const size_t nearest = nearest_of(points, way);
+            there[k] = way[2] >= cos(radians) &&
+                       (nearest == i || nearest == j ||
+                        dot(way, points->coordinates + 3 * nearest) <= dot(way, x) + 1e-12);
+        }
+        sides += arcs_of(there);
+    }
+    return sides;
+}
+
+/* The number of sides of cells that a cap's rim cuts against walks around all circles. */
+static void sides_of_caps_are_counted(void **state) {
+    (void)state;
+    static const double caps[] = {25.0, 60.0, 90.0, 130.0};
+    for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
+        own_points points = random_in_cap(16, caps[c], 70 + c);
+        aur_series *const series = cells_of_cap(&points, caps[c], 1);
+        for (size_t i = 0; i < points.count; ++i)
+            assert_int_equal((int)aur_series_values(series)[4 * i + 3],
+                             walked_sides(&points, caps[c] * (AUR_PI / 180.0), i));
+        aur_series_destroy(series);
+        release_points(&points);
+    }
+}
+
+/* One point has all of its cap; a cap of 90 degrees is the hemisphere; measures without caps say so. */
+static void caps_agree_with_what_is_known(void **state) {
+    (void)state;
+    own_points points = random_in_cap(200, 90.0, 1), one = octahedron();
+    memcpy(one.coordinates, one.coordinates + 12, 3 * sizeof(double));
+    one.count = 1;
+    aur_series *series = cells_of_cap(&one, 40.0, 1);
+    const double *const row = aur_series_values(series);
+    assert_near(row[1], 1.0, 1e-14);
+    assert_near(row[2], 40.0 * AUR_PI / 180.0, 1e-14);
+    assert_true(row[3] == 1.0);
+    aur_series_destroy(series);
+    series = cells_of_cap(&points, 90.0, 1);
+    points.domain = AUR_DOMAIN_HEMISPHERE;
+    aur_series *whole = cells_of_cap(&points, 0.0, 1);
+    assert_memory_equal(aur_series_values(series), aur_series_values(whole), 800 * sizeof(double));
+    aur_series_destroy(series);
+    aur_series_destroy(whole);
+    static const struct {
+        const char *metric, *text;
+        double cap;
+    } refused[] = {
+        {"energy", "measure 'energy' is for the sphere, hemisphere, axes, rotations, not for caps", 90.0},
+        {"covering", "above 0 and at most 90 degrees, not 91: wider ones are for the domain sphere", 91.0},
+        {"covering", "above 0 and at most 90 degrees, not nan", NAN},
+        {"covering", "degrees from +z, outside the cap of 10 degrees", 10.0}};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
+        aur_measure_options options = aur_measure_options_default();
+        options.cap_degrees = refused[i].cap;
+        aur_error error = {0};
+        double value;
+        assert_int_not_equal(aur_measure(refused[i].metric, (const aur_points_view[]){seen(&points)},
+                                         &options, &value, &error),
+                             AUR_OK);
+        if (strstr(error.message, refused[i].text) == NULL)
+            fail_msg("%s", error.message);
+    }
+    release_points(&points);
+    release_points(&one);
+}
+
+/* Twice the area of the flat triangle, with the sign of its sense of turning as seen from outside. */
+static double turn(const double *a, const double *b, const double *c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* A corner is computed from two great circles: it is off by their rounding over the sine of their angle. */
+static const double corner_error = 1e-12;
+
+/* No point is nearer to a corner than the cell's own, and two others are as near; the corners turn
+ * counter-clockwise about the point, and the triangles between make the cell's area. */
+static void check_corners(const own_points *points, aur_domain domain, size_t threads) {
+    aur_points_view view = seen(points);
+    view.domain = domain;
+    aur_measure_options options = aur_measure_options_default();
+    options.threads = threads;
+    aur_series *cells, *corners;
+    assert_int_equal(aur_measure_series("voronoi", &view, &options, &cells, NULL), AUR_OK);
+    assert_int_equal(aur_measure_series("voronoi-cells", &view, &options, &corners, NULL), AUR_OK);
+    const double *const figures = aur_series_values(cells), *row = aur_series_values(corners);
+    const double mean = (domain == AUR_DOMAIN_SPHERE ? 4.0 : 2.0) * AUR_PI / (double)points->count;
+    for (size_t i = 0; i < points->count; ++i) {
+        const double *const x = points->coordinates + 3 * i;
+        const size_t sides = (size_t)figures[4 * i + 3];
+        double area = 0.0;
+        for (size_t k = 0; k < sides; ++k) {
+            const double *const corner = row + 4 * k + 1, *const next = row + 4 * ((k + 1) % sides) + 1;
+            assert_true(row[4 * k] == (double)(i + 1));
+            const double own = dot(corner, x);
+            size_t as_near = domain == AUR_DOMAIN_HEMISPHERE && fabs(corner[2]) < corner_error;
+            for (size_t j = 0; j < points->count; ++j) {
+                const double other = dot(corner, points->coordinates + 3 * j);
+                const double near = domain == AUR_DOMAIN_AXES ? fabs(other) : other;
+                assert_true(near < own + corner_error);
+                as_near += j != i && near > own - corner_error;
+            }
+            assert_true(as_near >= 2);
+            assert_true(turn(x, corner, next) > -corner_error);
+            area += 2.0 * atan2(turn(x, corner, next), 1.0 + own + dot(next, x) + dot(corner, next));
+        }
+        assert_relative(area, figures[4 * i + 1] * mean, corner_error);
+        row += 4 * sides;
+    }
+    assert_true(row == aur_series_values(corners) + 4 * aur_series_row_count(corners));
+    aur_series_destroy(cells);
+    aur_series_destroy(corners);
+}
+
+static void corners_are_as_far_from_three_points(void **state) {
+    (void)state;
+    own_points points = random_directions(300, 5);
+    check_corners(&points, AUR_DOMAIN_SPHERE, 1);
+    check_corners(&points, AUR_DOMAIN_SPHERE, 3);
+    check_corners(&points, AUR_DOMAIN_AXES, 1);
+    for (size_t i = 0; i < points.count; ++i)
+        points.coordinates[3 * i + 2] = fabs(points.coordinates[3 * i + 2]);
+    check_corners(&points, AUR_DOMAIN_HEMISPHERE, 1);
+    points.count = 3;
+    aur_series *corners;
+    assert_int_equal(
+        aur_measure_series("voronoi-cells", (const aur_points_view[]){seen(&points)}, NULL, &corners, NULL),
+        AUR_ERROR_UNSUPPORTED);
+    release_points(&points);
+}
+
+/* The covering radius against circumcentres of all triples: those of empty caps are the corners of the cells.
+ */
+static void covering_agrees_with_all_triples(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 12; ++seed) {
+        own_points points = random_directions(4 + 3 * seed, seed);
+        const double *const x = points.coordinates;
+        double best = 1.0;
+        for (size_t i = 0; i < points.count; ++i)
+            for (size_t j = 0; j < i; ++j)
+                for (size_t k = 0; k < j; ++k) {
+                    double p[3], q[3];
+                    for (size_t d = 0; d < 3; ++d) {
+                        p[d] = x[3 * j + d] - x[3 * i + d];
+                        q[d] = x[3 * k + d] - x[3 * i + d];
+                    }
+                    double w[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                                   p[0] * q[1] - p[1] * q[0]};
+                    const double length = sqrt(dot(w, w));
+                    for (int side = 0; side < 2; ++side) {
+                        for (size_t d = 0; d < 3; ++d)
+                            w[d] /= side == 0 ? length : -1.0;
+                        const double height = dot(w, x + 3 * i);
+                        int empty = 1;
+                        for (size_t m = 0; m < points.count; ++m)
+                            empty &= dot(w, x + 3 * m) <= height + 1e-12;
+                        if (empty)
+                            best = fmin(best, height);
+                    }
+                }
+        assert_near(measured("covering", &points), acos(best), 1e-8);
+        release_points(&points);
+    }
+}
+
+/* One point, two points, and points of one hemisphere only. */
+static void covering_beyond_ninety_degrees(void **state) {
+    (void)state;
+    own_points points = spherical_fibonacci(200, AUR_DOMAIN_HEMISPHERE);
+    points.domain = AUR_DOMAIN_SPHERE;
+    for (size_t i = 0; i < points.count; ++i) /* all within a cap of 60 degrees, the rim at z = 1/2 + 1/800 */
+        set_direction(&points, i, 0.5 + 0.5 * points.coordinates[3 * i + 2],
+                      atan2(points.coordinates[3 * i + 1], points.coordinates[3 * i]));
+    const double covering = measured("covering", &points);
+    assert_true(covering > AUR_PI - acos(0.5) && covering < AUR_PI - acos(0.5) + 0.05);
+    points.count = 1;
+    assert_near(measured("covering", &points), AUR_PI, 1e-7);
+    points.count = 2;
+    const double angle = acos(dot(points.coordinates, points.coordinates + 3));
+    assert_near(measured("covering", &points), AUR_PI - 0.5 * angle, 1e-9);
+    assert_near(measured("voronoi-min", &points), 1.0, 1e-15);
+    assert_near(measured("voronoi-max", &points), 1.0, 1e-15);
+    release_points(&points);
+}
+
+/* Sides of every cell, of `of` different counts at most, and the areas' sum. */
+static void check_sides(const own_points *points, size_t least, size_t most) {
+    const aur_points_view view = seen(points);
+    aur_series *cells;
+    assert_int_equal(aur_measure_series("voronoi", &view, NULL, &cells, NULL), AUR_OK);
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; ++i) {
+        const double *const row = aur_series_values(cells) + 4 * i;
+        sum += row[1];
+        assert_in_range(row[3], least, most);
+    }
+    assert_relative(sum, (double)points->count, 1e-12);
+    aur_series_destroy(cells);
+}
+
+static void rotate(own_points *points, double a, double b) {
+    for (size_t i = 0; i < points->count; ++i) {
+        double *const p = points->coordinates + 3 * i;
+        const double x = p[0] * cos(a) - p[1] * sin(a), y = p[0] * sin(a) + p[1] * cos(a);
+        p[0] = x;
+        p[1] = y * cos(b) - p[2] * sin(b);
+        p[2] = y * sin(b) + p[2] * cos(b);
+        const double length = sqrt(dot(p, p));
+        for (size_t d = 0; d < 3; ++d)
+            p[d] /= length;
+    }
+}
+
+/* Each point twice, in one place or a few roundings apart: pairs share their cells. */
+static void doubled_points_share_their_cells(void **state) {
+    (void)state;
+    own_points once = random_directions(40, 12), twice = sphere_points(80);
+    for (size_t shift = 0; shift < 3; ++shift) {
+        for (size_t i = 0; i < 240; ++i)
+            twice.coordinates[i] =
+                once.coordinates[i % 120] * (i < 120 ? 1.0 : 1.0 + (double)shift * DBL_EPSILON);
+        for (size_t count = 41; count <= 80; count += 13) {
+            aur_series *cells, *single;
+            const aur_points_view view = seen(&once);
+            aur_points_view more = seen(&twice);
+            more.count = count;
+            assert_int_equal(aur_measure_series("voronoi", &view, NULL, &single, NULL), AUR_OK);
+            assert_int_equal(aur_measure_series("voronoi", &more, NULL, &cells, NULL), AUR_OK);
+            const double *const a = aur_series_values(single), *const b = aur_series_values(cells);
+            for (size_t i = 0; i < count; ++i) {
+                const double share = i % 40 < count - 40 ? 0.5 : 1.0;
+                assert_relative(b[4 * i + 1] / (double)count, share * a[4 * (i % 40) + 1] / 40.0, 1e-12);
+            }
+            aur_series_destroy(single);
+            aur_series_destroy(cells);
+        }
+    }
+    for (size_t i = 0; i < 9; ++i) /* all but one in one place */
+        twice.coordinates[i] = i == 0 || i == 4 || i == 7 ? 1.0 : 0.0;
+    twice.count = 3;
+    aur_series *cells;
+    const aur_points_view view = seen(&twice);
+    assert_int_equal(aur_measure_series("voronoi", &view, NULL, &cells, NULL), AUR_OK);
+    static const double shares[] = {1.5, 0.75, 0.75};
+    for (size_t i = 0; i < 3; ++i)
+        assert_relative(aur_series_values(cells)[4 * i + 1], shares[i], 1e-15);
+    aur_series_destroy(cells);
+    release_points(&once);
+    release_points(&twice);
+}
+
+/* Where more than three points are as far from a corner, it is one corner: cells of the corners of a cube are
+ * triangles, those of an octahedron's, and of rings above each other, quadrilaterals. */
+static void symmetric_sets_have_their_sides(void **state) {
+    (void)state;
+    for (uint64_t turn_index = 0; turn_index < 8; ++turn_index) {
+        const double a = 0.37 * (double)turn_index, b = 0.71 * (double)turn_index;
+        own_points cube = sphere_points(8);
+        for (size_t i = 0; i < 24; ++i)
+            cube.coordinates[i] = (i / 3 >> i % 3 & 1 ? 1.0 : -1.0) / sqrt(3.0);
+        rotate(&cube, a, b);
+        check_sides(&cube, 3, 3);
+        own_points six = octahedron();
+        rotate(&six, a, b);
+        check_sides(&six, 4, 4);
+        enum { RINGS = 9, RING = 16 };
+        own_points rings = sphere_points(RINGS * RING);
+        for (size_t i = 0; i < RINGS * RING; ++i)
+            set_direction(&rings, i, cos(AUR_PI * ((double)(i / RING) + 0.5) / RINGS),
+                          2.0 * AUR_PI * (double)(i % RING) / RING);
+        rotate(&rings, a, b);
+        check_sides(&rings, 3, 4);
+        own_points circle = sphere_points(7); /* cells are lunes */
+        for (size_t i = 0; i < 7; ++i)
+            set_direction(&circle, i, 0.0, 2.0 * AUR_PI * (double)(3 * i % 7) / 7.0);
+        rotate(&circle, a, b);
+        check_sides(&circle, 2, 2);
+        release_points(&cube);
+        release_points(&six);
+        release_points(&rings);
+        release_points(&circle);
+    }
+    own_points one = octahedron();
+    one.count = 1;
+    check_sides(&one, 0, 0);
+    one.count = 2; /* opposite each other */
+    check_sides(&one, 1, 1);
+    release_points(&one);
+}
+
+/* Cells of points of one hemisphere reach beyond 90 degrees. Areas against counts of random directions: five
+ * standard deviations, a false alarm in two million a cell. */
+static void sets_of_one_hemisphere_have_cells(void **state) {
+    (void)state;
+    enum { COUNT = 12, TRIALS = 200000 };
+    for (uint64_t seed = 0; seed < 6; ++seed) {
+        own_points points = random_directions(COUNT, 40 + seed);
+        for (size_t i = 0; i < COUNT; ++i)
+            set_direction(&points, i, 0.1 + 0.8 * fabs(points.coordinates[3 * i + 2]),
+                          0.5 * (double)i + (double)seed);
+        const aur_points_view view = seen(&points);
+        aur_series *cells;
+        assert_int_equal(aur_measure_series("voronoi", &view, NULL, &cells, NULL), AUR_OK);
+        size_t hits[COUNT] = {0};
+        double farthest[COUNT] = {0.0};
+        for (size_t t = 0; t < TRIALS; ++t) {
+            const double z = 1.0 - 2.0 * aur_unit_double(aur_hash3(seed, t, 5)), r = sqrt(1.0 - z * z);
+            const double phi = 2.0 * AUR_PI * aur_unit_double(aur_hash3(seed, t, 6));
+            const double way[3] = {r * cos(phi), r * sin(phi), z};
+            size_t best = 0;
+            for (size_t i = 1; i < COUNT; ++i)
+                if (dot(way, points.coordinates + 3 * i) > dot(way, points.coordinates + 3 * best))
+                    best = i;
+            ++hits[best];
+            farthest[best] = fmax(farthest[best], acos(dot(way, points.coordinates + 3 * best)));
+        }
+        double sum = 0.0;
+        for (size_t i = 0; i < COUNT; ++i) {
+            const double *const row = aur_series_values(cells) + 4 * i;
+            const double share = row[1] / COUNT;
+            sum += share;
+            assert_near((double)hits[i], share * TRIALS, 5.0 * sqrt(share * (1.0 - share) * TRIALS));
+            assert_true(farthest[i] <= row[2] + 1e-12 && farthest[i] > row[2] - 0.2);
+        }
+        assert_relative(sum, 1.0, 1e-13);
+        aur_series_destroy(cells);
+        check_corners(&points, AUR_DOMAIN_SPHERE, 1);
+        release_points(&points);
+    }
+}
+
+static void smallest_distance_agrees_with_all_pairs(void **state) {
+    (void)state;
+    for (size_t dimension = 1; dimension < 5; ++dimension) {
+        const size_t count = 200;
+        own_points points = {.domain = AUR_DOMAIN_CUBE,
+                             .count = count,
+                             .dimension = dimension,
+                             .coordinates = malloc(count * dimension * sizeof(double))};
+        for (size_t i = 0; i < count * dimension; ++i)
+            points.coordinates[i] = aur_unit_double(aur_hash2(dimension, i));
+        double best = 1e9;
+        for (size_t i = 0; i < count; ++i)
+            for (size_t j = 0; j < i; ++j) {
+                double square = 0.0;
+                for (size_t d = 0; d < dimension; ++d) {
+                    const double apart =
+                        points.coordinates[i * dimension + d] - points.coordinates[j * dimension + d];
+                    square += apart * apart;
+                }
+                best = fmin(best, square);
+            }
+        double found = 0.0;
+        const aur_points_view view = seen(&points);
+        aur_arena arena = {0};
+        const aur_measure_request request = {.points = &view, .arena = &arena};
+        assert_int_equal(aur_smallest_distance(&request, &found, NULL), AUR_OK);
+        aur_arena_release(&arena);
+        assert_near(found, sqrt(best), 1e-15);
+        release_points(&points);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_grid_finds_all_neighbours),
+        cmocka_unit_test(regular_sets_have_regular_cells),
+        cmocka_unit_test(areas_add_up),
+        cmocka_unit_test(figures_are_those_of_the_table),
+        cmocka_unit_test(areas_of_caps_add_up),
+        cmocka_unit_test(cells_of_caps_hold_what_is_nearest),
+        cmocka_unit_test(caps_agree_with_what_is_known),
+        cmocka_unit_test(corners_are_as_far_from_three_points),
+        cmocka_unit_test(covering_agrees_with_all_triples),
+        cmocka_unit_test(covering_beyond_ninety_degrees),
+        cmocka_unit_test(doubled_points_share_their_cells),
+        cmocka_unit_test(symmetric_sets_have_their_sides),
+        cmocka_unit_test(sides_of_caps_are_counted),
+        cmocka_unit_test(sets_of_one_hemisphere_have_cells),
+        cmocka_unit_test(smallest_distance_agrees_with_all_pairs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

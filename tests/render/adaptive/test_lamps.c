@@ -1,0 +1,164 @@
+/* Lamps that are smaller than a pixel: what is told of them against their size in closed form, and pictures
+ * to an error that do not end before they have met one. */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "render/adaptive/trial.h"
+#include "render/driver/renderer.h"
+#include "render/film/integrator.h"
+#include "render/scene/scene_text.h"
+#include "render/vertex/lamps.h"
+#include <aureole/ask.h>
+
+/* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
+ * ninth of the pixel that it is in. Behind it a dim square fills the picture. */
+static const double radius = 0.05, distance = 10.0, radiance = 1000.0;
+enum { SIDE = 32 };
+static const char body[] =
+    "<shape type='sphere'><point name='center' x='-0.1' y='0.1' z='10'/><float name='radius' value='0.05'/>"
+    "<bsdf type='diffuse'><rgb name='reflectance' value='0'/></bsdf>"
+    "<emitter type='area'><rgb name='radiance' value='1000'/></emitter></shape>"
+    "<shape type='rectangle'><transform name='to_world'><scale value='20'/><rotate y='1' angle='180'/>"
+    "<translate z='20'/></transform><bsdf type='diffuse'><rgb name='reflectance' value='0'/></bsdf>"
+    "<emitter type='area'><rgb name='radiance' value='.5'/></emitter></shape>";
+
+/* The pixel's side at distance 1 is 2 tan(22.5 degrees) / SIDE; the lamp's outline is an ellipse that differs
+ * from a disk by less than its angle to the axis squared. */
+static double share_of_lamp(void) {
+    const double pixel = 2.0 * tan(22.5 * AUR_PI / 180.0) / SIDE;
+    return AUR_PI * radius * radius / (distance * distance * pixel * pixel);
+}
+
+static void tells_the_size_of_a_lamp(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    const aur_film_layout layout = {.width = SIDE, .height = SIDE, .x1 = SIDE, .y1 = SIDE};
+    aur_lamps lamps;
+    assert_int_equal(aur_lamps_find(scene, &layout, AUR_LAMP_POINTS, 1, &lamps, NULL), AUR_OK);
+    size_t most = 0;
+    for (size_t i = 0; i < SIDE * SIDE; ++i)
+        most = lamps.variance[i] > lamps.variance[most] ? i : most;
+    /* 10 mrad to the left of the axis and above it, which is within the pixel left of the middle and above.
+     */
+    assert_int_equal(most, (SIDE / 2 - 1) * SIDE + SIDE / 2);
+    /* The lamp gets a part of the 4096 points that its power has: 6.25 pi 10^-3 1000 of 400 / 2 more, 9 %.
+     * The share is known to the root of one over 380 of them. */
+    const double share = share_of_lamp();
+    const double variance = 3.0 * radiance * radiance * share;
+    print_message("share %g, variance %g of %g\n", share, lamps.variance[most], variance);
+    assert_near(lamps.variance[most], variance, 0.25 * variance);
+    /* A replica is believed when it is expected to have met the lamp eight times. */
+    const uint32_t few = (uint32_t)(4.0 / share), many = (uint32_t)(16.0 / lamps.share[most]) + 1;
+    assert_true(lamps.share[most] >= share * 0.75);
+    assert_true(few * lamps.share[most] >= 8.0 ||
+                aur_lamps_variance(&lamps, most, few) == lamps.variance[most] / few);
+    assert_true(aur_lamps_variance(&lamps, most, many) == 0.0);
+    aur_lamps_release(&lamps);
+    aur_scene_destroy(scene);
+}
+
+/* A sample with several rays for lamps: n times as many meet one, and their mean has the n-th part of the
+ * variance. Pixels with none have their own ray. */
+static void takes_more_rays_for_lamps(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    const aur_film_layout layout = {.width = SIDE, .height = SIDE, .x0 = 8, .x1 = SIDE, .y0 = 4, .y1 = SIDE};
+    aur_lamps before, after;
+    assert_int_equal(aur_lamps_find(scene, &layout, AUR_LAMP_POINTS, 1, &before, NULL), AUR_OK);
+    assert_int_equal(aur_lamps_find(scene, &layout, AUR_LAMP_POINTS, 1, &after, NULL), AUR_OK);
+    uint16_t looks[SIDE * SIDE]; /* of the whole picture, where the film is a part of it */
+    for (size_t i = 0; i < SIDE * SIDE; ++i)
+        looks[i] = (uint16_t)(i % 5 == 0 ? 0 : 1u << i % 5);
+    aur_lamps_take_looks(&layout, looks, &after);
+    const size_t width = layout.x1 - layout.x0;
+    for (size_t i = 0; i < width * (layout.y1 - layout.y0); ++i) {
+        const uint16_t count = looks[(layout.y0 + i / width) * SIDE + layout.x0 + i % width];
+        const double rays = count > 0 ? count : 1;
+        assert_true(after.share[i] == before.share[i] * rays); /* powers of two */
+        assert_true(after.variance[i] == before.variance[i] / rays);
+    }
+    aur_lamps_release(&before);
+    aur_lamps_release(&after);
+    aur_scene_destroy(scene);
+}
+
+/* What a trial knows of its integrator is what the keys made of it, with their defaults. */
+static void knows_its_integrator(void **state) {
+    (void)state;
+    static const struct {
+        const char *integrator;
+        size_t pattern_samples;
+        bool looks;
+    } cases[] = {
+        {"path", 1, false},
+        {"path:rr_depth=3", 1, false},
+        {"path:lamp_rays=.5", 1, true},
+        {"finalgather:photons=100,split=8", 8, true},
+        {"finalgather:photons=100,split=4,edges=0", 4, false},
+    };
+    aur_scene *const scene = must_load_body(body);
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        aur_render_options options = aur_render_options_default();
+        options.width = options.height = SIDE;
+        options.sampler = "sobol";
+        options.filter = "box";
+        aur_trial trial = {.integrator = strdup(cases[i].integrator)};
+        aur_error error = {0};
+        if (aur_trial_create(renderer, &options, 2, &trial, &error) != AUR_OK)
+            fail_msg("%s: %s", cases[i].integrator, error.message);
+        const aur_integrator *const made = aur_render_integrator(trial.replicas.renders[0]);
+        assert_int_equal(trial.pattern_samples, cases[i].pattern_samples);
+        assert_true((made->lamp_looks != NULL) == cases[i].looks);
+        assert_true(made->refines_lamp_edges == (i == 3)); /* `edges` is 128 where nobody says */
+        assert_non_null(trial.lamps.share);
+        aur_trial_release(&trial);
+    }
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
+static void meets_lamps(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_render_options options = aur_render_options_default();
+    options.width = options.height = SIDE;
+    options.filter = "box";
+    options.integrator = "path";
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = 0.3;
+    const double lamp = radiance * share_of_lamp();
+    for (size_t seed = 0; seed < 8; ++seed) {
+        aur_ask *ask = NULL;
+        aur_image *image = NULL;
+        aur_ask_report report = {.size = sizeof report};
+        options.seed = seed;
+        assert_int_equal(aur_ask_create(renderer, &options, &wish, &ask, NULL), AUR_OK);
+        assert_int_equal(aur_ask_run(ask, NULL), AUR_OK);
+        assert_int_equal(aur_ask_get_report(ask, &report, NULL), AUR_OK);
+        assert_int_equal(aur_ask_develop(ask, false, &image, NULL), AUR_OK);
+        const double value = (double)aur_image_data(image)[3 * ((SIDE / 2 - 1) * SIDE + SIDE / 2)];
+        const double error = fabs(value - 0.5 - lamp) / SIDE / report.mean;
+        print_message("seed %zu: %.2f of %.2f by %.0f samples a pixel, error %.3f of %.3f\n", seed, value,
+                      lamp, report.samples_per_pixel, error, report.error);
+        assert_true(value > 0.5 * lamp); /* without, none of 13 samples meets it but for one in eight times */
+        assert_true(error <= 2.0 * wish.error);
+        aur_image_destroy(image);
+        aur_ask_destroy(ask);
+    }
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(tells_the_size_of_a_lamp),
+                                       cmocka_unit_test(takes_more_rays_for_lamps),
+                                       cmocka_unit_test(knows_its_integrator), cmocka_unit_test(meets_lamps)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

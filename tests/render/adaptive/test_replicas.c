@@ -1,0 +1,163 @@
+/* What replicas say of their pixels. */
+#include "check.h"
+
+#include "render/adaptive/replicas.h"
+#include "render/film/film.h"
+
+enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT, SAMPLES = 8 };
+
+typedef struct fixture {
+    aur_scene *scene;
+    aur_renderer *renderer;
+    aur_replicas replicas;
+    double spreads[PIXELS];
+} fixture;
+
+/* Replicas of the Cornell box, with so many samples a pixel of SAMPLES rendered. */
+static void begin(fixture *f, size_t samples) {
+    assert_int_equal(
+        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
+    aur_render_options options = aur_render_options_default();
+    options.integrator = "path";
+    options.width = WIDTH;
+    options.height = HEIGHT;
+    options.samples_per_pixel = SAMPLES;
+    assert_int_equal(aur_replicas_create(f->renderer, &options, REPLICAS, &f->replicas, NULL), AUR_OK);
+    for (size_t r = 0; r < REPLICAS; ++r)
+        assert_int_equal(aur_render_step(f->replicas.renders[r], samples, NULL), AUR_OK);
+}
+
+static void end(fixture *f) {
+    aur_replicas_release(&f->replicas);
+    aur_renderer_destroy(f->renderer);
+    aur_scene_destroy(f->scene);
+}
+
+/* The variances by which a replica's samples are shared out come from the others: another sample of its own
+ * changes none of them but by rounding, and all of the others'. */
+static void test_own_values_do_not_count(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f, 1);
+    static double before[REPLICAS * PIXELS], after[REPLICAS * PIXELS];
+    aur_replica_measure measure;
+    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){before, f.spreads});
+    assert_int_equal(aur_render_step(f.replicas.renders[0], 1, NULL), AUR_OK);
+    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){after, f.spreads});
+    double sums[2] = {0.0, 0.0};
+    for (size_t i = 0; i < PIXELS; ++i) {
+        assert_near(after[i], before[i], 1e-9 * (1.0 + before[i]));
+        sums[0] += before[PIXELS + i];
+        sums[1] += after[PIXELS + i];
+    }
+    assert_true(sums[0] > 0.0 && sums[0] != sums[1]);
+    end(&f);
+}
+
+/* A crop of 40 x 24 pixels that begins within a tile: each value is the mean of its tile's, over its samples.
+ */
+static void test_tiles_have_their_means(void **state) {
+    (void)state;
+    enum { X0 = 10, Y0 = 5, X1 = 50, Y1 = 29, COUNT = (X1 - X0) * (Y1 - Y0), TILE = 16 };
+    aur_scene *scene;
+    aur_renderer *renderer;
+    aur_replicas replicas;
+    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_render_options options = aur_render_options_default();
+    options.width = options.height = 64;
+    options.crop_x0 = X0;
+    options.crop_y0 = Y0;
+    options.crop_x1 = X1;
+    options.crop_y1 = Y1;
+    assert_int_equal(aur_replicas_create(renderer, &options, 3, &replicas, NULL), AUR_OK);
+    static double values[3 * COUNT], means[3 * COUNT];
+    static uint32_t samples[3 * COUNT];
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
+        means[i] = values[i] = (double)(i * i % 101); /* whole numbers: sums are exact */
+        samples[i] = (uint32_t)(1 + i % 7);
+    }
+    aur_replicas_average_tiles(&replicas, samples, means);
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
+        const size_t replica = i / COUNT, x = X0 + i % COUNT % (X1 - X0), y = Y0 + i % COUNT / (X1 - X0);
+        double sum = 0.0, count = 0.0;
+        for (size_t j = Y0; j < Y1; ++j)
+            for (size_t k = X0; k < X1; ++k)
+                if (j / TILE == y / TILE && k / TILE == x / TILE) {
+                    sum += values[replica * COUNT + (j - Y0) * (X1 - X0) + k - X0];
+                    count += 1.0;
+                }
+        assert_true(means[i] == sum / count / samples[i]);
+    }
+    aur_replicas_release(&replicas);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
+static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
+    const aur_film *const film = aur_render_film(replicas->renders[r]);
+    return film->sums[pixel * film->layout.channel_count + channel] / (double)film->counts[pixel];
+}
+
+/* The covariance of two channels of a pixel, by differences of replicas. */
+static double covariance_of(const aur_replicas *replicas, size_t pixel, size_t a, size_t b) {
+    double sum = 0.0;
+    for (size_t r = 0; r < REPLICAS; ++r)
+        for (size_t s = 0; s < r; ++s)
+            sum += (value_of(replicas, r, pixel, a) - value_of(replicas, s, pixel, a)) *
+                   (value_of(replicas, r, pixel, b) - value_of(replicas, s, pixel, b));
+    return sum / (REPLICAS * (REPLICAS - 1.0));
+}
+
+static double product_of(const aur_replicas *replicas, size_t i, size_t j) {
+    double sum = 0.0;
+    for (size_t a = 0; a < 3; ++a)
+        for (size_t b = 0; b < 3; ++b)
+            sum += covariance_of(replicas, i, a, b) * covariance_of(replicas, j, a, b);
+    return sum;
+}
+
+/* What pixels beside each other in the same block of 8 x 8 say of tr C^2, pair by pair. */
+static double alike_of(const aur_replicas *replicas) {
+    double all = 0.0;
+    for (size_t y0 = 0; y0 < HEIGHT; y0 += 8)
+        for (size_t x0 = 0; x0 < WIDTH; x0 += 8) {
+            double sum = 0.0;
+            size_t pixels = 0, pairs = 0;
+            for (size_t i = 0; i < PIXELS; ++i)
+                for (size_t j = 0; j < PIXELS; ++j) {
+                    const size_t xi = i % WIDTH, yi = i / WIDTH, xj = j % WIDTH, yj = j / WIDTH;
+                    if (xi / 8 != x0 / 8 || yi / 8 != y0 / 8 || xj / 8 != x0 / 8 || yj / 8 != y0 / 8)
+                        continue;
+                    pixels += i == j;
+                    if ((xj == xi + 1 && yj == yi) || (xj == xi && yj == yi + 1)) {
+                        sum += product_of(replicas, i, j);
+                        ++pairs;
+                    }
+                }
+            all += sum * (double)pixels / (double)pairs;
+        }
+    return all;
+}
+
+static void test_neighbours(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f, 2);
+    static double variances[REPLICAS * PIXELS];
+    aur_replica_measure measure;
+    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){variances, f.spreads});
+    const double alike = alike_of(&f.replicas);
+    assert_true(alike > 0.0);
+    assert_near(measure.deviations.alike, alike, 1e-9 * alike);
+    end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_own_values_do_not_count),
+                                       cmocka_unit_test(test_tiles_have_their_means),
+                                       cmocka_unit_test(test_neighbours)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,79 @@
+/* Where samples go: at the optimum, all pixels that got more would gain the same by one more sample
+ * (Lagrange), and the variance falls to what was asked for. */
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "render/adaptive/rounds.h"
+
+static double sum_after(size_t count, const double *variances, const uint32_t *before,
+                        const uint32_t *after) {
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        sum += variances[i] * before[i] / after[i];
+    return sum;
+}
+
+static void test_reaches_the_factor_at_equal_gains(void **state) {
+    (void)state;
+    enum { PIXELS = 6 };
+    static const double variances[PIXELS] = {1.0, 2.0, 3.0, 2.5, 0.0, 1.5};
+    static const uint32_t before[PIXELS] = {1000, 1000, 1000, 4000, 1000, 1000};
+    uint32_t after[PIXELS];
+    memcpy(after, before, sizeof after);
+    assert_true(aur_raise_targets(PIXELS, variances, 0.5, 1 << 24, after));
+    /* Rounding up to whole samples can only lower the sum: by less than one sample in a thousand of each. */
+    const double sum = sum_after(PIXELS, variances, before, after);
+    assert_true(sum <= 5.0 && sum > 5.0 * (1.0 - 1e-3));
+    assert_int_equal(after[4], before[4]);
+    for (size_t i = 0; i < PIXELS; ++i)
+        for (size_t j = 0; j < PIXELS; ++j) {
+            const bool inner = after[i] > before[i] && after[i] < 4 * before[i] && after[j] > before[j] &&
+                               after[j] < 4 * before[j];
+            const double gain_i = variances[i] * before[i] / ((double)after[i] * after[i]);
+            const double gain_j = variances[j] * before[j] / ((double)after[j] * after[j]);
+            if (inner)
+                assert_true(fabs(gain_i / gain_j - 1.0) < 4e-3); /* twice two samples in a thousand */
+        }
+}
+
+/* No pixel grows more than fourfold, none beyond the most, and none at all says so. */
+static void test_limits(void **state) {
+    (void)state;
+    static const double variances[3] = {1e6, 1.0, 0.0};
+    uint32_t targets[3] = {1, 1, 1};
+    assert_true(aur_raise_targets(3, variances, 1e-9, 3, targets));
+    assert_int_equal(targets[0], 3);
+    assert_int_equal(targets[2], 1);
+    uint32_t full[3] = {3, 3, 3};
+    assert_false(aur_raise_targets(3, variances, 0.5, 3, full));
+    static const double none[3] = {0};
+    uint32_t ones[3] = {1, 1, 1};
+    assert_false(aur_raise_targets(3, none, 0.5, 1 << 24, ones));
+}
+
+/* A pixel that seems to have no variance goes along, at half the mean up to 32 samples, then at a quarter,
+ * and fourfold a round. */
+static void test_nobody_is_left_behind(void **state) {
+    (void)state;
+    static const double variances[4] = {1.0, 1.0, 1.0, 0.0};
+    uint32_t targets[4] = {1, 1, 1, 1};
+    for (size_t round = 0; round < 4; ++round)
+        assert_true(aur_raise_targets(4, variances, 1.0 / 16, 1 << 24, targets));
+    assert_int_equal(targets[0], 256);
+    assert_int_equal(targets[3], 49); /* 1, 4, 16, and then (3 * 256 + 16) / 16 */
+    uint32_t some[3] = {40, 20, 40};  /* half of (80 + 20 + 80) / 3 */
+    assert_true(aur_raise_targets(3, (const double[3]){1.0, 0.0, 1.0}, 0.5, 1 << 24, some));
+    assert_int_equal(some[1], 30);
+    uint32_t behind[4] = {100, 100, 100, 1};
+    assert_true(aur_raise_targets(4, variances, 0.999, 1 << 24, behind));
+    assert_int_equal(behind[3], 4);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
+                                       cmocka_unit_test(test_limits),
+                                       cmocka_unit_test(test_nobody_is_left_behind)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,68 @@
+/* What a render counts of samples that are left out or cut, and what it says of them. */
+#include "render/scene/scene_text.h"
+
+#include <aureole/render.h>
+
+enum { SIDE = 8, SAMPLES = 16 };
+
+static void keep_message(void *user, const char *message) {
+    snprintf(user, 512, "%s", message);
+}
+
+static aur_render_statistics statistics_of(const char *integrator, const char *body, char said[512]) {
+    aur_scene *const scene = must_load_body(body);
+    aur_renderer *renderer;
+    aur_image *image;
+    aur_render_statistics statistics = {.size = sizeof statistics};
+    aur_render_options options = aur_render_options_default();
+    options.width = options.height = SIDE;
+    options.samples_per_pixel = SAMPLES;
+    options.integrator = integrator;
+    options.filter = "box";
+    options.warnings = (aur_warnings){keep_message, said};
+    said[0] = '\0';
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_render(renderer, &options, &image, &statistics, NULL), AUR_OK);
+    aur_image_destroy(image);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+    assert_int_equal(statistics.samples, SIDE * SIDE * SAMPLES);
+    return statistics;
+}
+
+/* The square of a radiance of 1e30, which the variance is found from, is no float: samples that see the light
+ * are left out. It covers one half of the image, and ends between pixels. */
+static void invalid_samples_are_counted(void **state) {
+    (void)state;
+    char said[512];
+    const aur_render_statistics s =
+        statistics_of("aov:aovs=v:variance",
+                      "<emitter type='constant'/><shape type='rectangle'><transform name='to_world'><rotate "
+                      "y='1' angle='180'/>"
+                      "<scale x='50' y='50'/><translate x='50' z='9'/></transform><emitter type='area'>"
+                      "<rgb name='radiance' value='1e30'/></emitter></shape>",
+                      said);
+    assert_int_equal(s.invalid_samples, s.samples / 2);
+    assert_int_equal(s.cut_paths, 0);
+    assert_string_equal(said, "512 of 1024 samples were NaN, infinite or negative and are left out");
+}
+
+/* Within a mirror that absorbs nothing all paths are cut. */
+static void cut_paths_are_counted(void **state) {
+    (void)state;
+    char said[512];
+    const aur_render_statistics s = statistics_of(
+        "finalgather",
+        "<emitter type='constant'/><shape type='sphere'><bsdf type='twosided'><bsdf type='conductor'>"
+        "<string name='material' value='none'/></bsdf></bsdf></shape>",
+        said);
+    assert_int_equal(s.cut_paths, s.samples);
+    assert_int_equal(s.invalid_samples, 0);
+    assert_non_null(strstr(said, "1024 paths of 1024 samples were cut"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(invalid_samples_are_counted),
+                                       cmocka_unit_test(cut_paths_are_counted)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

@@ -1,0 +1,339 @@
+#include "render/scene/scene_data.h"
+#include "scene_text.h"
+
+#include "render/scene/materials/sampling.h"
+
+static aur_result load(const char *text, aur_scene **scene, aur_error *error) {
+    return aur_scene_load_memory("room.rad", strlen(text), text, NULL, scene, error);
+}
+
+static aur_scene *must_load(const char *text) {
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    if (load(text, &scene, &error) != AUR_OK) {
+        char message[1024];
+        aur_error_format(&error, sizeof message, message);
+        fail_msg("%s", message);
+    }
+    return scene;
+}
+
+#define MATERIALS                                                                                            \
+    "# materials\nvoid plastic white\n0\n0\n5 .7 .6 .5 0 .1\nvoid light lamp 0 0 3 10 20 30\n"               \
+    "void glow sky 0 0 4 1 2 3 0\nvoid alias grey white\n"
+
+/* Every kind of surface, with its area and a point that a ray from `eye` along `way` finds, where the front
+ * is on the eye's side. */
+static void reads_surfaces(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        double area;
+        aur_vector eye, way;
+        double distance;
+    } rows[] = {
+        {"polygon p 0 0 12  0 0 0  2 0 0  2 3 0  0 3 0", 6.0, {1, 1, 2}, {0, 0, -1}, 2.0},
+        {"polygon p\n0\n0\n9\n 0 0 0\n 2 0 0\n 0 2 0", 2.0, {.5f, .5f, 2}, {0, 0, -1}, 2.0},
+        {"sphere s 0 0 4 1 1 1 .5", AUR_PI, {1, 1, 5}, {0, 0, -1}, 3.5},
+        {"bubble s 0 0 4 1 1 1 .5", AUR_PI, {1, 1, 1}, {0, 0, -1}, 0.5},
+        {"sphere s 0 0 4 1 1 1 -.5", AUR_PI, {1, 1, 1}, {0, 0, -1}, 0.5},
+        {"cylinder c 0 0 7 0 0 0 0 0 2 .5", 2.0 * AUR_PI, {3, 0, 1}, {-1, 0, 0}, 2.5},
+        {"tube c 0 0 7 0 0 0 0 0 2 .5", 2.0 * AUR_PI, {0, 0, 1}, {-1, 0, 0}, 0.5},
+        {"ring r 0 0 8 0 0 3 0 0 -2 2 1", 3.0 * AUR_PI, {1.5f, 0, 0}, {0, 0, 1}, 3.0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char text[1024];
+        snprintf(text, sizeof text, MATERIALS "lamp %s\ngrey sphere far 0 0 4 100 100 100 1\n", rows[i].text);
+        aur_scene *const scene = must_load(text);
+        assert_relative(scene->shapes[0]->area, rows[i].area, 1e-6);
+        const aur_ray ray = {rows[i].eye, 0.0f, rows[i].way, INFINITY};
+        aur_hit hit;
+        aur_surface surface;
+        assert_true(aur_scene_intersect(scene, &ray, &hit));
+        assert_near(hit.distance, rows[i].distance, 1e-6);
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        /* Light leaves the front only. */
+        const aur_vector back = aur_vector_scale(rows[i].way, -1.0f);
+        assert_near(aur_surface_emission(scene, &surface, back).z, 30.0, 0.0);
+        assert_near(aur_surface_emission(scene, &surface, rows[i].way).z, 0.0, 0.0);
+        aur_scene_destroy(scene);
+    }
+    /* through the ring's hole */
+    aur_scene *const ring = must_load(MATERIALS "white ring r 0 0 8 0 0 3 0 0 1 1 2");
+    const aur_ray hole = {{0.5f, 0.5f, 0}, 0.0f, {0, 0, 1}, INFINITY};
+    assert_false(aur_scene_occluded(ring, &hole));
+    for (size_t i = 0; i < 100; ++i) {
+        const aur_shape_point point =
+            aur_shape_sample(ring->shapes[0], NULL, (const float[3]){0, (float)i / 100.0f, 0.3f});
+        assert_near(point.position.x * point.position.x + point.position.y * point.position.y,
+                    1.0 + 3.0 * (double)i / 100.0, 1e-5);
+    }
+    aur_scene_destroy(ring);
+}
+
+/* Whether a point is in a polygon of a plane: crossings of a line to the right. */
+static bool contains(size_t count, const double (*p)[2], double x, double y) {
+    bool inside = false;
+    for (size_t i = 0; i < count; ++i) {
+        const double *const a = p[i], *const b = p[(i + 1) % count];
+        if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+            inside = !inside;
+    }
+    return inside;
+}
+
+/* Outlines of any form, and a hole by a seam that goes there and back: where rays meet them is where points
+ * are inside, and the area is the outline's. */
+static void cuts_polygons(void **state) {
+    (void)state;
+    static const struct {
+        size_t count;
+        double corners[16][2];
+        double area;
+    } rows[] = {
+        {6, {{0, 3}, {4, 3}, {4, 5}, {2, 5}, {2, 4}, {0, 4}}, 6.0},
+        {8, {{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 4}, {0, 4}}, 10.0},
+        {10, {{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 0}, {2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}, 32.0},
+        {10, {{0, 5}, {1, 1}, {2, 4}, {3, 0}, {4, 4}, {5, 1}, {6, 5}, {4, 4.5}, {3, 6}, {2, 4.5}}, 14.5},
+        {5, {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, 4.0},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
+        char text[2048];
+        int used = sprintf(text, MATERIALS "white polygon p 0 0 %zu", 3 * rows[k].count);
+        double area = 0.0;
+        for (size_t i = 0; i < rows[k].count; ++i) {
+            const double *const a = rows[k].corners[i], *const b = rows[k].corners[(i + 1) % rows[k].count];
+            area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+            used += sprintf(text + used, " %g %g 2", a[0], a[1]);
+        }
+        aur_scene *const scene = must_load(text);
+        assert_relative(scene->shapes[0]->area, area, 1e-6);
+        for (size_t i = 0; i < 2000; ++i) {
+            const double x = -0.5 + 7.0 * fmod(0.618034 * (double)i, 1.0),
+                         y = -0.5 + 7.0 * (double)i / 2000.0;
+            const aur_ray ray = {{(float)x, (float)y, 0.0f}, 0.0f, {0, 0, 1}, INFINITY};
+            assert_int_equal(aur_scene_occluded(scene, &ray), contains(rows[k].count, rows[k].corners, x, y));
+        }
+        aur_scene_destroy(scene);
+    }
+}
+
+/* A plane under a dome of glow and a sun: sources add up, and a light of 180 degrees is a hemisphere. */
+static void reads_sources(void **state) {
+    (void)state;
+    aur_scene *const scene =
+        must_load(MATERIALS "sky source up 0 0 4 0 0 1 180\nlamp source down 0 0 4 0 0 -2 "
+                            "180\nlamp source sun 0 0 4 1 0 1 .533\n"
+                            "white polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n");
+    assert_int_equal(aur_scene_emitter_count(scene), 3);
+    assert_near(aur_scene_environment(scene, (aur_vector){0, 0.6f, 0.8f}).y, 2.0, 0.0);
+    assert_near(aur_scene_environment(scene, (aur_vector){0, 0.6f, -0.8f}).y, 20.0, 0.0);
+    const float half = sqrtf(0.5f);
+    assert_near(aur_scene_environment(scene, (aur_vector){half, 0, half}).z, 33.0, 0.0);
+    aur_scene_destroy(scene);
+}
+
+/* A pane as Fresnel has it for each polarisation, summed over ways to and fro inside, one by one. */
+static void glass_by_its_series(void **state) {
+    (void)state;
+    aur_scene *const scene =
+        must_load("void glass g 0 0 4 .9 .5 0 1.52\ng polygon p 0 0 9 0 0 0 1 0 0 0 1 0");
+    const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, 0);
+    static const double inside_of[3] = {0.9, 0.5, 0.0};
+    for (size_t k = 0; k < 10; ++k) {
+        const double angle = (double)k * 8.9 * AUR_PI / 180.0, refracted = asin(sin(angle) / 1.52);
+        double through[3] = {0}, mirrored[3] = {0};
+        for (size_t s = 0; s < 2; ++s) {
+            const double up = s == 0 ? cos(angle) : 1.52 * cos(angle);
+            const double down = s == 0 ? 1.52 * cos(refracted) : cos(refracted);
+            const double amplitude = (up - down) / (up + down), r = amplitude * amplitude;
+            for (size_t c = 0; c < 3; ++c) {
+                const double d = pow(inside_of[c], 1.0 / cos(refracted));
+                double power = 0.5 * (1.0 - r) * d; /* arrives at the far surface */
+                mirrored[c] += 0.5 * r;
+                for (size_t bounce = 0; bounce < 60; ++bounce) {
+                    *(bounce % 2 == 0 ? &through[c] : &mirrored[c]) += (1.0 - r) * power;
+                    power *= r * d;
+                }
+            }
+        }
+        const aur_vector view = {(float)sin(angle), 0.0f, (float)cos(angle)};
+        aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+        double seen[2][3];
+        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){.u = 0.0f}, view, lobes), 2);
+        for (size_t i = 0; i < 2; ++i)
+            aur_vector_to_doubles(lobes[i].coefficient, seen[lobes[i].transmits ? 0 : 1]);
+        for (size_t c = 0; c < 3; ++c) {
+            assert_near(seen[0][c], through[c], 2e-6);
+            assert_near(seen[1][c], mirrored[c], 2e-6);
+        }
+    }
+    aur_scene_destroy(scene);
+}
+
+#define SPHERE(material) material " sphere s 0 0 4 0 0 0 1\n"
+
+static void bad_input(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t line;
+        const char *message;
+    } rows[] = {
+        {"\nvoid brightfunc b\n2 a b\n0\n0\n" SPHERE("b"), 2, "'brightfunc' is not read"},
+        {"void plasic p 0 0 5 1 1 1 0 0", 1, "plastic"},
+        {"void plastic p\n0\n0\n5 1 1 1 .1 0\n" SPHERE("p"), 1, "specularity of 0.1"},
+        {"void trans p 0 0 7 1 1 1 0 0 .5 .5\nvoid alias q p\n" SPHERE("q"), 1, "'trans' is not read"},
+        {"m poligon p 0 0 9 0 0 0 1 0 0 0 1 0", 1, "'poligon' is not read"},
+        {"void plastic p\n0\n0\n4 1 1 1 .1", 1, "plastic takes 5 numbers, not 4"},
+        {"void plastic p\n0\n0\n5 1 1 1 .1 x", 4, "a number must stand here, not 'x'"},
+        {"void plastic p\n0\n0\n5 1 1 nan 0 0", 4, "a number must stand here, not 'nan'"},
+        {"void plastic p\n0\n-1\n5 1 1 1 0 0", 3, "the number of integers, must stand here, not '-1'"},
+        {"void plastic p\n0\n1 7\n5 1 1 1 0 0", 3, "integers are not read"},
+        {"void plastic p\n0\n", 3, "the file ends where 0, the number of integers,"},
+        {"void plastic p\n99999999999999999999\n", 2, "the number of strings must stand here"},
+        {"void plastic p 0 0 5 1.5 1 1 0 0", 1, "'reflectance'"},
+        {"\n\n!genbox a b 1 1 1", 3, "'genbox' is not run, only cat and xform"},
+        {"!xform -t 1 2 3 chair.rad", 1, "'-t' is not read after xform"},
+        {"!xform a.rad | b", 1, "'|' is not read after xform"},
+        {"\n\n!cat nowhere.rad", 3, "cannot find 'nowhere.rad'"},
+        {"!cat a.rad > b.rad", 1, "'>' is not read after cat"},
+        {"\n! cat # nothing", 2, "the file that is to be included is missing"},
+        {"!cat \xc3\xa4\xf0\x9f\x98\x80.rad", 1, "cannot find '\xc3\xa4\xf0\x9f\x98\x80.rad'"},
+        {"!cat a\xe4.rad", 1, "must be UTF-8"},
+        {"!cat a\x01.rad", 1, "must be UTF-8"},
+        {"!", 1, "a command must stand after '!'"},
+        {"nix sphere s 0 0 4 0 0 0 1", 1, "no material 'nix'"},
+        {"void sphere s 0 0 4 0 0 0 1", 1, "a surface needs a material"},
+        {"void alias a b", 1, "no material 'b'"},
+        {MATERIALS "white plastic p 0 0 5 1 1 1 0 0\n" SPHERE("p"), 9,
+         "its modifier must be 'void', not 'white'"},
+        {MATERIALS "white polygon p 0 0 10 0 0 0 1 0 0 0 1 0 0", 9, "no corners of three"},
+        {MATERIALS "white ring p 0 0 8 0 0 0 0 0 1 1 1", 9, "two different radii"},
+        {MATERIALS "white ring p 0 0 8 0 0 0 0 0 0 1 2", 9, "two different radii"},
+        {MATERIALS "white source p 0 0 4 0 0 1 1", 9, "must be a light or a glow"},
+        {MATERIALS "lamp source p 0 0 4 0 0 1 0", 9, "its angle must be"},
+        {MATERIALS "lamp source p 0 0 4 0 0 0 1", 9, "'sun_direction' must not be"},
+        {MATERIALS "white mesh p 1 a.rtm 0 0", 9, "is compiled for Radiance"},
+        {MATERIALS "white mesh p 3 a.obj -rx 9 0 0", 9, "the transform '-rx ...'"},
+        {MATERIALS "white mesh p 1 a&\"<$b.obj 0 0", 9, "a&\"<$b.obj"},
+        {MATERIALS "white sphere p 1 a 0 4 0 0 0 1", 9, "sphere takes no strings"},
+        {"void glow g 0 0 4 1 1 1 -1\n" SPHERE("g"), 1, "a radius below 0"},
+        {"void light g 0 0 3 1 -1 1", 1, "must not be below 0"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        aur_scene *scene = NULL;
+        aur_error error = {0};
+        if (load(rows[i].text, &scene, &error) == AUR_OK)
+            fail_msg("row %zu loads", i);
+        if (strstr(error.message, rows[i].message) == NULL || error.line != rows[i].line || error.column != 0)
+            fail_msg("row %zu: %zu:%zu: %s", i, error.line, error.column, error.message);
+        assert_string_equal(error.file, "room.rad");
+    }
+}
+
+static void keep(void *user, const char *message) {
+    char *const text = user;
+    strncat(text, message, 1023 - strlen(text));
+    strncat(text, "\n", 1023 - strlen(text));
+}
+
+/* What is not read is said at once, and before the mesh is looked for: the last of it is the error. What is
+ * wrong besides is the error where the file cannot be read on. */
+static void says_all_that_is_left_out(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *warnings;
+        aur_result result;
+        const char *message;
+    } rows[] = {
+        {"void brightfunc b\n2 dirt dirt.cal\n0\n1 .5\nb plastic p 0 0 5 1 1 1 0 0\np mesh m 1 none.obj 0 0\n"
+         "void plastic q 0 0 5 1 1 1 .5 0\n!genbox q box 1 1 1 | xform\nq cone c 0 0 8 0 0 0 0 0 1 1 .5\n"
+         "q sphere s 0 0 4 0 0 0 1\nq sphere s 0 0 4 0 0 0 1\n",
+         "room.rad:5: plastic: patterns, textures and mixtures are not read: its modifier must be 'void', "
+         "not 'b'\n"
+         "room.rad:8: the command 'genbox' is not run, only cat and xform that include files: write what it "
+         "makes into the file, or into one of its own beside this one\n"
+         "room.rad:9: 'cone' is not read\n",
+         AUR_ERROR_UNSUPPORTED, "a specularity of 0.5 is not read"},
+        {"void dielectric d 0 0 5 1 1 1 1.5 0\nvoid mirror unused 0 0 3 1 1 1\n" SPHERE(
+             "d") "void plastic q 0 0 4 1 1 1 0\n",
+         "room.rad:1: 'dielectric' is not read\n", AUR_ERROR_FORMAT, "plastic takes 5 numbers, not 4"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char said[1024] = "";
+        const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+        aur_scene *scene = NULL;
+        aur_error error = {0};
+        assert_int_equal(
+            aur_scene_load_memory("room.rad", strlen(rows[i].text), rows[i].text, &options, &scene, &error),
+            rows[i].result);
+        assert_string_equal(said, rows[i].warnings);
+        assert_non_null(strstr(error.message, rows[i].message));
+        /* nobody need ask for it */
+        assert_int_equal(
+            aur_scene_load_memory("room.rad", strlen(rows[i].text), rows[i].text, NULL, &scene, NULL),
+            rows[i].result);
+    }
+}
+
+/* Materials of any kind that no surface uses change nothing. */
+static void materials_may_be_unused(void **state) {
+    (void)state;
+    static const char unused[] =
+        "void trans t 0 0 7 1 1 1 0 0 .5 .5\nvoid plastic shiny 0 0 5 .2 .2 .2 .1 .2\n"
+        "void brightfunc f 2 skybr skybright.cal 0 2 1 .5\nf glow g 0 0 4 1 1 1 0\n"
+        "void BSDF b 6 0 a.xml 0 0 1 . 0 0\nvoid mixfunc m 4 a b c d.cal 0 0\nvoid alias other t\n"
+        "void glow behind 0 0 4 1 1 1 -1\n" MATERIALS "white sphere s 0 0 4 0 0 0 1\n";
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    if (load(unused, &scene, &error) != AUR_OK)
+        fail_msg("%zu: %s", error.line, error.message);
+    assert_int_equal(scene->shape_count, 1);
+    aur_scene_destroy(scene);
+}
+
+/* Faces that are no surface are counted and refuse nothing, lights of them too; bent ones become triangles.
+ */
+static void leaves_out_what_is_no_surface(void **state) {
+    (void)state;
+    static const char text[] = MATERIALS "white polygon p 0 0 9 0 0 0 1 0 0 2 0 0\n"
+                                         "white polygon p 0 0 12 0 0 0 1 0 0 1 1 .01 0 1 0\n"
+                                         "white polygon p 0 0 12 0 0 0 2 2 0 2 0 0 0 1 0\n"
+                                         "lamp polygon p 0 0 12 0 0 0 1 0 0 2 0 0 1 0 0\n"
+                                         "lamp polygon p 0 0 9 0 0 3 1 0 3 0 1 3\n"
+                                         "lamp polygon p 0 0 9 0 0 4 1 0 4 2 0 4\n";
+    char said[1024] = "";
+    const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+    aur_scene *scene = NULL;
+    assert_int_equal(aur_scene_load_memory("room.rad", strlen(text), text, &options, &scene, NULL), AUR_OK);
+    assert_string_equal(said,
+                        "room.rad:10: 1 of 6 polygons have corners outside of their plane and become "
+                        "triangles at an angle (the "
+                        "first is here)\n"
+                        "room.rad:9: 3 of 6 polygons have no area and are left out (the first is here)\n"
+                        "room.rad:11: 1 of 6 polygons have an outline that crosses itself and are left out "
+                        "(the first is here)\n"
+                        "room.rad:12: 2 lights have no area and give no light (the first is here)\n");
+    static const size_t triangles[] = {0, 2, 0, 0, 1, 0};
+    for (size_t i = 0; i < 6; ++i)
+        assert_int_equal(scene->shapes[i]->mesh.triangle_count, triangles[i]);
+    assert_int_equal(scene->emitter_count, 1);
+    assert_int_equal(scene->emitters[0]->shape, 4);
+    assert_int_equal(scene->shapes[4]->emitter, 0);
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reads_surfaces),
+        cmocka_unit_test(cuts_polygons),
+        cmocka_unit_test(reads_sources),
+        cmocka_unit_test(glass_by_its_series),
+        cmocka_unit_test(bad_input),
+        cmocka_unit_test(materials_may_be_unused),
+        cmocka_unit_test(says_all_that_is_left_out),
+        cmocka_unit_test(leaves_out_what_is_no_surface),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

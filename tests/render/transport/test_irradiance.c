@@ -1,0 +1,241 @@
+#include "render/scene/scene_text.h"
+
+#include "render/photons/irradiance.h"
+
+/* The closed furnace of tests/render/driver/furnace.xml: walls of [-1,1]^3 that emit 0.5 and reflect half, so
+ * that the radiance is 1 and the irradiance pi everywhere. */
+static aur_scene *load_furnace(void) {
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/tests/render/driver/furnace.xml", NULL, &scene, &error),
+                     AUR_OK);
+    return scene;
+}
+
+static aur_irradiance_map *make_map(const aur_scene *scene, size_t photons, size_t threads) {
+    const aur_irradiance_map_options options = {
+        .photons = {.count = photons, .max_edges = SIZE_MAX, .seed = 7, .threads = threads},
+        .photons_a_texel = 32.0};
+    aur_irradiance_map *map = NULL;
+    aur_error error = {0};
+    assert_int_equal(aur_irradiance_map_create(scene, &options, &map, &error), AUR_OK);
+    return map;
+}
+
+/* Particles bring pi * 0.5 * 24 watts from the walls' 24 square units, and every bounce half of what came:
+ * in all 12 pi / (1 - 0.5) arrive. Roulette makes each path's length geometric with variance 2, so over n
+ * paths the sum scatters by sqrt(2 / n) / 2 of itself; 5 such are allowed. */
+static void photons_bring_all_the_power(void **state) {
+    (void)state;
+    aur_scene *const scene = load_furnace();
+    const aur_photon_options options = {.count = 40000, .max_edges = SIZE_MAX, .seed = 7};
+    aur_elements elements;
+    assert_int_equal(aur_elements_create(scene, &elements), AUR_OK);
+    aur_photon_map map;
+    aur_error error = {0};
+    assert_int_equal(aur_photon_map_create(scene, &elements, &options, &map, &error), AUR_OK);
+    double power[3] = {0};
+    for (size_t i = 0; i < map.count; ++i) {
+        const aur_photon *const photon = &map.photons[i];
+        power[0] += (double)photon->power.x;
+        power[1] += (double)photon->power.y;
+        power[2] += (double)photon->power.z;
+        /* A photon comes from the side that its normal shows. */
+        assert_true(aur_vector_dot(photon->normal, photon->direction) > 0.0f);
+        assert_near(aur_vector_length(photon->direction), 1.0, 1e-5);
+    }
+    const double spread = sqrt(2.0 / (double)map.paths) / 2.0;
+    for (size_t c = 0; c < 3; ++c)
+        assert_relative(power[c], 24.0 * AUR_PI, 5.0 * spread);
+    assert_true(map.count >= 40000);
+    aur_photon_map_release(&map);
+    aur_elements_release(&elements);
+    aur_scene_destroy(scene);
+}
+
+static void keep_last(void *user, const char *message) {
+    snprintf(user, 256, "%s", message);
+}
+
+/* Where nothing is absorbed no path ends but by rounding: they are cut, counted and reported. None is where a
+ * furnace absorbs half of what comes. */
+static void endless_paths_are_reported(void **state) {
+    (void)state;
+    aur_scene *const white = must_load_body(
+                         "<shape type='cube'><boolean name='flip_normals' value='true'/><bsdf type='diffuse'>"
+                         "<rgb name='reflectance' value='1'/></bsdf><emitter type='area'/></shape>"),
+                     *const grey = load_furnace();
+    for (size_t i = 0; i < 2; ++i) {
+        char message[256] = "";
+        const aur_photon_options options = {
+            .count = 4000, .max_edges = SIZE_MAX, .seed = 7, .warnings = {keep_last, message}};
+        const aur_scene *const scene = i == 0 ? white : grey;
+        aur_elements elements;
+        assert_int_equal(aur_elements_create(scene, &elements), AUR_OK);
+        aur_photon_map map;
+        assert_int_equal(aur_photon_map_create(scene, &elements, &options, &map, NULL), AUR_OK);
+        assert_in_range(map.cut, i == 0 ? map.paths * 9 / 10 : 0, i == 0 ? map.paths : 0);
+        assert_int_equal(strstr(message, "particles were cut after 512 edges") != NULL, i == 0);
+        aur_photon_map_release(&map);
+        aur_elements_release(&elements);
+    }
+    aur_scene_destroy(white);
+    aur_scene_destroy(grey);
+}
+
+/* Texels lose no photon and count none twice: their areas are those of the walls, their powers those of the
+ * photons, to rounding. */
+static void texels_hold_all_the_power(void **state) {
+    (void)state;
+    aur_scene *const scene = load_furnace();
+    aur_irradiance_map *const map = make_map(scene, 40000, 0);
+    const aur_photon_options options = {.count = 40000, .max_edges = SIZE_MAX, .seed = 7};
+    aur_photon_map photons;
+    assert_int_equal(aur_photon_map_create(scene, &map->texels.elements, &options, &photons, NULL), AUR_OK);
+    double area = 0.0, power = 0.0, brought = 0.0;
+    for (size_t i = 0; i < map->texels.count; ++i)
+        area += (double)map->texels.areas[i];
+    for (size_t i = 0; i < 2 * map->texels.count; ++i)
+        power += (double)map->lights[i].irradiance.y * (double)map->lights[i].area;
+    for (size_t i = 0; i < photons.count; ++i)
+        brought += (double)photons.photons[i].power.y;
+    assert_relative(area, 24.0, 1e-5);
+    assert_relative(power, brought, 1e-5);
+    aur_photon_map_release(&photons);
+    aur_irradiance_map_destroy(map);
+    aur_scene_destroy(scene);
+}
+
+/* A direct density estimate: the photons within a radius, over the part of the disc that the wall has. */
+static double estimate_directly(const aur_photon_map *photons, aur_vector position, aur_vector normal,
+                                float radius) {
+    double power = 0.0;
+    for (size_t i = 0; i < photons->count; ++i) {
+        const aur_photon *const photon = &photons->photons[i];
+        const aur_vector offset = aur_vector_subtract(photon->position, position);
+        if (aur_vector_dot(photon->normal, normal) > 0.99f && aur_vector_length(offset) < radius)
+            power += (double)photon->power.y;
+    }
+    return power / (AUR_PI * (double)radius * (double)radius);
+}
+
+/* The radiance of a look-up at a grid of places on the wall z = -1, seen from inside, against the direct
+ * estimate there and against the truth 1/2. A texel has about 32 photons and a disc of radius 0.1 about 130
+ * of 100000, so the two scatter by 18 and 9 % at most; the means over 64 places by an eighth of that, of
+ * which 5 are allowed. */
+static void look_ups_agree_with_density_estimates(void **state) {
+    (void)state;
+    aur_scene *const scene = load_furnace();
+    aur_irradiance_map *const map = make_map(scene, 100000, 0);
+    const aur_photon_options options = {.count = 100000, .max_edges = SIZE_MAX, .seed = 7};
+    aur_photon_map photons;
+    assert_int_equal(aur_photon_map_create(scene, &map->texels.elements, &options, &photons, NULL), AUR_OK);
+    double looked_up = 0.0, estimated = 0.0;
+    for (size_t i = 0; i < 64; ++i) {
+        const aur_vector target = {-0.875f + 0.25f * (float)(i % 8), -0.875f + 0.25f * (float)(i / 8), -1.0f};
+        const aur_ray ray = {
+            .origin = {target.x, target.y, 0.0f}, .direction = {0.0f, 0.0f, -1.0f}, .farthest = INFINITY};
+        aur_hit hit;
+        assert_true(aur_scene_intersect(scene, &ray, &hit));
+        aur_surface surface;
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        const aur_vector view = {0.0f, 0.0f, 1.0f};
+        looked_up += (double)aur_irradiance_view(map, scene, &hit, &surface, view).radiance.y / 64.0;
+        estimated += 0.5 / AUR_PI * estimate_directly(&photons, target, view, 0.1f) / 64.0;
+    }
+    assert_relative(looked_up, 0.5, 5.0 * 0.18 / 8.0);
+    assert_relative(looked_up, estimated, 5.0 * 0.20 / 8.0);
+    aur_photon_map_release(&photons);
+    aur_irradiance_map_destroy(map);
+    aur_scene_destroy(scene);
+}
+
+/* No light leaks through a wall: behind the furnace's, where no photon came, all is black. */
+static void unlit_sides_stay_dark(void **state) {
+    (void)state;
+    aur_scene *const scene = load_furnace();
+    aur_irradiance_map *const map = make_map(scene, 20000, 0);
+    size_t lit = 0, dark = 0;
+    for (size_t i = 0; i < map->texels.count; ++i) {
+        const float front = map->lights[2 * i].irradiance.y, behind = map->lights[2 * i + 1].irradiance.y;
+        lit += front > 0.0f || behind > 0.0f ? 1 : 0;
+        dark += front == 0.0f || behind == 0.0f ? 1 : 0;
+    }
+    assert_int_equal(dark, map->texels.count);
+    assert_true(lit > map->texels.count * 9 / 10);
+    aur_irradiance_map_destroy(map);
+    aur_scene_destroy(scene);
+}
+
+/* Every point of a triangle, and no other place, has a texel; the parts have equal areas. */
+static void triangle_texels_cover_it_evenly(void **state) {
+    (void)state;
+    for (uint32_t side = 1; side <= 9; side += 4) {
+        const aur_texel_range range = {100, side};
+        size_t counts[81] = {0}, points = 0;
+        for (size_t i = 0; i < 400; ++i)
+            for (size_t k = 0; i + k < 400; ++k) {
+                const float u = ((float)i + 1.0f / 3.0f) / 400.0f, v = ((float)k + 1.0f / 3.0f) / 400.0f;
+                const uint32_t texel = aur_texel_of_triangle(range, u, v) - 100;
+                assert_true(texel < side * side);
+                ++counts[texel];
+                ++points;
+            }
+        for (size_t t = 0; t < (size_t)side * side; ++t)
+            assert_relative((double)counts[t] * side * side, (double)points, 0.12);
+    }
+    const aur_texel_range range = {7, 5};
+    assert_int_equal(aur_texel_of_triangle(range, 1.0f, 0.0f), 7 + 24);
+    assert_int_equal(aur_texel_of_triangle(range, 0.0f, 1.0f), 7 + 8);
+    assert_int_equal(aur_texel_of_square(range, 1.0f, 1.0f), 7 + 24);
+}
+
+static void does_not_depend_on_threads(void **state) {
+    (void)state;
+    aur_scene *const scene = load_furnace();
+    aur_irradiance_map *const one = make_map(scene, 20000, 1);
+    aur_irradiance_map *const three = make_map(scene, 20000, 3);
+    assert_int_equal(one->texels.count, three->texels.count);
+    assert_int_equal(one->photons, three->photons);
+    assert_memory_equal(one->lights, three->lights, 2 * one->texels.count * sizeof *one->lights);
+    aur_irradiance_map_destroy(one);
+    aur_irradiance_map_destroy(three);
+    aur_scene_destroy(scene);
+}
+
+/* Any set of the square serves the particles, and short tables begin anew. */
+static void photons_come_from_any_set(void **state) {
+    (void)state;
+    static const char *const sets[] = {"random", "halton", "r2", "niederreiter"};
+    aur_scene *const scene = load_furnace();
+    for (size_t i = 0; i < sizeof sets / sizeof sets[0]; ++i) {
+        aur_sampler *sampler;
+        assert_int_equal(aur_sampler_create(sets[i], 20000, NULL, &sampler, NULL), AUR_OK);
+        aur_irradiance_map_options options = {
+            .photons = {.count = 20000, .max_edges = SIZE_MAX, .sampler = sampler, .seed = 7},
+            .photons_a_texel = 1e5};
+        aur_irradiance_map *map = NULL;
+        assert_int_equal(aur_irradiance_map_create(scene, &options, &map, NULL), AUR_OK);
+        double power = 0.0;
+        for (size_t k = 0; k < 2 * map->texels.count; ++k)
+            power += (double)map->lights[k].irradiance.y * (double)map->lights[k].area;
+        assert_relative(power, 24.0 * AUR_PI, 5.0 * sqrt(2.0 / (double)map->paths) / 2.0);
+        aur_irradiance_map_destroy(map);
+        aur_sampler_destroy(sampler);
+    }
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(photons_bring_all_the_power),
+        cmocka_unit_test(endless_paths_are_reported),
+        cmocka_unit_test(texels_hold_all_the_power),
+        cmocka_unit_test(look_ups_agree_with_density_estimates),
+        cmocka_unit_test(unlit_sides_stay_dark),
+        cmocka_unit_test(triangle_texels_cover_it_evenly),
+        cmocka_unit_test(photons_come_from_any_set),
+        cmocka_unit_test(does_not_depend_on_threads),
+    };
+    return cmocka_run_group_tests_name("irradiance", tests, enter_folder, leave_folder);
+}
