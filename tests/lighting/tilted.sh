@@ -87,17 +87,39 @@ for radius in 1e2 1e5 1e7; do
   [ $radius = 1e7 ] || judge "above a sphere of $radius"
 done
 
-# A table 2 cm above a ground of 100 km, near its middle and far from it, hides the sky from the ground below, and looks at the sky:
-# within 6 standard errors (15 degrees of freedom: a chance of 2e-5).
-cat >table.xml <<'XML'
+# Tables .01 mm to 2 cm above a level ground of 100 km, near its middle and far from it, hide the sky from the ground below, and look at
+# the sky: within 6 standard errors (15 degrees of freedom: a chance of 2e-5). They are not in the ground's plane.
+for height in .02 .001 1e-5; do
+  table() { printf '<shape type="rectangle"><transform name="to_world"><scale value="3"/><translate x="%s" z="%s"/></transform>
+<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>' "$1" $height; }
+  cat >table.xml <<XML
 <scene version="3.0.0"><emitter type="constant"/>
 <shape type="rectangle"><transform name="to_world"><scale value="5e4"/></transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape>
-<shape type="rectangle"><transform name="to_world"><scale value="3"/><translate z=".02"/></transform>
-<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>
-<shape type="rectangle"><transform name="to_world"><scale value="3"/><translate x="4e4" z=".02"/></transform>
-<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape></scene>
+$(table 0)$(table 4e4)</scene>
 XML
-printf "0 0 0 0 0 1\n40000 0 0 0 0 1\n0 0 .02 0 0 1\n40000 0 .02 0 0 1\n" >table.pts
-"$aureole" irradiance table.xml --sensors table.pts -n 256 --to csv 2>said |
-  awk -F, 'NR > 1 { ++n; bad += NR < 4 ? $4 > .01 : ($4 - 3.14159265) ^ 2 > (6 * $7 + 1e-5) ^ 2 } END { exit bad > 0 || n != 4 }' || fail "a table: $(cat said)"
+  printf '%s 0 %s 0 0 1\n' 0 0 40000 0 0 $height 40000 $height >table.pts
+  "$aureole" irradiance table.xml --sensors table.pts -n 256 --to csv 2>said |
+    awk -F, 'NR > 1 { ++n; bad += NR < 4 ? $4 > .01 : ($4 - 3.14159265) ^ 2 > (6 * $7 + 1e-5) ^ 2 } END { exit bad > 0 || n != 4 }' ||
+    fail "a table $height high: $(cat said)"
+  ! grep -q "in the plane of others" said || fail "a table $height high: $(cat said)"
+done
+
+# From a camera, of grounds of +-50 and balls of radius 1000 that touch the origin: all of 768 values are not occluded, to the bit.
+look_from() { # look_from CAMERA SHAPE
+  cat >scene.xml <<XML
+<scene version="3.0.0"><integrator type="ao"/><sensor type="perspective"><transform name="to_world"><lookat origin="$1" target="0, 0, 0"
+  up=".3, .5, .1"/></transform><film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/></film>
+  <sampler type="independent"><integer name="sample_count" value="4"/></sampler></sensor>$2<emitter type="constant"/></scene>
+XML
+  whole=$("$aureole" render scene.xml --no-cache -q -o ao.pfm && tail -c 3072 ao.pfm | od -An -v -tx4 -w4 | grep -c 3f800000)
+  [ "$whole" = 768 ] || fail "from $1: $whole of 768 values are not occluded"
+}
+for tilt in ".1, 0, 1" "1, 1, 1" "2, -3, .5"; do
+  look_from "$tilt" "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"50\"/><lookat origin=\"0, 0, 0\" target=\"$tilt\" up=\".3, .5, .1\"/></transform></shape>"
+done
+for ball in "0 0 -1000" "600 0 -800" "-480 600 -640"; do
+  read -r x y z <<<"$ball"
+  look_from "$(awk "BEGIN { printf \"%g, %g, %g\", -($x) / 500, -($y) / 500, -($z) / 500 }")" \
+    "<shape type=\"sphere\"><point name=\"center\" x=\"$x\" y=\"$y\" z=\"$z\"/><float name=\"radius\" value=\"1000\"/></shape>"
+done
 exit $((failures > 0))

@@ -39,19 +39,6 @@ static double height_of(const aur_facets *facets, size_t facet) {
            (double)aur_surface_offset(vector_of(facets->reach), vector_of(facets->planes[facet].normal));
 }
 
-static double width_of(size_t count, const double (*corners)[3]) {
-    double around = 0.0;
-    aur_plane plane;
-    const double area = aur_polygon_plane(count, corners, &plane);
-    for (size_t i = 0; i < count; ++i) {
-        double edge[3];
-        for (int d = 0; d < 3; ++d)
-            edge[d] = corners[(i + 1) % count][d] - corners[i][d];
-        around += aur_length3(edge);
-    }
-    return around > 0.0 ? 2.0 * area / around : 0.0;
-}
-
 /* Whether a part of `other` wider than the height lies within the height of the facet. */
 static bool is_cover(const aur_facets *facets, size_t facet, size_t other, double height) {
     const aur_plane *const plane = &facets->planes[facet];
@@ -84,7 +71,7 @@ static bool is_cover(const aur_facets *facets, size_t facet, size_t other, doubl
         count = aur_polygon_clip(count, from, &sides[s], parts[s % 2]);
         from = (const double(*)[3])parts[s % 2];
     }
-    return count > 2 && width_of(count, from) > height;
+    return count > 2 && aur_polygon_width(count, from) > height;
 }
 
 static bool search_facet(const search *s, size_t facet, cover_list *list) {

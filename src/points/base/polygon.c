@@ -23,6 +23,19 @@ double aur_polygon_plane(size_t count, const double (*corners)[3], aur_plane *pl
     return 0.5 * doubled_area;
 }
 
+double aur_polygon_width(size_t count, const double (*corners)[3]) {
+    double around = 0.0;
+    aur_plane plane;
+    const double area = aur_polygon_plane(count, corners, &plane);
+    for (size_t i = 0; i < count; ++i) {
+        double edge[3];
+        for (int d = 0; d < 3; ++d)
+            edge[d] = corners[(i + 1) % count][d] - corners[i][d];
+        around += aur_length3(edge);
+    }
+    return around > 0.0 ? 2.0 * area / around : 0.0;
+}
+
 size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plane *plane, double (*cut)[3]) {
     size_t kept = 0;
     double highest = 0.0, largest = fabs(plane->offset);

@@ -20,6 +20,9 @@ static inline double aur_plane_height(const aur_plane *plane, const double point
  * area. */
 double aur_polygon_plane(size_t count, const double (*corners)[3], aur_plane *plane);
 
+/* Twice the area by the length of the outline: half to all of the width of what is long and narrow. */
+double aur_polygon_width(size_t count, const double (*corners)[3]);
+
 /* The part in front of the plane: cut[count + 1], which must not overlap `corners`. Returns its number of
  * corners, 0 when nothing is in front. */
 size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plane *plane, double (*cut)[3]);

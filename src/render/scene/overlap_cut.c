@@ -223,19 +223,6 @@ typedef struct pieces {
     piece *items;
 } pieces;
 
-static double width_of(const piece *p) {
-    aur_plane plane;
-    double around = 0.0;
-    const double area = aur_polygon_plane(p->count, (const double(*)[3])p->corners, &plane);
-    for (size_t i = 0; i < p->count; ++i) {
-        double edge[3];
-        for (int d = 0; d < 3; ++d)
-            edge[d] = p->corners[(i + 1) % p->count][d] - p->corners[i][d];
-        around += aur_length3(edge);
-    }
-    return around > 0.0 ? 2.0 * area / around : 0.0;
-}
-
 static bool push(pieces *list, const piece *p) {
     if (!aur_array_reserve(&list->items, &list->capacity, list->count + 1, sizeof *list->items))
         return false;
@@ -273,12 +260,14 @@ static bool subtract(piece p, const aur_plane edges[3], double narrow, pieces *l
     piece inside = p;
     for (int e = 0; e < 3 && inside.count > 0; ++e)
         inside = clip(&inside, &edges[e]);
-    if (inside.count == 0 || width_of(&inside) <= narrow)
+    if (inside.count == 0 || aur_polygon_width(inside.count, (const double(*)[3])inside.corners) <= narrow)
         return push(left, &p);
     for (int e = 0; e < 3; ++e) {
         const aur_plane outwards = turned(edges[e]);
         const piece outside = clip(&p, &outwards);
-        if (outside.count > 0 && width_of(&outside) > narrow && !push(left, &outside))
+        if (outside.count > 0 &&
+            aur_polygon_width(outside.count, (const double(*)[3])outside.corners) > narrow &&
+            !push(left, &outside))
             return false;
         p = clip(&p, &edges[e]);
     }

@@ -10,7 +10,7 @@
 #include "points/base/polygon.h"
 #include "render/scene/overlap_planes.h"
 
-/* Parts of the larger extent. */
+/* Parts of an extent. */
 static const double EVENLY = 1.2e-7, NARROW = 3e-6, EXACT = 1e-12;
 
 /* --- one pair */
@@ -68,19 +68,6 @@ static size_t cut_to(const double first[3][3], const double normal[3], const dou
         memcpy(part, other, 3 * count * sizeof(double));
     }
     return count;
-}
-
-static double width_of(size_t count, const double (*corners)[3]) {
-    double around = 0.0;
-    aur_plane plane;
-    const double area = aur_polygon_plane(count, corners, &plane);
-    for (size_t i = 0; i < count; ++i) {
-        double edge[3];
-        for (int d = 0; d < 3; ++d)
-            edge[d] = corners[(i + 1) % count][d] - corners[i][d];
-        around += aur_length3(edge);
-    }
-    return around > 0.0 ? 2.0 * area / around : 0.0;
 }
 
 static void find_heights(const aur_plane *plane, size_t count, const double (*corners)[3], double sign,
@@ -163,11 +150,21 @@ static bool are_inclined(const aur_plane *plane, const aur_plane *other, bool op
     return aur_length3(between) > tilt;
 }
 
+/* What heights over the larger one's plane are rounded by goes by this extent: coordinates along an axis move
+ * the plane as much as it is turned to that axis, wherever its corners are. */
+static double height_extent(const double larger[3][3], const double smaller[3][3], const double normal[3]) {
+    double extent = extent_of(smaller);
+    for (int d = 0; d < 3; ++d)
+        extent += fabs(normal[d]) * (side(larger, d, true) - side(larger, d, false));
+    return smaller_of(extent, extent_of(larger));
+}
+
 /* The triangles are given with the larger one first. */
 static bool overlap(double larger[3][3], double smaller[3][3], double extent, bool doubles, bool *opposite) {
     const double largest = localize(larger, smaller);
-    const double known = aur_overlap_slack(0.0, largest), slack = aur_overlap_slack(extent, largest);
-    if (are_apart((const double(*)[3])larger, (const double(*)[3])smaller, slack))
+    const double known = aur_overlap_slack(0.0, largest);
+    if (are_apart((const double(*)[3])larger, (const double(*)[3])smaller,
+                  aur_overlap_slack(extent, largest)))
         return false;
     aur_plane plane, other;
     const double areas[2] = {aur_polygon_plane(3, (const double(*)[3])larger, &plane),
@@ -175,6 +172,8 @@ static bool overlap(double larger[3][3], double smaller[3][3], double extent, bo
     if (!(areas[0] > 1e-10 * extent * extent) || !(areas[1] > 0.0))
         return false;
     const double cosine = aur_dot3(plane.normal, other.normal);
+    const double thick = height_extent((const double(*)[3])larger, (const double(*)[3])smaller, plane.normal);
+    const double slack = aur_overlap_slack(thick, largest);
     double low = INFINITY, high = -INFINITY, part[8][3];
     find_heights(&plane, 3, (const double(*)[3])smaller, 1.0, &low, &high);
     if (low > slack || high < -slack || fabs(cosine) < 0.99)
@@ -185,10 +184,10 @@ static bool overlap(double larger[3][3], double smaller[3][3], double extent, bo
     if (are_inclined(&plane, &other, *opposite, tilt))
         return false;
     find_heights(&other, 3, (const double(*)[3])larger, *opposite ? 1.0 : -1.0, &low, &high);
-    if (is_apart(low, high, extent, known, *opposite, doubles))
+    if (is_apart(low, high, thick, known, *opposite, doubles))
         return false;
     const size_t count = cut_to((const double(*)[3])larger, plane.normal, (const double(*)[3])smaller, part);
-    if (count < 3 || width_of(count, (const double(*)[3])part) <= NARROW * extent + known)
+    if (count < 3 || aur_polygon_width(count, (const double(*)[3])part) <= NARROW * extent + known)
         return false;
     low = INFINITY;
     high = -INFINITY;

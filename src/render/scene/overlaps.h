@@ -26,12 +26,13 @@ typedef struct aur_overlaps {
 } aur_overlaps;
 
 /* All pairs, but for those of thousands of copies in one place. Triangles lie in one plane when they are
- * nowhere more than a millionth of the larger one's extent apart in the part that they share, as coordinates
- * that were rounded may be, and not more inclined than corners that are four times as far off make them;
- * where they are evenly apart, like a rug and a floor, 1.2e-7 of it, which is the rounding of rays of floats,
- * or with `doubles` the rounding of coordinates. Plates whose fronts look at each other across an even gap do
- * not overlap, however narrow it is. What is narrower than 3e-6 of the extent does not count. Errors:
- * MEMORY. */
+ * nowhere more than a millionth of an extent apart in the part that they share, as coordinates that were
+ * rounded may be: of the larger one's, or of the smaller one's and, axis by axis, as much of the larger one's
+ * as its normal has of that axis, which for a level ground is nothing. They are not more inclined than
+ * corners that are four times as far off make them; where they are evenly apart, like a rug and a
+ * floor, 1.2e-7 of it, which is the rounding of rays of floats, or with `doubles` the rounding of
+ * coordinates. Plates whose fronts look at each other across an even gap do not overlap, however narrow it
+ * is. What is narrower than 3e-6 of the larger extent does not count. Errors: MEMORY. */
 aur_result aur_overlaps_find(const aur_triangle_source *triangles, size_t threads, aur_overlaps *overlaps,
                              aur_error *error);
 void aur_overlaps_release(aur_overlaps *overlaps);
