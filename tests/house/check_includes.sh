@@ -4,7 +4,7 @@
 set -u
 source_tree=$2
 # From the top floor to the ground; rooms on one line stand side by side and do not include each other. A room inside a
-# room stands above the room's own folder, which holds what all of them share.
+# room stands above the room's own folder, which holds what all of them share. Estimators stand on one line.
 floors='
 program/cli
 program/lab
@@ -18,12 +18,10 @@ lighting/viewfactors
 render/adaptive
 render/driver
 render/estimators
-render/occlusion
-render/gather
-render/path render/radiosity
+render/path render/volume render/gather render/radiosity render/occlusion
 render/photons
-render/trace
 render/vertex
+render/trace
 render/film
 render/sampling
 render/scene/load

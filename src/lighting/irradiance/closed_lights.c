@@ -5,7 +5,7 @@
 #include "points/base/polygon.h"
 #include "points/base/random.h"
 #include "render/scene/scene_data.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
 
 enum { MOST_POLYGONS = 256, MOST_CORNERS = 4, PILOT = 128 /* points on all lights together */ };
 

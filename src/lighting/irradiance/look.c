@@ -6,7 +6,7 @@
 #include "points/base/vector3d.h"
 #include "render/scene/scene_data.h"
 #include "render/trace/packet_rays.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
 
 enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_look.sums */
 

@@ -6,8 +6,8 @@
 #include "lighting/irradiance/closed_lights.h"
 #include "lighting/irradiance/known_light.h"
 #include "lighting/irradiance/rule.h"
-#include "render/path/panes.h"
 #include "render/path/path_group.h"
+#include "render/vertex/panes.h"
 
 _Static_assert((int)AUR_IRRADIANCE_REPLICATES == (int)AUR_PACKET_SIZE, "a lane is a randomisation");
 

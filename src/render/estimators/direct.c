@@ -2,8 +2,8 @@
  * with any number of samples each, weighted by the power heuristic (Veach 1997). A mirror shows the lights.
  */
 #include "render/film/integrator.h"
-#include "render/vertex/direct_light.h"
 #include "render/vertex/first_surface.h"
+#include "render/vertex/vertex.h"
 
 typedef struct direct_data {
     int64_t shading_samples, emitter_samples, bsdf_samples; /* -1: not given */

@@ -2,8 +2,8 @@
  * sampling and Russian roulette (Kajiya 1986; Veach 1997). */
 #include <stdlib.h>
 
-#include "render/path/candidates.h"
 #include "render/path/path.h"
+#include "render/vertex/candidates.h"
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(

@@ -1,5 +1,5 @@
 #include "render/gather/estimators.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
 
 /* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
 static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_place *place,

@@ -4,7 +4,7 @@
  * lights; and it goes on by one of those lobes. */
 #include "render/gather/incident.h"
 
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
 
 /* --- packets */
 

@@ -1,7 +1,7 @@
 /* What the keys of final gathering say. */
 #pragma once
 
-#include "render/gather/rule.h"
+#include "render/sampling/rule.h"
 
 /* Which lobes are gathered. */
 typedef enum aur_gather_component {

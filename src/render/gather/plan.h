@@ -18,8 +18,8 @@
  */
 #pragma once
 
+#include "render/gather/onward.h"
 #include "render/gather/rules.h"
-#include "render/path/path_onward.h"
 #include "render/photons/bright_texels.h"
 
 /* What gather rays find: light that photons brought to the surfaces, and how often it is drawn as lights are.

@@ -1,7 +1,7 @@
 /* The rays of ambient occlusion, packet by packet: what the integrator traces and the bench compares with. */
 #pragma once
 
-#include "render/gather/rule.h"
+#include "render/sampling/rule.h"
 #include "render/scene/packet.h"
 #include "render/trace/interleave.h"
 

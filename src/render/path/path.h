@@ -6,6 +6,7 @@
 #include "render/path/path_lanes.h"
 #include "render/trace/shape_class.h"
 #include "render/vertex/looks.h"
+#include "render/vertex/vertex.h"
 
 typedef struct aur_path {
     uint32_t max_depth;  /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
@@ -21,28 +22,6 @@ typedef struct aur_path {
     aur_shape_class *classes;    /* one a shape */
     const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
 } aur_path;
-
-/* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, choice among
- * candidates), direction. */
-enum { AUR_PATH_CHOICE, AUR_PATH_POSITION, AUR_PATH_LOBE, AUR_PATH_DIRECTION, AUR_PATH_PAIRS };
-
-/* The first pair of a bounce. Those of the first come with the camera's, the others two bounces at once. */
-static inline uint32_t aur_path_pair(uint32_t depth) {
-    return depth == 1 ? AUR_PAIR_FIRST : AUR_STREAM_BLOCK + AUR_PATH_PAIRS * (depth - 2);
-}
-
-/* Whether a path that has become long is to be left because the work stops. */
-static inline bool aur_path_stops(uint32_t depth, bool *stopped) {
-    enum { EDGES_BETWEEN = 1 << 10 };
-    if (depth % EDGES_BETWEEN == 0 && aur_parallel_stops())
-        *stopped = true;
-    return *stopped;
-}
-
-/* The probability to go on, under Russian roulette. */
-static inline float aur_path_survival(aur_vector throughput) {
-    return aur_smaller(aur_vector_max(throughput), 0.95f);
-}
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
 /* Radiance along one camera ray. `seen`: what of it lights send straight, where that is known; or NULL. */

@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-#include "render/path/candidates.h"
-#include "render/path/panes.h"
 #include "render/trace/packet_rays.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/candidates.h"
+#include "render/vertex/panes.h"
+#include "render/vertex/vertex.h"
 
 enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */
 

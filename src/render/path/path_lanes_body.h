@@ -2,11 +2,11 @@
  * become vector code; plain operations in one order without contraction: the bits are the same everywhere. */
 #pragma once
 
-#include "render/path/candidates.h"
 #include "render/path/path.h"
 #include "render/scene/materials/sampling.h"
 #include "render/trace/coherence.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/candidates.h"
+#include "render/vertex/vertex.h"
 
 static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *restrict packet) {
     const struct RTCRay16 *const rays = &packet->query.ray;

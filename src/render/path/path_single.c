@@ -1,8 +1,8 @@
 /* One path by itself: the clear form, which paths in packets are compared with. */
-#include "render/path/candidates.h"
 #include "render/path/path.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/candidates.h"
 #include "render/vertex/first_surface.h"
+#include "render/vertex/vertex.h"
 
 /* A path on its way. */
 typedef struct aur_path_walk {

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "points/base/random.h"
-#include "render/path/candidates.h"
+#include "render/vertex/candidates.h"
 #include "short.h"
 #include <aureole/render.h>
 

@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "points/base/random.h"
-#include "render/gather/rule.h"
+#include "render/sampling/rule.h"
 
 static aur_gather_rule_options options_of(const char *set, aur_scramble scramble, size_t count, bool optimal,
                                           size_t rotations) {

@@ -2,8 +2,8 @@
 #include "check.h"
 
 #include "points/base/random.h"
-#include "render/gather/nested.h"
-#include "render/gather/rule.h"
+#include "render/sampling/nested.h"
+#include "render/sampling/rule.h"
 
 /* A direction of a hash, and the part of the hemisphere of solid angle that is within 72 degrees of it, by
  * a copy of the rule. */

@@ -1,4 +1,4 @@
-#include "render/gather/nested.h"
+#include "render/sampling/nested.h"
 
 #include <math.h>
 

@@ -1,13 +1,12 @@
 /* Path tracing in media: distances and directions are drawn, points on lights are drawn where light scatters,
  * and both ways to find a light, and what the three channels would have drawn, are weighed by the balance
  * heuristic (Miller, Georgiev and Jarosz 2019). */
-#include "render/path/volume_path.h"
+#include "render/volume/volume_path.h"
 
 #include "points/base/random.h"
-#include "render/path/path.h"
-#include "render/path/volume_shadow.h"
 #include "render/scene/materials/sampling.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
+#include "render/volume/volume_shadow.h"
 
 /* A path on its way. */
 typedef struct volume_walk {

@@ -1,4 +1,4 @@
-#include "render/path/panes.h"
+#include "render/vertex/panes.h"
 
 bool aur_panes_exist(const aur_scene *scene) {
     for (size_t i = 0; i < aur_scene_shape_count(scene); ++i)

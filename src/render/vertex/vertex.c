@@ -1,4 +1,4 @@
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
 
 bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, const aur_light_draws *draws,
                              const float u[3], aur_shadow *shadow) {

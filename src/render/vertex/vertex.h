@@ -5,6 +5,28 @@
 #include "render/film/integrator.h"
 #include "render/vertex/shading.h"
 
+/* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, choice among
+ * candidates), direction. */
+enum { AUR_PATH_CHOICE, AUR_PATH_POSITION, AUR_PATH_LOBE, AUR_PATH_DIRECTION, AUR_PATH_PAIRS };
+
+/* The first pair of a bounce. Those of the first come with the camera's, the others two bounces at once. */
+static inline uint32_t aur_path_pair(uint32_t depth) {
+    return depth == 1 ? AUR_PAIR_FIRST : AUR_STREAM_BLOCK + AUR_PATH_PAIRS * (depth - 2);
+}
+
+/* Whether a path that has become long is to be left because the work stops. */
+static inline bool aur_path_stops(uint32_t depth, bool *stopped) {
+    enum { EDGES_BETWEEN = 1 << 10 };
+    if (depth % EDGES_BETWEEN == 0 && aur_parallel_stops())
+        *stopped = true;
+    return *stopped;
+}
+
+/* The probability to go on, under Russian roulette. */
+static inline float aur_path_survival(aur_vector throughput) {
+    return aur_smaller(aur_vector_max(throughput), 0.95f);
+}
+
 /* The weight of a sample drawn with density `pdf` where the rival technique has density `other`. */
 static inline float aur_power_heuristic(float pdf, float other) {
     const float ratio = other / pdf;

@@ -1,4 +1,4 @@
-#include "render/path/volume_shadow.h"
+#include "render/volume/volume_shadow.h"
 
 static bool pass_medium(const aur_medium *medium, const aur_ray *ray, float distance, aur_medium_walk *walk,
                         aur_counters *counters) {

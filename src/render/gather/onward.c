@@ -1,9 +1,8 @@
-#include "render/path/path_onward.h"
+#include "render/gather/onward.h"
 
 #include "points/base/random.h"
-#include "render/path/path.h"
 #include "render/trace/packet_rays.h"
-#include "render/vertex/direct_light.h"
+#include "render/vertex/vertex.h"
 
 typedef struct onward_walk {
     aur_vector sum, throughput;
