@@ -13,12 +13,12 @@ cd "$(dirname "$0")/.." || exit 2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 export AUREOLE_CACHE=
-flags=(-std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -Iinclude -Isrc -Itests "-DAUR_SOURCE_DIR=\"$PWD\"")
+flags=(-std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -Iinclude -Isrc -Itests -Ibuild/release "-DAUR_SOURCE_DIR=\"$PWD\"")
 status=0
 # Analysers read one file at a time, so they are told that functions that make errors never return AUR_OK: $folder/told.h.
 tell() {
     cat >"$folder/told.h" <<'C'
-#include "core/error.h"
+#include "points/base/error.h"
 static inline aur_result aur_told(aur_result result) {
     if (result == AUR_OK)
         __builtin_unreachable();

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes src/points/sphere/sets/lebedev_table.c: quadrature of the sphere with octahedral symmetry.
+"""Writes data/lebedev.txt and data/lebedev_rules.txt: quadrature of the sphere with octahedral symmetry.
 
-usage: scripts/lebedev_table.py > src/points/sphere/sets/lebedev_table.c
+usage: scripts/lebedev_table.py
 
 Such a rule is a union of orbits of the octahedral group, each with one weight (Lebedev 1976). It is exact up
 to a degree when it is for the invariant polynomials, those in s = x^2 y^2 + y^2 z^2 + z^2 x^2 and
@@ -12,6 +12,7 @@ starts. Needs NumPy.
 import itertools
 
 import numpy as np
+import tables
 
 # Degree, then how many orbits: (1,0,0), (1,1,0), (1,1,1), (a,a,b), (a,b,0), (a,b,c).
 RULES = [(3, 1, 0, 0, 0, 0, 0), (5, 1, 0, 1, 0, 0, 0), (7, 1, 1, 1, 0, 0, 0), (9, 1, 0, 1, 0, 1, 0),
@@ -195,12 +196,10 @@ def main():
         kinds, (u, v, weights) = search(rule)
         orbits = [(corner(k, a, b), w / SIZES[k]) for k, a, b, w in zip(kinds, u, v, weights)]
         count = check(rule[0], orbits)
-        rules.append(f"    {{{count}, {rule[0]}, {len(rows)}, {len(orbits)}}},")
-        rows += ["    {{" + ", ".join(f"{c:.17g}" for c in x) + f"}}, {w:.17g}}}," for x, w in orbits]
-    print("/* Made by scripts/lebedev_table.py; do not edit. */")
-    print('#include "sphere/sets/lebedev.h"\n\n/* clang-format off */')
-    print("const aur_lebedev_orbit aur_lebedev_orbits[] = {", *rows, "};", sep="\n")
-    print("\nconst aur_reference aur_lebedev_rules[AUR_LEBEDEV_COUNT] = {", *rules, "};", sep="\n")
+        rules.append(f"{count} {rule[0]} {len(rows)} {len(orbits)}")
+        rows += [" ".join(f"{c:.17g}" for c in [*x, w]) for x, w in orbits]
+    tables.write("lebedev", rows)
+    tables.write("lebedev_rules", rules)
 
 
 if __name__ == "__main__":

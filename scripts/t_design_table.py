@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes src/points/sphere/sets/t_design_table.c: symmetric spherical designs.
+"""Writes data/t_design.txt and data/t_design_sizes.txt: symmetric spherical designs.
 
-usage: scripts/t_design_table.py > src/points/sphere/sets/t_design_table.c
+usage: scripts/t_design_table.py
 
 A spherical t-design is a set of points whose plain mean is exact for all polynomials up to degree t (Delsarte,
 Goethals and Seidel 1977). One that has the opposite of each point is exact for odd polynomials anyway, so that
@@ -11,6 +11,7 @@ for by damped Gauss-Newton steps from half a spherical Fibonacci set, as it is a
 more. Needs NumPy.
 """
 import numpy as np
+import tables
 
 DEGREES = range(1, 27, 2)
 RESIDUAL = 1e-13
@@ -126,12 +127,10 @@ def main():
     rows, sizes = [], []
     for degree in DEGREES:
         half = search(degree)
-        sizes.append(f"    {{{2 * len(half)}, {degree}, {len(rows)}, {len(half)}}},")
-        rows += ["    {" + ", ".join(f"{c:.17g}" for c in x) + "}," for x in half]
-    print("/* Made by scripts/t_design_table.py; do not edit. */")
-    print('#include "sphere/sets/t_design.h"\n\n/* clang-format off */')
-    print("const double aur_t_design_points[][3] = {", *rows, "};", sep="\n")
-    print("\nconst aur_reference aur_t_designs[AUR_T_DESIGN_COUNT] = {", *sizes, "};", sep="\n")
+        sizes.append(f"{2 * len(half)} {degree} {len(rows)} {len(half)}")
+        rows += [" ".join(f"{c:.17g}" for c in x) for x in half]
+    tables.write("t_design", rows)
+    tables.write("t_design_sizes", sizes)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@
 #include "points/base/random.h"
 #include "points/pointset/fraction128.h"
 #include "points/pointset/generators/golden.h"
-#include "points/pointset/generators/niederreiter_table.h"
 #include "points/pointset/set.h"
 
 static void lcg_is_minstd(void **state) {
@@ -198,13 +197,16 @@ static void niederreiter_has_its_quality_parameter(void **state) {
 /* A sieve of all polynomials over GF(2) of degree 13 or less. */
 static void niederreiter_has_the_irreducible_polynomials(void **state) {
     (void)state;
-    enum { END = 1 << 14 };
+    static const uint16_t polynomials[] = {
+#include "data/irreducible.inc"
+    };
+    enum { END = 1 << 14, COUNT = sizeof polynomials / sizeof *polynomials };
     static bool composite[END];
     size_t found = 0;
-    for (uint32_t a = 2; a < END && found < AUR_NIEDERREITER_DIMENSIONS; ++a) {
+    for (uint32_t a = 2; a < END && found < COUNT; ++a) {
         if (composite[a])
             continue;
-        assert_int_equal(aur_irreducible_polynomials[found++], a);
+        assert_int_equal(polynomials[found++], a);
         const unsigned degree = 31u - (unsigned)__builtin_clz(a);
         for (uint32_t b = a; b < (uint32_t)END >> degree; ++b) {
             uint64_t product = 0;
@@ -213,7 +215,7 @@ static void niederreiter_has_the_irreducible_polynomials(void **state) {
             composite[product] = true;
         }
     }
-    assert_int_equal(found, AUR_NIEDERREITER_DIMENSIONS);
+    assert_int_equal(found, COUNT);
 }
 
 static void niederreiter_begins_as_sobol(void **state) {

@@ -4,7 +4,12 @@
  * Random access, n up to 2^53, up to 1024 dimensions. n that is not a power of two leaves a net incomplete: a
  * warning. Error O(log^d N / N). */
 #include "points/pointset/digits/digital.h"
-#include "points/pointset/generators/niederreiter_table.h"
+
+enum { DIMENSIONS = 1024 };
+
+static const uint16_t irreducible_polynomials[DIMENSIONS] = {
+#include "data/irreducible.inc"
+};
 
 static unsigned degree_of(uint64_t polynomial) {
     return 63u - (unsigned)__builtin_clzll(polynomial);
@@ -25,7 +30,7 @@ static uint64_t divide_series(uint64_t series, uint32_t polynomial, unsigned deg
 }
 
 static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
-    const uint32_t polynomial = aur_irreducible_polynomials[dimension];
+    const uint32_t polynomial = irreducible_polynomials[dimension];
     const unsigned degree = degree_of(polynomial);
     for (unsigned c = 0; c < AUR_DIGITAL_COLUMNS; ++c)
         columns[c] = 0;
@@ -60,7 +65,7 @@ const aur_square_set aur_set_niederreiter = {
                             .summary = "(t,s)-sequence in base 2 from irreducible polynomials",
                             .source = "Niederreiter 1988; Bratley, Fox, Niederreiter 1992"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .dimensions = {1, AUR_NIEDERREITER_DIMENSIONS},
+                    .dimensions = {1, DIMENSIONS},
                     .maximum_size = UINT64_C(1) << 53,
                     .best_sizes = AUR_SIZES_POWERS,
                     .size_base = 2,

@@ -4,7 +4,13 @@
  * within its net and Owen-scrambled, both by hashes that depend on the repeat (Burley 2020). n that is not a
  * power of two leaves a net incomplete: a warning. Error O(log^d N / N). */
 #include "points/pointset/digits/digital.h"
-#include "points/pointset/generators/sobol_table.h"
+
+enum { DIMENSIONS = 1024, DEGREE_MAX = 13 };
+
+/* Of each dimension after the first: its polynomial, and as many numbers m_1, m_2, ... as its degree. */
+static const uint16_t directions[DIMENSIONS - 1][1 + DEGREE_MAX] = {
+#include "data/sobol.inc"
+};
 
 static unsigned degree_of(uint16_t polynomial) {
     return 31u - (unsigned)__builtin_clz(polynomial);
@@ -16,14 +22,11 @@ static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS])
             columns[k] = UINT64_C(1) << (63 - k);
         return;
     }
-    size_t start = 0;
-    for (size_t j = 0; j + 1 < dimension; ++j)
-        start += degree_of(aur_sobol_polynomials[j]);
-    const unsigned polynomial = aur_sobol_polynomials[dimension - 1];
-    const unsigned degree = degree_of((uint16_t)polynomial);
+    const uint16_t polynomial = directions[dimension - 1][0], *const numbers = directions[dimension - 1] + 1;
+    const unsigned degree = degree_of(polynomial);
     for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k) {
         if (k < degree) {
-            columns[k] = (uint64_t)aur_sobol_numbers[start + k] << (63 - k);
+            columns[k] = (uint64_t)numbers[k] << (63 - k);
             continue;
         }
         columns[k] = columns[k - degree] ^ columns[k - degree] >> degree;
@@ -47,7 +50,7 @@ static uint64_t shuffle_index(uint64_t index, uint64_t key) {
 /* Coordinates beyond the table. */
 static void fill_repeat(const aur_pointset *set, const uint64_t *columns, const aur_block *block, size_t d) {
     const size_t dimension = block->first_dimension + d;
-    const uint64_t repeat = aur_hash2(UINT64_C(0x736f626f6c), dimension / AUR_SOBOL_DIMENSIONS);
+    const uint64_t repeat = aur_hash2(UINT64_C(0x736f626f6c), dimension / DIMENSIONS);
     const uint64_t fixed = aur_hash2(repeat, dimension);
     const uint64_t key = aur_scramble_key(block->seed, dimension);
     double *const out = block->data + d * block->coordinate_stride;
@@ -59,15 +62,14 @@ static void fill_repeat(const aur_pointset *set, const uint64_t *columns, const 
 }
 
 static void fill(const aur_pointset *set, const aur_block *block) {
-    const size_t table_count =
-        block->first_dimension < AUR_SOBOL_DIMENSIONS ? AUR_SOBOL_DIMENSIONS - block->first_dimension : 0;
+    const size_t table_count = block->first_dimension < DIMENSIONS ? DIMENSIONS - block->first_dimension : 0;
     aur_block part = *block;
     if (part.dimension_count > table_count)
         part.dimension_count = table_count;
     aur_fill_digital_block(set, &part, make_matrix);
     for (size_t d = part.dimension_count; d < block->dimension_count; ++d) {
         uint64_t columns[AUR_DIGITAL_COLUMNS];
-        const size_t dimension = (block->first_dimension + d) % AUR_SOBOL_DIMENSIONS;
+        const size_t dimension = (block->first_dimension + d) % DIMENSIONS;
         fill_repeat(set, aur_digital_matrix_of(set, dimension, make_matrix, columns), block, d);
     }
 }
@@ -78,7 +80,7 @@ static bool fill_pairs(const aur_pointset *set, const aur_block *block) {
 
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
-    const size_t count = set->dimension < AUR_SOBOL_DIMENSIONS ? set->dimension : AUR_SOBOL_DIMENSIONS;
+    const size_t count = set->dimension < DIMENSIONS ? set->dimension : DIMENSIONS;
     return aur_prepare_digital(set, count, make_matrix, error);
 }
 

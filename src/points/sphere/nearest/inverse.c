@@ -19,6 +19,10 @@ void aur_sphere_lattice_nearest_portable(const aur_sphere_lattice *lattice, size
     nearest_points(lattice, count, xyz, indices);
 }
 
+const double aur_sphere_lattice_vectors[2][AUR_SPHERE_LATTICE_VECTORS] = {
+#include "data/lattice_vectors.inc"
+};
+
 /* 2^50 points keep an index and its neighbours exact. */
 static const uint64_t size_limit = UINT64_C(1) << 50;
 
@@ -102,10 +106,10 @@ static interval steps_within(interval range, double start, double pace) {
 /* All points whose index and azimuth lie in a box, the azimuth modulo a turn and narrower than one. */
 static void offer_box(const aur_sphere_lattice *lattice, const double *q, interval index, interval turns,
                       int64_t k, candidates *kept) {
-    const double f0 = aur_sphere_lattice_fibonacci[k];
-    const double f1 = aur_sphere_lattice_fibonacci[k + 1];
-    const double e0 = aur_sphere_lattice_turns[k];
-    const double e1 = aur_sphere_lattice_turns[k + 1];
+    const double f0 = aur_sphere_lattice_vectors[0][k];
+    const double f1 = aur_sphere_lattice_vectors[0][k + 1];
+    const double e0 = aur_sphere_lattice_vectors[1][k];
+    const double e1 = aur_sphere_lattice_vectors[1][k + 1];
     const double sign = e0 > 0.0 ? -1.0 : 1.0;
     const double middle = sign * (f0 * (turns.low + turns.high) - e0 * (index.low + index.high)) / 2.0;
     const double reach = (f0 * (turns.high - turns.low) + fabs(e0) * (index.high - index.low)) / 2.0;

@@ -13,8 +13,7 @@ enum { AUR_SPHERE_LATTICE_VECTORS = 48 };
 
 /* F_k and (-1)^{k-1} Phi^-k, the basis vectors b_k in units of an index and of a turn (Marques 2019 eq. 5).
  */
-extern const double aur_sphere_lattice_fibonacci[AUR_SPHERE_LATTICE_VECTORS];
-extern const double aur_sphere_lattice_turns[AUR_SPHERE_LATTICE_VECTORS];
+extern const double aur_sphere_lattice_vectors[2][AUR_SPHERE_LATTICE_VECTORS];
 
 typedef void (*aur_sphere_lattice_kernel)(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
                                           double *indices);

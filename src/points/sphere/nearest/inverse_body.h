@@ -53,10 +53,10 @@ static inline void nearest_lanes(const aur_sphere_lattice *lattice, const double
     const aur_reals index = depth * (1.0 / lattice->step) - 0.5;
     const aur_reals turns = azimuth(px, py);
     const aur_words k = zone_of(lattice->whole, across);
-    const aur_reals f0 = aur_lanes_look_up(aur_sphere_lattice_fibonacci, k);
-    const aur_reals f1 = aur_lanes_look_up(aur_sphere_lattice_fibonacci + 1, k);
-    const aur_reals e0 = aur_lanes_look_up(aur_sphere_lattice_turns, k);
-    const aur_reals e1 = aur_lanes_look_up(aur_sphere_lattice_turns + 1, k);
+    const aur_reals f0 = aur_lanes_look_up(aur_sphere_lattice_vectors[0], k);
+    const aur_reals f1 = aur_lanes_look_up(aur_sphere_lattice_vectors[0] + 1, k);
+    const aur_reals e0 = aur_lanes_look_up(aur_sphere_lattice_vectors[1], k);
+    const aur_reals e1 = aur_lanes_look_up(aur_sphere_lattice_vectors[1] + 1, k);
     /* coordinates in the basis, whose determinant is (-1)^k */
     const aur_words sign = k << 63;
     const aur_reals c0 = aur_lanes_floor((aur_reals)((aur_words)(index * e1 - f1 * turns) ^ sign));

@@ -12,18 +12,28 @@ typedef struct node {
     double xyz[3], weight;
 } node;
 
+/* A corner x >= y >= z >= 0 and a weight, which all images of the corner under changes of sign and order
+ * have. Coordinates that are equal have the same bits. */
+static const double orbits[][4] = {
+#include "data/lebedev.inc"
+};
+
+const aur_reference aur_lebedev_rules[AUR_LEBEDEV_COUNT] = {
+#include "data/lebedev_rules.inc"
+};
+
 /* The images of an orbit's corner: the signs of what is not zero, for each different order of its
  * coordinates. The end of what was written. */
-static node *unfold(const aur_lebedev_orbit *orbit, node *to) {
+static node *unfold(const double orbit[4], node *to) {
     static const unsigned char orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                                {1, 0, 2}, {0, 2, 1}, {2, 1, 0}};
     const node *const begin = to;
     for (size_t o = 0; o < 6; ++o)
         for (unsigned signs = 0; signs < 8; ++signs) {
-            node image = {.weight = orbit->weight};
+            node image = {.weight = orbit[3]};
             bool repeated = false;
             for (size_t d = 0; d < 3; ++d) {
-                const double x = orbit->corner[orders[o][d]];
+                const double x = orbit[orders[o][d]];
                 const bool negative = (signs >> d & 1u) != 0;
                 repeated = repeated || (negative && x == 0.0);
                 image.xyz[d] = negative ? -x : x;
@@ -49,7 +59,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
         return aur_fail_memory(error);
     node *to = nodes;
     for (size_t r = 0; r < rule->rows; ++r)
-        to = unfold(aur_lebedev_orbits + rule->first + r, to);
+        to = unfold(orbits[rule->first + r], to);
     *data = nodes;
     return AUR_OK;
 }

@@ -7,6 +7,14 @@
 
 #include "points/base/error.h"
 
+static const double points[][3] = {
+#include "data/t_design.inc"
+};
+
+const aur_reference aur_t_designs[AUR_T_DESIGN_COUNT] = {
+#include "data/t_design_sizes.inc"
+};
+
 static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
                           void **data, aur_error *error) {
     (void)parameters;
@@ -28,7 +36,7 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
     for (size_t i = 0; i < count; ++i) {
         const size_t at = (size_t)first + i;
         const double sign = at < design->rows ? 1.0 : -1.0;
-        const double *const point = aur_t_design_points[design->first + at % design->rows];
+        const double *const point = points[design->first + at % design->rows];
         for (size_t d = 0; d < 3; ++d)
             xyz[3 * i + d] = sign * point[d];
     }

@@ -1,9 +1,8 @@
-/* The table of symmetric spherical designs: each row and its opposite. */
+/* The table of symmetric spherical designs: each of its points and the opposite. */
 #pragma once
 
 #include "points/sphere/sets/reference.h"
 
 enum { AUR_T_DESIGN_COUNT = 13 };
 
-extern const double aur_t_design_points[][3];
 extern const aur_reference aur_t_designs[AUR_T_DESIGN_COUNT];

@@ -37,60 +37,12 @@ aur_sky_model aur_sky_model_cie(size_t type, const double sun[3]) {
         (const double[5]){gradation[0], gradation[1], indicatrix[0], indicatrix[1], indicatrix[2]}, sun);
 }
 
-/* Table 1 of Perez et al. (1993) with its erratum, Solar Energy 51(5), 423: for each class of clearness, four
- * coefficients for each of a, b, c, d and e. */
-static const struct {
-    double below;
-    double of[5][4];
-} perez_classes[] = {
-    {1.065,
-     {{1.3525, -0.2576, -0.2690, -1.4366},
-      {-0.7670, 0.0007, 1.2734, -0.1233},
-      {2.8000, 0.6004, 1.2375, 1.0000},
-      {1.8734, 0.6297, 0.9738, 0.2809},
-      {0.0356, -0.1246, -0.5718, 0.9938}}},
-    {1.230,
-     {{-1.2219, -0.7730, 1.4148, 1.1016},
-      {-0.2054, 0.0367, -3.9128, 0.9156},
-      {6.9750, 0.1774, 6.4477, -0.1239},
-      {-1.5798, -0.5081, -1.7812, 0.1080},
-      {0.2624, 0.0672, -0.2190, -0.4285}}},
-    {1.500,
-     {{-1.1000, -0.2515, 0.8952, 0.0156},
-      {0.2782, -0.1812, -4.5000, 1.1766},
-      {24.7219, -13.0812, -37.7000, 34.8438},
-      {-5.0000, 1.5218, 3.9229, -2.6204},
-      {-0.0156, 0.1597, 0.4199, -0.5562}}},
-    {1.950,
-     {{-0.5484, -0.6654, -0.2672, 0.7117},
-      {0.7234, -0.6219, -5.6812, 2.6297},
-      {33.3389, -18.3000, -62.2500, 52.0781},
-      {-3.5000, 0.0016, 1.1477, 0.1062},
-      {0.4659, -0.3296, -0.0876, -0.0329}}},
-    {2.800,
-     {{-0.6000, -0.3566, -2.5000, 2.3250},
-      {0.2937, 0.0496, -5.6812, 1.8415},
-      {21.0000, -4.7656, -21.5906, 7.2492},
-      {-3.5000, -0.1554, 1.4062, 0.3988},
-      {0.0032, 0.0766, -0.0656, -0.1294}}},
-    {4.500,
-     {{-1.0156, -0.3670, 1.0078, 1.4051},
-      {0.2875, -0.5328, -3.8500, 3.3750},
-      {14.0000, -0.9999, -7.1406, 7.5469},
-      {-3.4000, -0.1078, -1.0750, 1.5702},
-      {-0.0672, 0.4016, 0.3017, -0.4844}}},
-    {6.200,
-     {{-1.0000, 0.0211, 0.5025, -0.5119},
-      {-0.3000, 0.1922, 0.7023, -1.6317},
-      {19.0000, -5.0000, 1.2438, -1.9094},
-      {-4.0000, 0.0250, 0.3844, 0.2656},
-      {1.0468, -0.3788, -2.4517, 1.4656}}},
-    {INFINITY,
-     {{-1.0500, 0.0289, 0.4260, 0.3590},
-      {-0.3250, 0.1156, 0.7781, 0.0025},
-      {31.0625, -14.5000, -46.1148, 55.3750},
-      {-7.2312, 0.4050, 13.3500, 0.6234},
-      {1.5000, -0.6426, 1.8564, 0.5636}}},
+/* Table 1 of Perez et al. (1993): what the clearness of each class is below, and four coefficients for each
+ * of a, b, c, d and e. */
+enum { PEREZ_CLASSES = 8 };
+static const double clearness_below[PEREZ_CLASSES] = {1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2, INFINITY};
+static const double perez[PEREZ_CLASSES][5 * 4] = {
+#include "data/perez_sky.inc"
 };
 
 aur_perez_conditions aur_perez_conditions_of(double direct_normal, double diffuse_horizontal,
@@ -102,7 +54,7 @@ aur_perez_conditions aur_perez_conditions_of(double direct_normal, double diffus
         .zenith = zenith,
         .clearness = ((diffuse_horizontal + direct_normal) / diffuse_horizontal + cube) / (1.0 + cube),
         .brightness = fmin(fmax(diffuse_horizontal * air_mass / extraterrestrial, 0.01), 0.6)};
-    while (found.clearness >= perez_classes[found.category].below)
+    while (found.clearness >= clearness_below[found.category])
         ++found.category;
     return found;
 }
@@ -117,11 +69,11 @@ aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizonta
     const size_t row = found.category;
     double value[5];
     for (size_t i = 0; i < 5; ++i) {
-        const double *const x = perez_classes[row].of[i];
+        const double *const x = perez[row] + 4 * i;
         value[i] = x[0] + x[1] * zenith + brightness * (x[2] + x[3] * zenith);
     }
     if (row == 0) { /* their equations (7) and (8) */
-        const double *const x = perez_classes[0].of[2], *const y = perez_classes[0].of[3];
+        const double *const x = perez[0] + 8, *const y = perez[0] + 12;
         value[2] = exp(pow(brightness * (x[0] + x[1] * zenith), x[2])) - x[3];
         value[3] = -exp(brightness * (y[0] + y[1] * zenith)) + y[2] + brightness * y[3];
     }

@@ -6,9 +6,15 @@
 #include "points/base/array.h"
 #include "points/base/file.h"
 #include "points/base/text.h"
-#include "render/scene/load/cie_table.h"
 
 /* --- integrals against the observer */
+
+enum { CIE_FIRST = 360, CIE_LAST = 830, CIE_STEP = 5, CIE_COUNT = 95 }; /* nanometres */
+
+/* The standard observer's x, y, z, and the illuminant D65. */
+static const double cie[CIE_COUNT][4] = {
+#include "data/cie.inc"
+};
 
 static double mix(double a, double b, double t) {
     return a + t * (b - a);
@@ -18,13 +24,13 @@ static double mix(double a, double b, double t) {
 static void observer_at(double wavelength, bool daylight, double xyz[3]) {
     /* Mitsuba's constants: the integral of y, and D65's mean under it. */
     static const double y_integral = 106.7502593994140625, d65_mean = 98.99741751876255;
-    const double place = (wavelength - AUR_CIE_FIRST) / AUR_CIE_STEP;
-    const size_t i = place < AUR_CIE_COUNT - 2 ? (size_t)place : AUR_CIE_COUNT - 2;
-    const aur_cie_row *const a = &aur_cie_table[i], *const b = a + 1;
+    const double place = (wavelength - CIE_FIRST) / CIE_STEP;
+    const size_t i = place < CIE_COUNT - 2 ? (size_t)place : CIE_COUNT - 2;
+    const double *const a = cie[i], *const b = cie[i + 1];
     const double t = place - (double)i;
-    const double light = daylight ? mix(a->d65, b->d65, t) / d65_mean : 1.0;
+    const double light = daylight ? mix(a[3], b[3], t) / d65_mean : 1.0;
     for (size_t k = 0; k < 3; ++k)
-        xyz[k] = mix(a->xyz[k], b->xyz[k], t) * light / y_integral;
+        xyz[k] = mix(a[k], b[k], t) * light / y_integral;
 }
 
 static aur_result check(size_t count, const double *wavelengths, const double *values, aur_location location,
@@ -58,13 +64,13 @@ void aur_spectrum_equal_energy(double value, double rgb[3]) {
 aur_result aur_spectrum_to_rgb(size_t count, const double *wavelengths, const double *values,
                                aur_location location, aur_spectrum_use use, double rgb[3], aur_error *error) {
     enum { STEPS = 1000 }; /* Mitsuba's sum, both ends included */
-    const double span = AUR_CIE_LAST - AUR_CIE_FIRST;
+    const double span = CIE_LAST - CIE_FIRST;
     double sum[3] = {0.0};
     const aur_result result = check(count, wavelengths, values, location, error);
     if (result != AUR_OK)
         return result;
     for (size_t step = 0, i = 0; step < STEPS; ++step) {
-        const double w = AUR_CIE_FIRST + (double)step / (STEPS - 1) * span;
+        const double w = CIE_FIRST + (double)step / (STEPS - 1) * span;
         if (w < wavelengths[0] || w > wavelengths[count - 1])
             continue;
         while (i + 2 < count && wavelengths[i + 1] <= w)
