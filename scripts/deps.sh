@@ -9,8 +9,8 @@ packages=(
   # ray tracing, pictures, scene files, models, linear algebra, the page of a render
   libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev libassimp-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
   libmicrohttpd-dev
-  # plots, unit tests
-  gnuplot-nox libcmocka-dev
+  # unit tests
+  libcmocka-dev
 )
 # many machines; the Python package and engines for SciPy; the pages for a browser; tests of the binary interface, of terminals
 [ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev python3-scipy python3-markdown-it

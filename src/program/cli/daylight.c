@@ -103,7 +103,7 @@ const cli_option cli_daylight_options[] = {
 bool cli_daylight_check(const cli_call *call) {
     const bool weather = cli_given(call, "weather") != NULL;
     static const char *const without[] = {"error",   "confidence", "parts",     "intervals", "no-errors",
-                                          "normals", "counts",     "reflected", "particles"};
+                                          "normals", "counts",     "reflected", "particles", "plot"};
     for (const cli_option *option = cli_daylight_options + 1; option->key.name != NULL && !weather; ++option)
         if (cli_given(call, option->key.name) != NULL) {
             cli_bad_usage("irradiance: --%s is for a year of weather: --weather FILE", option->key.name);

@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "program/cli/daylight.h"
+#include "program/cli/irradiance.h"
 
 typedef enum illuminance { ILLUMINANCE_RADIANCE, ILLUMINANCE_REC709, ILLUMINANCE_PHOTOPIC } illuminance;
 
 typedef struct irradiance_command {
-    const char *sensors, *output, *format;
+    const char *sensors, *output, *format, *plot;
     aur_sensors_options stand;
     aur_irradiance_options estimate;
     aur_irradiance_columns columns;
@@ -85,6 +86,11 @@ static const cli_option options[] = {
                 "lux in the place of r, g, b: 179 lm/W by Radiance's weights of r, g, b (.265, .670, .065), "
                 "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
      .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
+    {CLI_TEXT(irradiance_command, plot, "plot", "FILE", NULL,
+              "draw the luminance, or the lux of --illuminance, as a map with a scale of colours: .svg, "
+              ".pdf, .png, or "
+              ".tex for pgfplots"),
+     .parse = cli_parse_plot, .content = "file", .writes = true},
     {CLI_FLAG(irradiance_command, columns.parts, "parts",
               "direct, sky, reflected and the sun's light apart, after the total")},
     {CLI_FLAG(irradiance_command, columns.intervals, "intervals",
@@ -148,6 +154,8 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
     if (result == AUR_OK)
         result = aur_irradiance_write(given->output, given->format, &given->columns, sensors, sizeof *results,
                                       results, error);
+    if (result == AUR_OK && given->plot != NULL)
+        result = cli_irradiance_plot(given->plot, given->columns.unit, sensors, results, error);
     free(results);
     return result;
 }

@@ -1,8 +1,11 @@
 /* aureole lab: the papers' experiments. */
+#include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "program/cli/lab_run.h"
 #include "program/cli/listing.h"
+#include "program/lab/publish.h"
 
 static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results, and lab-report for report",
@@ -52,6 +55,20 @@ static int list(report_format format) {
     return cli_finish_listing(table, format);
 }
 
+/* The page of the results in a folder, and its plots for print. */
+static int report(const char *results, const char *folder, bool small) {
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", folder, strerror(errno));
+        return CLI_FAILURE;
+    }
+    char path[AUR_ERROR_FILE_CAPACITY];
+    aur_error error = {0};
+    const int status = cli_status(lab_publish(results, folder, small, path, &error), &error);
+    if (status == CLI_SUCCESS)
+        printf("%s\n", path);
+    return status;
+}
+
 static int run(const cli_call *call) {
     cli_lab *const command = call->options;
     const char *const action = call->operands[0], *const folder = command->lab.folder;
@@ -61,8 +78,8 @@ static int run(const cli_call *call) {
     if (strcmp(action, "report") == 0) {
         if (call->operand_count > 2)
             return cli_bad_usage("lab report: takes one folder of results");
-        return cli_lab_report(call->operand_count > 1 ? call->operands[1] : "lab-results",
-                              folder != NULL ? folder : "lab-report", command->small);
+        return report(call->operand_count > 1 ? call->operands[1] : "lab-results",
+                      folder != NULL ? folder : "lab-report", command->small);
     }
     if (strcmp(action, "list") != 0)
         return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);

@@ -12,7 +12,5 @@ typedef struct cli_lab {
 
 /* "8 s", "12 min", "1 h 5 min". */
 void cli_lab_duration(double seconds, char text[32]);
-/* Writes the page of the results in a folder to FOLDER/index.html, beside its plots for print, of which a
- * small one has none. Both return the exit status. */
-int cli_lab_report(const char *results, const char *folder, bool small);
+/* Returns the exit status. */
 int cli_lab_run(cli_lab *command, size_t count, char **names);

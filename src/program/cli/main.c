@@ -84,8 +84,9 @@ static int run(const cli_verb *verb, int argc, char **argv) {
 }
 
 /* A parent may leave signals blocked or ignored, which last through exec: services with signalfd block those
- * that end a program, and an ignored SIGCHLD hides how gnuplot ended. SIGHUP stays ignored, as nohup has it.
- * A file that becomes larger than its limit is an error of writing, not the end of the program. */
+ * that end a program, and an ignored SIGCHLD hides how the reader of models ended. SIGHUP stays ignored, as
+ * nohup has it. A file that becomes larger than its limit is an error of writing, not the end of the program.
+ */
 static void reset_signals(void) {
     static const int ending[] = {SIGTERM, SIGALRM, SIGCHLD};
     for (size_t i = 0; i < sizeof ending / sizeof *ending; ++i)

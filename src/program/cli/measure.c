@@ -1,7 +1,6 @@
 /* aureole measure: quality figures of points. */
 #include "program/cli/measure.h"
 #include "program/cli/listing.h"
-#include "program/cli/plot.h"
 
 #include <aureole/text.h>
 #include <math.h>
@@ -35,8 +34,8 @@ static const cli_option options[] = {
         "relative error allowed to energies of many points, which are done sooner then, and to spectra; "
         "adds columns with bounds of the errors")},
     {CLI_TEXT(cli_measure_arguments, plot, "plot", "FILE", NULL,
-              "draw the figures against N with fitted slopes, .svg, .pdf or .png (needs gnuplot)"),
-     .content = "file", .writes = true},
+              "draw the figures against N with fitted slopes: .svg, .pdf, .png, or .tex for pgfplots"),
+     .parse = cli_parse_plot, .content = "file", .writes = true},
     {.key = {0}}};
 
 /* The domain that the first word of the first measure's list names, or the one that the dimension asks for.
@@ -83,8 +82,6 @@ static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
 static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
         return cli_bad_usage("measure: a file or a set is missing: try 'aureole help measure'"), false;
-    if (arguments->plot != NULL && !cli_plot_can(arguments->plot))
-        return false;
     if (arguments->metrics.count == 0)
         return cli_bad_usage("measure: --metric is missing: 'aureole measure --list' lists them"), false;
     aur_error error = {0};

@@ -1,10 +1,12 @@
-/* Figures against N on log-log axes: what every paper in the field shows. */
+/* Figures against N on log-log axes: what every paper in the field shows. And measures that are tables. */
+#include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "program/cli/measure.h"
-#include "program/cli/plot.h"
+#include "program/report/figure.h"
 
 /* value = factor * N^slope by least squares of the logarithms. */
 typedef struct power_law {
@@ -45,98 +47,71 @@ static power_law fit(const cli_measure_arguments *arguments, const cli_measure_r
     return (power_law){count, slope, exp((y - slope * x) / n)};
 }
 
-/* From the least to the largest value of what is drawn. */
-typedef struct axis {
-    double low, high;
-} axis;
+enum { LABEL = 512 };
 
-static void widen(axis *a, double value) {
-    a->low = fmin(a->low, value);
-    a->high = fmax(a->high, value);
+/* What a figure is made of: for each metric and source the values and the line fitted to them. */
+typedef struct drawing {
+    report_panel *panels;
+    report_series *series;
+    report_point *points;
+    char (*labels)[LABEL];
+} drawing;
+
+static bool allocate(drawing *d, size_t panels, size_t series, size_t points) {
+    d->panels = calloc(panels, sizeof *d->panels);
+    d->series = calloc(series, sizeof *d->series);
+    d->points = calloc(points, sizeof *d->points);
+    d->labels = calloc(series, sizeof *d->labels);
+    return d->panels != NULL && d->series != NULL && d->points != NULL && d->labels != NULL;
 }
 
-/* A logarithmic axis with a margin on both sides, and so large a part of its length `below` the values. */
-static void print_axis(FILE *script, char name, axis a, double below) {
-    const double length = fmax(log10(a.high / a.low), 0.1);
-    const double low = log10(a.low) - (0.04 + below / (1.0 - below)) * length;
-    const double high = log10(a.high) + 0.04 * length;
-    fprintf(script, "set %crange [%.17g:%.17g]\nset %ctics (", name, pow(10.0, low), pow(10.0, high), name);
-    /* As few numbers as there can be, but two of them. */
-    static const char *const choices[] = {"1", "125", "123456789"};
-    double tics[64];
-    size_t count = 0;
-    for (size_t c = 0; c < 3 && count < 2; ++c) {
-        count = 0;
-        for (int power = (int)floor(low); power <= high; ++power)
-            for (const char *digit = choices[c]; *digit != '\0' && count < 64; ++digit) {
-                const double tic = (*digit - '0') * pow(10.0, power);
-                if (log10(tic) >= low && log10(tic) <= high)
-                    tics[count++] = tic;
-            }
-    }
-    for (size_t t = 0; t < count; ++t)
-        fprintf(script, "%s%.17g", t > 0 ? ", " : "", tics[t]);
-    fputs(")\n", script);
+/* Writes the figure, or says what is wrong, and frees what it was made of; returns the exit status. */
+static int finish(drawing *d, bool allocated, const char *path, const report_figure *figure) {
+    aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
+    const int status =
+        allocated
+            ? cli_status(report_figure_save(path, report_figure_format_of(path), figure, &error), &error)
+            : cli_fail(&error);
+    free(d->panels);
+    free(d->series);
+    free(d->points);
+    free(d->labels);
+    return status;
 }
 
-/* The axes of a panel: tight about its values, with room for the legend below them. */
-static void print_axes(const cli_measure_arguments *arguments, const cli_measure_rows *rows, size_t metric,
-                       FILE *script) {
-    axis x = {INFINITY, 0.0}, y = x;
-    for (size_t r = 0; r < rows->count; ++r) {
-        const double value = figure_of(arguments, &rows->items[r], metric, 0);
-        if (!drawable(value))
-            continue;
-        widen(&x, (double)rows->items[r].count);
-        widen(&y, value);
-        if (arguments->seed_count > 0)
-            widen(&y, value + figure_of(arguments, &rows->items[r], metric, 1));
-    }
-    print_axis(script, 'x', x, 0.0);
-    print_axis(script, 'y', y, fmin(0.03 + 0.07 * (double)arguments->source_count, 0.6));
-}
-
-static void print_title(cli_plot *plot, const char *source, const power_law *law) {
-    fputs("title '", plot->script);
-    cli_plot_text(plot, source);
-    if (law->count > 0)
-        fprintf(plot->script, "  slope %.3f", law->slope);
-    fputs("' noenhanced", plot->script);
-}
-
-static void draw_panel(const cli_measure_arguments *arguments, const cli_measure_rows *rows, size_t metric,
-                       cli_plot *plot) {
-    FILE *const script = plot->script;
+/* A source's values and its line in two series; returns what follows its points. */
+static report_point *plot_source(const cli_measure_arguments *arguments, const cli_measure_rows *rows,
+                                 size_t metric, size_t source, report_series *series, char *label,
+                                 report_point *points) {
+    const char *const name = arguments->sources[source];
+    const power_law law = fit(arguments, rows, name, metric);
     const bool spread = arguments->seed_count > 0;
-    const char *separator = "plot ";
-    print_axes(arguments, rows, metric, script);
-    fputs("set ylabel '", script);
-    cli_plot_text(plot, cli_metric(arguments, metric));
-    fputs("' noenhanced\n", script);
-    for (size_t s = 0; s < arguments->source_count; ++s) {
-        const power_law law = fit(arguments, rows, arguments->sources[s], metric);
-        fprintf(script, "%s'-' with %s lt %zu ", separator, spread ? "yerrorbars" : "points", s + 1);
-        print_title(plot, arguments->sources[s], &law);
-        if (law.count > 0)
-            fprintf(script, ", %.17g*x**%.17g with lines lt %zu dt 2 notitle", law.factor, law.slope, s + 1);
-        separator = ", ";
+    const unsigned ink = REPORT_INK_SERIES + (unsigned)source;
+    double least = INFINITY, most = 0.0;
+    series[0] = (report_series){
+        .label = label, .parts = REPORT_MARKS | (spread ? REPORT_BARS : 0), .ink = ink, .points = points};
+    for (size_t r = 0; r < rows->count; ++r) {
+        const cli_measure_row *const row = &rows->items[r];
+        const double value = figure_of(arguments, row, metric, 0);
+        if (row->source != name || !drawable(value))
+            continue;
+        const double deviation = spread ? figure_of(arguments, row, metric, 1) : NAN, n = (double)row->count;
+        points[series[0].count++] =
+            (report_point){.x = n, .y = value, .low = value - deviation, .high = value + deviation};
+        least = fmin(least, n);
+        most = fmax(most, n);
     }
-    fputc('\n', script);
-    for (size_t s = 0; s < arguments->source_count; ++s) {
-        for (size_t r = 0; r < rows->count; ++r) {
-            const cli_measure_row *const row = &rows->items[r];
-            const double value = figure_of(arguments, row, metric, 0);
-            if (row->source != arguments->sources[s] || !drawable(value))
-                continue;
-            fprintf(script, "%zu %.17g", row->count, value);
-            if (spread) { /* a bar that reaches zero has no place on this axis */
-                const double deviation = figure_of(arguments, row, metric, 1);
-                fprintf(script, " %.17g %.17g", fmax(value - deviation, 1e-3 * value), value + deviation);
-            }
-            fputc('\n', script);
-        }
-        fputs("e\n", script);
+    points += series[0].count;
+    series[1] = (report_series){.parts = REPORT_LINE | REPORT_DASHED, .ink = ink, .points = points};
+    if (law.count == 0) {
+        snprintf(label, LABEL, "%s", name);
+        return points;
     }
+    aur_format(label, LABEL, "%s  slope %.3f", name, law.slope);
+    points[0] = (report_point){.x = least, .y = law.factor * pow(least, law.slope)};
+    points[1] = (report_point){.x = most, .y = law.factor * pow(most, law.slope)};
+    series[1].count = 2;
+    return points + 2;
 }
 
 static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
@@ -160,29 +135,86 @@ static bool has_values(const cli_measure_arguments *arguments, const cli_measure
 }
 
 int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
-    for (size_t m = 0; m < arguments->metrics.count; ++m)
+    const size_t metrics = arguments->metrics.count, sources = arguments->source_count;
+    for (size_t m = 0; m < metrics; ++m)
         if (!has_values(arguments, rows, m))
             return CLI_BAD_INPUT;
-    cli_plot plot;
-    const int height = 120 + 320 * (int)arguments->metrics.count;
-    if (!cli_plot_open(arguments->plot, 640, height, &plot))
-        return CLI_BAD_INPUT;
-    /* Colours that differ in print and for the colour-blind (Okabe and Ito 2008), each with a mark of its
-     * own. */
-    fputs(
-        "set logscale xy\nset grid\nset xlabel 'N'\nset key inside left bottom Left reverse\nset format "
-        "'%g'\n"
-        "set pointsize 0.7\nset linetype 1 lc rgb '#0072b2' pt 7\nset linetype 2 lc rgb '#d55e00' pt 5\n"
-        "set linetype 3 lc rgb '#009e73' pt 9\nset linetype 4 lc rgb '#cc79a7' pt 11\n"
-        "set linetype 5 lc rgb '#000000' pt 13\nset linetype 6 lc rgb '#56b4e9' pt 6\n"
-        "set linetype 7 lc rgb '#e69f00' pt 4\nset linetype 8 lc rgb '#666666' pt 8\nset linetype cycle 8\n",
-        plot.script);
-    fprintf(plot.script, "set multiplot layout %zu,1\n", arguments->metrics.count);
-    for (size_t m = 0; m < arguments->metrics.count; ++m)
-        draw_panel(arguments, rows, m, &plot);
-    fputs("unset multiplot\n", plot.script);
-    const int status = cli_plot_close(&plot);
+    drawing d = {0};
+    const bool allocated =
+        allocate(&d, metrics, 2 * metrics * sources, metrics * (rows->count + 2 * sources));
+    report_point *points = d.points;
+    for (size_t m = 0; m < metrics && allocated; ++m) {
+        report_series *const series = d.series + 2 * m * sources;
+        d.panels[m] = (report_panel){.x = {.label = "N", .log = true},
+                                     .y = {.label = cli_metric(arguments, m), .log = true},
+                                     .series_count = 2 * sources,
+                                     .series = series};
+        for (size_t s = 0; s < sources; ++s)
+            points = plot_source(arguments, rows, m, s, series + 2 * s, d.labels[m * sources + s], points);
+    }
+    const report_figure figure = {.width = 640.0,
+                                  .height = 400.0,
+                                  .columns = 1,
+                                  .panel_count = metrics,
+                                  .panels = d.panels,
+                                  .legend = REPORT_LEGEND_EACH};
+    const int status = finish(&d, allocated, arguments->plot, &figure);
     if (status == CLI_SUCCESS && !arguments->common.quiet)
         print_slopes(arguments, rows);
     return status;
+}
+
+/* One table: lines or points of the second column over the first, or a picture of the third. */
+static void plot_table(const cli_measure_row *row, size_t index, report_series *series, char *label,
+                       report_point *points) {
+    const aur_series *const table = row->series;
+    const size_t columns = aur_series_column_count(table), count = aur_series_row_count(table);
+    const double *const values = aur_series_values(table);
+    const char *const first = aur_series_column(table, 0);
+    const bool picture = strcmp(first, "kx") == 0;
+    snprintf(label, LABEL, "%s, N = %zu", row->source, row->count);
+    for (size_t r = 0; r < count; ++r)
+        points[r] = (report_point){.x = values[r * columns],
+                                   .y = values[r * columns + 1],
+                                   .value = values[r * columns + columns - 1]};
+    *series = (report_series){.label = picture ? NULL : label,
+                              .parts = picture                       ? REPORT_CELLS
+                                       : strcmp(first, "point") == 0 ? REPORT_MARKS
+                                                                     : REPORT_LINE,
+                              .ink = picture ? REPORT_INK_SCALE : REPORT_INK_SERIES + (unsigned)index,
+                              .cell = {1.0, 1.0}, /* frequencies are whole numbers */
+                              .count = count,
+                              .points = points};
+}
+
+int cli_measure_plot_series(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
+    const aur_series *const first = rows->items[0].series;
+    const bool picture = strcmp(aur_series_column(first, 0), "kx") == 0;
+    const size_t panels = picture ? rows->count : 1;
+    size_t point_count = 0;
+    for (size_t i = 0; i < rows->count; ++i)
+        point_count += aur_series_row_count(rows->items[i].series);
+    drawing d = {0};
+    const bool allocated = allocate(&d, panels, rows->count, point_count + 1);
+    report_point *points = d.points;
+    for (size_t i = 0; i < rows->count && allocated; ++i) {
+        plot_table(&rows->items[i], i, &d.series[i], d.labels[i], points);
+        points += d.series[i].count;
+    }
+    for (size_t p = 0; p < panels && allocated; ++p)
+        d.panels[p] = (report_panel){.title = picture ? d.labels[p] : NULL,
+                                     .x = {.label = aur_series_column(first, 0)},
+                                     .y = {.label = aur_series_column(first, 1)},
+                                     .equal = picture,
+                                     .series_count = picture ? 1 : rows->count,
+                                     .series = d.series + p};
+    report_figure figure = {.width = picture ? 480.0 : 800.0,
+                            .height = 480.0,
+                            .columns = panels,
+                            .panel_count = panels,
+                            .panels = d.panels,
+                            .legend = REPORT_LEGEND_EACH};
+    if (picture)
+        figure.scale = (report_scale){"power", 0.0, 4.0, 2, {0x000000, 0xffffff}};
+    return finish(&d, allocated, arguments->plot, &figure);
 }

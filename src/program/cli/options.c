@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "program/report/figure.h"
+
 static aur_result choose_json(const char *text, void *field, aur_error *error) {
     (void)text, (void)error;
     *(report_format *)field = REPORT_JSON;
@@ -142,6 +144,13 @@ static bool read_name(const cli_option *option, const char *text, void *field) {
     aur_list_names(count, names, sizeof expected - strlen(expected), expected + strlen(expected));
     const char *const nearest = aur_nearest_name(text, count, names);
     return refuse(option, expected, text, nearest);
+}
+
+aur_result cli_parse_plot(const char *text, void *field, aur_error *error) {
+    if (report_figure_format_of(text) == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--plot: '%s' must end in .svg, .pdf, .png or .tex", text);
+    *(const char **)field = text;
+    return AUR_OK;
 }
 
 /* Reads one value, or one item of a list. */

@@ -141,3 +141,6 @@ typedef struct cli_definitions {
     aur_model_light model_light;
 } cli_definitions;
 extern const cli_option cli_definitions_option[], cli_model_light_option[]; /* of a cli_definitions */
+
+/* Reads the name of a file for a figure: --plot. Errors: ARGUMENT when its ending is no format of one. */
+aur_result cli_parse_plot(const char *text, void *field, aur_error *error);

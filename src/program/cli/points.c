@@ -9,8 +9,9 @@
 
 #include "program/cli/draw.h"
 #include "program/cli/point_source.h"
+#include "program/report/figure.h"
 
-enum { FORMAT_SVG = AUR_POINTS_PLY + 1, FORMAT_PNG }; /* pictures come after the library's formats */
+enum { FIRST_PICTURE = AUR_POINTS_PLY + 1 }; /* those of figures come after the library's formats */
 
 typedef struct points_command {
     const char *path;
@@ -25,10 +26,8 @@ typedef struct points_command {
 } points_command;
 
 static const char *format_name(unsigned format) {
-    static const char *const pictures[] = {"svg", "png"};
-    if (format < FORMAT_SVG)
-        return aur_points_format_name((aur_points_format)format);
-    return format <= FORMAT_PNG ? pictures[format - FORMAT_SVG] : NULL;
+    return format < FIRST_PICTURE ? aur_points_format_name((aur_points_format)format)
+                                  : report_figure_format(format - FIRST_PICTURE);
 }
 
 static aur_result choose_json(const char *text, void *field, aur_error *error) {
@@ -54,7 +53,7 @@ static const cli_option options[] = {
      .key.computed = true, .name = aur_symmetry_name},
     {CLI_FLAG(points_command, matrices, "matrices", "write rotations as matrices, row by row")},
     {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
-                "how points are written; svg and png are pictures"),
+                "how points are written; svg, pdf, png and tex are pictures"),
      .key.computed = true, .name = format_name},
     {CLI_FLAG(points_command, format, "json", "the same as --format json"), .parse = choose_json},
     {CLI_FLAG(points_command, write.no_header, "no-header", "CSV without the line of names")},
@@ -76,9 +75,9 @@ static bool choose_format(points_command *wanted, bool told) {
             wanted->format = i;
             return true;
         }
-    cli_bad_usage(
-        "-o: '%s' must end in .csv, .json, .npy, .ply, .svg or .png, or --format say how it is written",
-        wanted->path);
+    cli_bad_usage("-o: '%s' must end in .csv, .json, .npy, .ply, .svg, .pdf, .png or .tex, or --format say "
+                  "how it is written",
+                  wanted->path);
     return false;
 }
 
@@ -194,11 +193,10 @@ static int write_points(const char *set, points_command *wanted, const aur_point
                                       .seed = wanted->from.options.seed};
     wanted->write.size = sizeof wanted->write;
     wanted->write.origin = &origin;
-    const aur_result result =
-        wanted->format >= FORMAT_SVG
-            ? cli_draw_points(wanted->path, wanted->format == FORMAT_PNG, points, &error)
-            : aur_points_write_as(wanted->path, (aur_points_format)wanted->format, points, &wanted->write,
-                                  &error);
+    const aur_result result = wanted->format >= FIRST_PICTURE
+                                  ? cli_draw_points(wanted->path, format_name(wanted->format), points, &error)
+                                  : aur_points_write_as(wanted->path, (aur_points_format)wanted->format,
+                                                        points, &wanted->write, &error);
     return cli_status(result, &error);
 }
 

@@ -60,8 +60,8 @@ static const cli_option options[] = {
               "write x,y,z,w there as CSV"),
      .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(cli_weights_arguments, plot, "plot", "FILE", NULL,
-              "draw the samples coloured by weight, .svg, .pdf or .png (needs gnuplot)"),
-     .content = "file", .writes = true},
+              "draw the samples coloured by weight: .svg, .pdf, .png, or .tex for pgfplots"),
+     .parse = cli_parse_plot, .content = "file", .writes = true},
     {CLI_TEXT(cli_weights_arguments, table, "table", "FILE", NULL,
               "build a table of optimal weights for two lobes (oswa) or for one ggx lobe, or read one with "
               "--lookup"),

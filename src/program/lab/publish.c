@@ -9,10 +9,9 @@
 enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160 };
 
 typedef struct publication {
-    const char *results;
+    const char *results, *folder;
     FILE *page;
     bool small;
-    const lab_printer *printer;
 } publication;
 
 static void path_of(const publication *p, const lab_experiment *of, const char *what, char *path,
@@ -152,16 +151,22 @@ static aur_result put_pictures(const publication *p, const lab_experiment *of, a
     return result;
 }
 
-/* The plot in both formats of print and of pages that show it, with a link to each. */
-static void print_plot(const publication *p, const char *experiment, const report_table *table,
-                       const report_plot *plot) {
-    static const char *const extensions[] = {"pdf", "svg"};
-    for (size_t i = 0; i < 2 && p->printer != NULL; ++i) {
-        char name[128];
+/* The plot in the formats of print, of pages and of papers, with a link to each. */
+static aur_result print_plot(const publication *p, const char *experiment, const report_table *table,
+                             const report_plot *plot, aur_error *error) {
+    static const char *const extensions[] = {"pdf", "svg", "tex"};
+    aur_result result = AUR_OK;
+    bool drawn = false;
+    for (size_t i = 0; i < 3 && !p->small && result == AUR_OK; ++i) {
+        char name[128], path[AUR_ERROR_FILE_CAPACITY];
         snprintf(name, sizeof name, "%s-%s.%s", experiment, plot->name, extensions[i]);
-        if (p->printer->print(p->printer->user, name, table, plot))
-            fprintf(p->page, "<p>For print: <a href=\"%s\">%s</a></p>\n", name, name);
+        snprintf(path, sizeof path, "%s/%s", p->folder, name);
+        result = report_plot_save(path, table, plot, &drawn, error);
+        if (drawn)
+            fprintf(p->page, "%s<a href=\"%s\">%s</a>", i == 0 ? "<p>For print: " : ", ", name, name);
     }
+    fputs(drawn ? "</p>\n" : "", p->page);
+    return result;
 }
 
 static aur_result put_plots(const publication *p, const lab_experiment *of, const report_table *table,
@@ -177,8 +182,9 @@ static aur_result put_plots(const publication *p, const lab_experiment *of, cons
         if (result != AUR_OK)
             break;
         const report_table *const drawn = further != NULL ? further : table;
-        report_page_plot(p->page, drawn, plot);
-        print_plot(p, of->name, drawn, plot);
+        result = report_plot_put(p->page, drawn, plot, error);
+        if (result == AUR_OK)
+            result = print_plot(p, of->name, drawn, plot, error);
         report_destroy(further);
     }
     return result;
@@ -229,11 +235,12 @@ static aur_result put_all(const publication *p, aur_error *error) {
     return result != AUR_OK ? result : report_page_end(p->page, error);
 }
 
-aur_result lab_publish(const char *results, const char *path, bool small, const lab_printer *printer,
-                       aur_error *error) {
+aur_result lab_publish(const char *results, const char *folder, bool small,
+                       char path[AUR_ERROR_FILE_CAPACITY], aur_error *error) {
     char *text = NULL;
     size_t size = 0, found = 0;
-    publication p = {.results = results, .small = small, .printer = printer};
+    publication p = {.results = results, .folder = folder, .small = small};
+    snprintf(path, AUR_ERROR_FILE_CAPACITY, "%s/index.html", folder);
     for (size_t i = 0; i < lab_experiment_count(); ++i)
         found += has_results(&p, lab_experiment_at(i));
     if (found == 0)

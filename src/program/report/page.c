@@ -4,18 +4,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "program/report/canvas.h"
+
 void report_escape(FILE *page, const char *text) {
-    for (; *text != '\0'; ++text)
-        if (*text == '&')
+    for (const char *from = text; *text != '\0'; from = text) {
+        const uint32_t letter = report_next_letter(&text);
+        const bool control = letter < ' ' && letter != '\n' && letter != '\t';
+        if (letter == '&')
             fputs("&amp;", page);
-        else if (*text == '<')
+        else if (letter == '<')
             fputs("&lt;", page);
-        else if (*text == '>')
+        else if (letter == '>')
             fputs("&gt;", page);
-        else if (*text == '"')
+        else if (letter == '"')
             fputs("&quot;", page);
+        else if (letter == 0xfffd || control || letter == 0x7f)
+            fputc('?', page);
         else
-            fputc(*text, page);
+            fwrite(from, 1, (size_t)(text - from), page);
+    }
 }
 
 static bool ends_with(const char *text, const char *end) {
@@ -42,18 +49,17 @@ void report_page_begin(FILE *page, const char *title) {
     fputs("</h1> <button type=\"button\" class=\"theme\">Dark / light</button></header>\n", page);
 }
 
-/* The colours of aur_image_false_color as an sRGB screen has them: 256, six digits each. */
-static aur_result put_palette(FILE *page, aur_error *error) {
+aur_result report_false_color(size_t count, uint32_t *colors, aur_error *error) {
     aur_image *ramp = NULL, *colored = NULL;
-    aur_result result = aur_image_create(256, 1, 1, &ramp, error);
-    for (size_t i = 0; i < 256 && result == AUR_OK; ++i)
+    aur_result result = aur_image_create(count, 1, 1, &ramp, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
         aur_image_data(ramp)[i] = (float)i;
     if (result == AUR_OK)
-        result = aur_image_false_color(ramp, 255.0, &colored, error);
-    for (size_t i = 0; i < 3 * 256 && result == AUR_OK; ++i) {
+        result = aur_image_false_color(ramp, (double)(count - 1), &colored, error);
+    for (size_t i = 0; i < 3 * count && result == AUR_OK; ++i) {
         const double v = (double)aur_image_data(colored)[i];
         const double shown = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1.0 / 2.4) - 0.055;
-        fprintf(page, "%02lx", lround(255.0 * fmin(fmax(shown, 0.0), 1.0)));
+        colors[i / 3] = colors[i / 3] << 8 | (uint32_t)lround(255.0 * fmin(fmax(shown, 0.0), 1.0));
     }
     aur_image_destroy(ramp);
     aur_image_destroy(colored);
@@ -61,8 +67,11 @@ static aur_result put_palette(FILE *page, aur_error *error) {
 }
 
 aur_result report_page_end(FILE *page, aur_error *error) {
+    uint32_t colors[256] = {0};
+    const aur_result result = report_false_color(256, colors, error);
     fputs("<script id=\"palette\" type=\"text/plain\">", page);
-    const aur_result result = put_palette(page, error);
+    for (size_t i = 0; i < 256; ++i)
+        fprintf(page, "%06x", (unsigned)colors[i] & 0xffffff);
     fputs("</script>\n<script>\n", page);
     put_assets(page, ".js");
     fputs("</script>\n</body>\n</html>\n", page);

@@ -3,7 +3,7 @@
 
 #include <aureole/image.h>
 
-#include "program/report/plot.h"
+#include "program/report/report.h"
 
 /* A file of src/program/report/page/, as it was when the program was built. */
 typedef struct report_asset {
@@ -19,13 +19,10 @@ void report_page_begin(FILE *page, const char *title);
 /* Errors: MEMORY. */
 aur_result report_page_end(FILE *page, aur_error *error);
 
-/* Text that is no markup. */
+/* Text that is no markup; what is no UTF-8, or no letter of XML, becomes question marks. */
 void report_escape(FILE *page, const char *text);
 /* A table whose columns sort, and below it the CSV file `name` to be saved. Errors: MEMORY. */
 aur_result report_page_table(FILE *page, const report_table *table, const char *name, aur_error *error);
-/* A plot with a panel for each value of its panel columns. Nothing when a column is missing or no row has
- * numbers. */
-void report_page_plot(FILE *page, const report_table *table, const report_plot *plot);
 
 /* A picture of a viewer. */
 typedef struct report_picture {

@@ -1,171 +1,194 @@
-/* Plots as SVG, a drawing for each panel. */
+/* Figures of tables: which rows belong to which panel and line. */
+#include "program/report/plot.h"
+
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "program/report/figure.h"
 #include "program/report/page.h"
-#include "program/report/plot_layout.h"
 
-enum { WIDTH = 360, HEIGHT = 260, LEFT = 54, RIGHT = 10, TOP = 22, BOTTOM = 36, STYLES = 8 };
+enum { LABEL = 160, GROUPS = 64 };
 
-typedef struct axis {
-    double low, high; /* logarithms where `log` */
-    bool log;
-    int from, to; /* the drawing's ends */
-} axis;
+/* The names of panels or of series, in the order of the rows. */
+typedef struct groups {
+    size_t count;
+    char names[GROUPS][LABEL];
+} groups;
 
-static double place(const axis *a, double value) {
-    const double at = a->log ? log10(value) : value;
-    return a->from + (at - a->low) / (a->high - a->low) * (a->to - a->from);
-}
+typedef struct layout {
+    const report_table *table;
+    const report_plot *plot;
+    size_t x, y, low, high; /* columns */
+    groups panels, series;
+    report_panel panel[GROUPS];
+    report_series *drawn; /* of panel p the series from p * series.count */
+    report_point *points;
+    report_figure figure;
+} layout;
 
-/* As tight as the data of the panel, with a twentieth around. */
-static axis make_axis(const report_layout *l, size_t panel, const size_t *columns, size_t column_count,
-                      bool log, int from, int to) {
-    axis a = {INFINITY, -INFINITY, log, from, to};
-    for (size_t row = 0; row < report_rows(l->table); ++row)
-        for (size_t c = 0; c < column_count && report_layout_has(l, row, panel, REPORT_GROUPS); ++c) {
-            const double value = report_value(l->table, row, columns[c]);
-            if (!isfinite(value) || (log && value <= 0.0))
-                continue;
-            a.low = fmin(a.low, log ? log10(value) : value);
-            a.high = fmax(a.high, log ? log10(value) : value);
-        }
-    const double room = a.high > a.low ? 0.05 * (a.high - a.low) : log ? 0.1 : 0.05 * fabs(a.high) + 1e-9;
-    a.low -= room;
-    a.high += room;
-    return a;
-}
-
-/* Widens one of two axes until a step is as long on both. */
-static void make_equal(axis *x, axis *y) {
-    const double of_x = (x->high - x->low) / abs(x->to - x->from);
-    const double of_y = (y->high - y->low) / abs(y->to - y->from);
-    axis *const wider = of_x < of_y ? x : y;
-    const double more = 0.5 * (fmax(of_x, of_y) / fmin(of_x, of_y) - 1.0) * (wider->high - wider->low);
-    wider->low -= more;
-    wider->high += more;
-}
-
-static void put_tick(FILE *page, const axis *a, double value) {
-    const double at = place(a, value);
-    const bool level = a->from > a->to; /* y goes up */
-    if (level)
-        aur_print(page,
-                  "<line class=\"grid\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/><text x=\"%d\" "
-                  "y=\"%.1f\" text-anchor=\"end\">%g</text>\n",
-                  LEFT, WIDTH - RIGHT, at, at, LEFT - 4, at + 4.0, value);
-    else
-        aur_print(page,
-                  "<line class=\"grid\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/><text x=\"%.1f\" "
-                  "y=\"%d\" text-anchor=\"middle\">%g</text>\n",
-                  at, at, TOP, HEIGHT - BOTTOM, at, HEIGHT - BOTTOM + 13, value);
-}
-
-/* Ticks at 1, 2 and 5 times powers of ten, where that is not too many of them. */
-static void put_decades(FILE *page, const axis *a) {
-    static const double steps[] = {1.0, 2.0, 5.0};
-    const size_t each = a->high - a->low < 2.2 ? 3 : 1;
-    const double skip = fmax(1.0, ceil((a->high - a->low) / 6.0));
-    for (double decade = floor(a->low); decade <= a->high; decade += skip)
-        for (size_t i = 0; i < each; ++i) {
-            const double value = steps[i] * pow(10.0, decade);
-            if (log10(value) >= a->low && log10(value) <= a->high)
-                put_tick(page, a, value);
-        }
-}
-
-/* Ticks at round numbers. */
-static void put_ticks(FILE *page, const axis *a) {
-    if (a->log && a->high - a->low > 0.8) {
-        put_decades(page, a);
-        return;
-    }
-    const double low = a->log ? pow(10.0, a->low) : a->low, high = a->log ? pow(10.0, a->high) : a->high;
-    const double rough = (high - low) / 5.0, power = pow(10.0, floor(log10(rough))), part = rough / power;
-    const double step = power * (part > 5.0 ? 10.0 : part > 2.0 ? 5.0 : part > 1.0 ? 2.0 : 1.0);
-    for (double k = ceil(low / step); k * step <= high; ++k)
-        put_tick(page, a, k == 0.0 ? 0.0 : k * step);
-}
-
-static void put_series(FILE *page, const report_layout *l, size_t panel, size_t series, const axis *x,
-                       const axis *y, report_plotted *points) {
-    const size_t count = report_layout_points(l, panel, series, points);
-    fprintf(page, "<g class=\"s%zu\">", series % STYLES);
-    if (!l->plot->points && count > 1) {
-        fprintf(page, "<polyline%s points=\"", series >= STYLES ? " stroke-dasharray=\"5 3\"" : "");
-        for (size_t i = 0; i < count; ++i)
-            aur_print(page, "%.1f,%.1f ", place(x, points[i].x), place(y, points[i].y));
-        fputs("\"/>\n", page);
-    }
-    for (size_t i = 0; i < count; ++i) {
-        const report_plotted *const p = &points[i];
-        const double at = place(x, p->x);
-        if (isfinite(p->low) && isfinite(p->high) && !(y->log && p->low <= 0.0))
-            aur_print(page, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", at, at,
-                      place(y, p->low), place(y, p->high));
-        aur_print(page, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.4\"", at, place(y, p->y));
-        if (l->plot->points) { /* hundreds of them: their numbers are in the table */
-            fputs("/>", page);
+/* The words of a row in the columns of a list, blanks between. */
+static void label(const report_table *table, size_t row, const char *columns, char text[LABEL]) {
+    text[0] = '\0';
+    while (columns != NULL && *columns != '\0') {
+        char name[64];
+        const size_t length = strcspn(columns, ",");
+        snprintf(name, sizeof name, "%.*s", (int)length, columns);
+        columns += length + (columns[length] == ',');
+        const size_t column = report_find(table, name), used = strlen(text);
+        if (column == SIZE_MAX)
             continue;
-        }
-        fputs("><title>", page);
-        report_escape(page, l->series[series]);
-        aur_print(page, "%s%.5g, %.5g</title></circle>\n", l->series[series][0] != '\0' ? ": " : "", p->x,
-                  p->y);
+        const double value = report_value(table, row, column);
+        if (isnan(value))
+            snprintf(text + used, LABEL - used, "%s%s", used > 0 ? " " : "", report_cell(table, row, column));
+        else
+            aur_format(text + used, LABEL - used, "%s%s %g", used > 0 ? " " : "", name, value);
     }
-    fputs("</g>\n", page);
 }
 
-static void put_panel(FILE *page, const report_layout *l, size_t panel, report_plotted *points) {
-    const size_t ys[] = {l->y, l->low, l->high};
-    axis x = make_axis(l, panel, &l->x, 1, l->plot->log_x, LEFT, WIDTH - RIGHT);
-    axis y = make_axis(l, panel, ys, 3, l->plot->log_y, HEIGHT - BOTTOM, TOP);
-    if (l->plot->points)
-        make_equal(&x, &y);
-    fprintf(page, "<svg viewBox=\"0 0 %d %d\" role=\"img\"><title>", WIDTH, HEIGHT);
-    report_escape(page, l->plot->title);
-    fprintf(page, "</title>\n<text x=\"%d\" y=\"14\">", LEFT);
-    report_escape(page, l->panels[panel]);
-    fputs("</text>\n", page);
-    put_ticks(page, &x);
-    put_ticks(page, &y);
-    fprintf(page, "<rect class=\"frame\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/>\n", LEFT, TOP,
-            WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM);
-    for (size_t s = 0; s < l->series_count; ++s)
-        put_series(page, l, panel, s, &x, &y, points);
-    fprintf(page, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">", (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 6);
-    report_escape(page, l->plot->x);
-    fprintf(page, "</text><text x=\"12\" y=\"%d\" text-anchor=\"middle\" transform=\"rotate(-90 12 %d)\">",
-            HEIGHT / 2, HEIGHT / 2);
-    report_escape(page, l->plot->y);
-    fputs("</text></svg>\n", page);
+/* The index of the group of a row, which is made when it is new; GROUPS when there are too many. */
+static size_t join(groups *g, const layout *l, size_t row, const char *columns) {
+    char name[LABEL];
+    label(l->table, row, columns, name);
+    size_t i = 0;
+    while (i < g->count && strcmp(g->names[i], name) != 0)
+        ++i;
+    if (i == g->count && i < GROUPS)
+        memcpy(g->names[g->count++], name, LABEL);
+    return i;
 }
 
-static void put_plot(FILE *page, const report_layout *l, report_plotted *points) {
-    fputs("<figure class=\"plot\"><figcaption>", page);
-    report_escape(page, l->plot->title);
-    fputs("</figcaption>\n<ul class=\"legend\">", page);
-    for (size_t s = 0; s < l->series_count && l->series[s][0] != '\0'; ++s) {
-        fprintf(page,
-                "<li><svg viewBox=\"0 0 26 12\" aria-hidden=\"true\"><line class=\"s%zu\" x1=\"0\" x2=\"26\" "
-                "y1=\"6\" "
-                "y2=\"6\" stroke-width=\"2\"%s/><circle class=\"s%zu\" cx=\"13\" cy=\"6\" r=\"3\"/></svg> ",
-                s % STYLES, s >= STYLES ? " stroke-dasharray=\"5 3\"" : "", s % STYLES);
-        report_escape(page, l->series[s]);
+static report_point point_of(const layout *l, size_t row) {
+    return (report_point){.x = report_value(l->table, row, l->x),
+                          .y = report_value(l->table, row, l->y),
+                          .low = report_value(l->table, row, l->low),
+                          .high = report_value(l->table, row, l->high)};
+}
+
+static bool is_drawn(const layout *l, const report_point *p) {
+    return isfinite(p->x) && isfinite(p->y) && !(l->plot->log_x && p->x <= 0.0) &&
+           !(l->plot->log_y && p->y <= 0.0);
+}
+
+static int by_x(const void *a, const void *b) {
+    const report_point *const p = a, *const q = b;
+    return (p->x > q->x) - (p->x < q->x);
+}
+
+/* The points of a panel and series, lines from left to right. */
+static size_t collect(layout *l, size_t panel, size_t series, report_point *points) {
+    size_t count = 0;
+    for (size_t row = 0; row < report_rows(l->table); ++row) {
+        const report_point p = point_of(l, row);
+        if (is_drawn(l, &p) && join(&l->panels, l, row, l->plot->panel) == panel &&
+            join(&l->series, l, row, l->plot->series) == series)
+            points[count++] = p;
+    }
+    if (count > 0 && !l->plot->points)
+        qsort(points, count, sizeof *points, by_x);
+    return count;
+}
+
+static void fill(layout *l) {
+    const report_plot *const plot = l->plot;
+    report_point *points = l->points;
+    const unsigned parts =
+        REPORT_MARKS | (plot->points ? 0 : REPORT_LINE) | (plot->low != NULL ? REPORT_BARS : 0);
+    for (size_t p = 0; p < l->panels.count; ++p) {
+        l->panel[p] = (report_panel){.title = l->panels.names[p],
+                                     .x = {.label = plot->x, .log = plot->log_x},
+                                     .y = {.label = plot->y, .log = plot->log_y},
+                                     .equal = plot->points,
+                                     .series_count = l->series.count,
+                                     .series = l->drawn + p * l->series.count};
+        for (size_t s = 0; s < l->series.count; ++s) {
+            const size_t count = collect(l, p, s, points);
+            l->drawn[p * l->series.count + s] = (report_series){.label = l->series.names[s],
+                                                                .parts = parts,
+                                                                .ink = REPORT_INK_SERIES + (unsigned)s,
+                                                                .count = count,
+                                                                .points = points};
+            points += count;
+        }
+    }
+    l->figure =
+        (report_figure){.panel_count = l->panels.count, .panels = l->panel, .legend = REPORT_LEGEND_SHARED};
+}
+
+static void destroy(layout *l) {
+    if (l != NULL) {
+        free(l->drawn);
+        free(l->points);
+    }
+    free(l);
+}
+
+/* The layout of a plot; one of no panels when a column is missing or no row has numbers. NULL without memory.
+ */
+static layout *create(const report_table *table, const report_plot *plot) {
+    layout *const l = calloc(1, sizeof *l);
+    if (l == NULL)
+        return NULL;
+    l->table = table;
+    l->plot = plot;
+    l->x = report_find(table, plot->x);
+    l->y = report_find(table, plot->y);
+    l->low = report_find(table, plot->low);
+    l->high = report_find(table, plot->high);
+    for (size_t row = 0; row < report_rows(table) && l->x != SIZE_MAX && l->y != SIZE_MAX; ++row) {
+        const report_point p = point_of(l, row);
+        if (is_drawn(l, &p)) {
+            join(&l->panels, l, row, plot->panel);
+            join(&l->series, l, row, plot->series);
+        }
+    }
+    l->drawn = calloc(l->panels.count * l->series.count + 1, sizeof *l->drawn);
+    l->points = calloc(report_rows(table) + 1, sizeof *l->points);
+    if (l->drawn != NULL && l->points != NULL) {
+        fill(l);
+        return l;
+    }
+    destroy(l);
+    return NULL;
+}
+
+aur_result report_plot_save(const char *path, const report_table *table, const report_plot *plot, bool *drawn,
+                            aur_error *error) {
+    layout *const l = create(table, plot);
+    if (l == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = AUR_OK;
+    const char *const format = report_figure_format_of(path);
+    l->figure.columns = l->panels.count < 2 ? 1 : 2;
+    l->figure.width = 500.0;
+    l->figure.height = 360.0;
+    *drawn = l->panels.count > 0;
+    if (*drawn)
+        result = report_figure_save(path, format != NULL ? format : path, &l->figure, error);
+    destroy(l);
+    return result;
+}
+
+aur_result report_plot_put(FILE *page, const report_table *table, const report_plot *plot, aur_error *error) {
+    layout *const l = create(table, plot);
+    if (l == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    l->figure.width = 360.0;
+    l->figure.height = 260.0;
+    fputs(l->panels.count > 0 ? "<figure class=\"plot\"><figcaption>" : "", page);
+    report_escape(page, l->panels.count > 0 ? plot->title : "");
+    fputs(l->panels.count > 0 ? "</figcaption>\n<ul class=\"legend\">" : "", page);
+    for (size_t s = 0; s < l->series.count && l->series.names[s][0] != '\0'; ++s) {
+        fputs("<li>", page);
+        report_figure_put_key(page, &l->drawn[s]);
+        report_escape(page, l->series.names[s]);
         fputs("</li>", page);
     }
-    fputs("</ul>\n<div class=\"panels\">\n", page);
-    for (size_t p = 0; p < l->panel_count; ++p)
-        put_panel(page, l, p, points);
-    fputs("</div></figure>\n", page);
-}
-
-void report_page_plot(FILE *page, const report_table *table, const report_plot *plot) {
-    report_layout *const l = malloc(sizeof *l);
-    report_plotted *const points = malloc((report_rows(table) + 1) * sizeof *points);
-    if (l != NULL && points != NULL && report_layout_begin(l, table, plot))
-        put_plot(page, l, points);
-    free(l);
-    free(points);
+    fputs(l->panels.count > 0 ? "</ul>\n<div class=\"panels\">\n" : "", page);
+    for (size_t p = 0; p < l->panels.count; ++p)
+        report_figure_put_panel(page, &l->figure, p, plot->title);
+    fputs(l->panels.count > 0 ? "</div></figure>\n" : "", page);
+    destroy(l);
+    return AUR_OK;
 }

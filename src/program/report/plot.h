@@ -16,6 +16,9 @@ typedef struct report_plot {
     bool points; /* no lines between the points, and one scale for x and y */
 } report_plot;
 
-/* Writes the plot as commands for gnuplot, without a terminal. Returns the number of its panels, 0 where
- * there is nothing to draw. */
-size_t report_plot_script(FILE *script, const report_table *table, const report_plot *plot);
+/* Writes the plot to `path`, in a format of report/figure.h that its name ends in; no file, and *drawn false,
+ * when a column is missing or no row has numbers. Errors: NAME, MEMORY, WRITE. */
+aur_result report_plot_save(const char *path, const report_table *table, const report_plot *plot, bool *drawn,
+                            aur_error *error);
+/* The same as a part of a page, a drawing for each panel: nothing without numbers. Errors: MEMORY. */
+aur_result report_plot_put(FILE *page, const report_table *table, const report_plot *plot, aur_error *error);

@@ -69,7 +69,6 @@ for how in --block-signal --ignore-signal=TERM; do
   [ $status = 3 ] && [ -e stopped.partial.exr ] || fail "SIGTERM with $how: $status $(cat said)"
   rm -f stopped.partial.exr
 done
-command -v gnuplot >/dev/null && { env --ignore-signal=CHLD "$aureole" measure sobol -n 4:64 -m l2-star -q --plot p.svg >/dev/null || fail "no plot where SIGCHLD is ignored"; }
 
 # What is no file is no input, and is not waited for; what the shell hands over is.
 mkfifo fifo

@@ -89,23 +89,16 @@ wait $job
 grep -q '64  sphere' kept.txt || fail "finished rows are lost on interrupt: $(cat kept.txt)"
 grep -q 'interrupted after 1 finished row' message.txt || fail "no word of the interrupt: $(cat message.txt)"
 
-if command -v gnuplot >/dev/null; then
-  rm -f slopes.svg spectrum.png
-  prints 'slope -0.7513' $measure spherical-fibonacci -n 64,128,256,512,1024,2048,4096,8192,16384 --metric energy --plot slopes.svg
-  grep -q 'slope -0.751' slopes.svg || fail "the plot does not show the slope"
-  prints power $measure jittered -n 64 --metric spectrum --plot spectrum.png
-  [ -s spectrum.png ] || fail "no plot of the spectrum"
-  # A path or a name is never a command of gnuplot's.
-  rm -f pwned
-  path=$(printf 'n\nsystem "touch pwned"\n.svg')
-  $measure sobol -n 16,32,64 --metric star --plot "$path" 2>/dev/null && grep -q '</svg>' "$path" ||
-    fail "no plot at a path of three lines"
-  file=$(printf "f'\nsystem 'touch pwned'\n.csv")
-  "$program" points sobol -n 16 -o "$file" && $measure "$file" --domain square --metric star --plot two.svg 2>/dev/null
-  [ -e pwned ] && fail "a name ran a command"
-  refuses 'must end in' $measure sobol -n 4 --metric energy --plot slopes.txt
-  refuses 'logarithmic' $measure sobol -n 4 --metric net --plot slopes.svg
-fi
+rm -f slopes.svg spectrum.png
+prints 'slope -0.7513' $measure spherical-fibonacci -n 64,128,256,512,1024,2048,4096,8192,16384 --metric energy --plot slopes.svg
+grep -q 'slope -0.751' slopes.svg || fail "the plot does not show the slope"
+prints power $measure jittered -n 64 --metric spectrum --plot spectrum.png
+[ -s spectrum.png ] || fail "no plot of the spectrum"
+path=$(printf 'n\nof three\nlines.svg')
+$measure sobol -n 16,32,64 --metric star --plot "$path" 2>/dev/null && grep -q '</svg>' "$path" ||
+  fail "no plot at a path of three lines"
+refuses 'must end in' $measure sobol -n 4 --metric energy --plot slopes.txt
+refuses 'logarithmic' $measure sobol -n 4 --metric net --plot slopes.svg
 # The page for newcomers knows every measure.
 [ "$($measure --list --format csv | wc -l)" -gt 20 ] || fail "--list is short"
 for name in $($measure --list --format csv | tail -n +2 | cut -d, -f1 | cut -d: -f1 | cut -d'[' -f1); do

@@ -38,7 +38,7 @@ refuses "-D: 'width' is not of the form name=value" info a.xml -D width
 refuses "unexpected argument 'halton'" points sobol halton -n 4
 refuses "unexpected argument 'x'" sets sobol x
 refuses "unknown set 'sobl'; did you mean 'sobol'?" sets sobl
-refuses "must end in .svg, .pdf or .png" measure sobol -n 64 -m star --plot x.eps
+refuses "must end in .svg, .pdf, .png or .tex" measure sobol -n 64 -m star --plot x.eps
 [ ! -s out ] || fail "measured before the plot's format was refused"
 "$aureole" sets halton | grep -q "permute" || fail "sets halton"
 

@@ -124,17 +124,15 @@ refuses 'File too large' 3 small "$aureole" manual -o pages
 mkdir tmp
 TMPDIR=$PWD/tmp refuses 'File too large' 3 small "$aureole" view a.exr b.exr
 [ -z "$(ls -A tmp)" ] || fail "view left $(ls -A tmp)"
-if command -v gnuplot >/dev/null; then
-  for ending in svg pdf png; do
-    echo old >p.$ending
-    refuses 'not whole\|did not draw' 3 small "$aureole" measure sobol -n 4:64 -m l2-star -q --plot p.$ending
-    [ "$(cat p.$ending)" = old ] || fail "a plot was cut: p.$ending"
-    "$aureole" measure sobol -n 4:64 -m l2-star -q --plot p.$ending >/dev/null && [ "$(wc -c <p.$ending)" -gt 1000 ] || fail "no plot p.$ending"
-  done
-  ln -sf ../outputs/new.svg link.svg
-  "$aureole" measure sobol -n 4:64 -m l2-star -q --plot link.svg >/dev/null
-  [ -L link.svg ] && grep -q '</svg>' new.svg || fail "a plot replaced a link"
-fi
+for ending in svg pdf png tex; do
+  echo old >p.$ending
+  refuses 'File too large' 3 small "$aureole" measure sobol halton random -n 4:4096 -m l2-star,min-distance -q --plot p.$ending
+  [ "$(cat p.$ending)" = old ] || fail "a plot was cut: p.$ending"
+  "$aureole" measure sobol -n 4:64 -m l2-star -q --plot p.$ending >/dev/null && [ "$(wc -c <p.$ending)" -gt 1000 ] || fail "no plot p.$ending"
+done
+ln -sf ../outputs/new.svg link.svg
+"$aureole" measure sobol -n 4:64 -m l2-star -q --plot link.svg >/dev/null
+[ -L link.svg ] && grep -q '</svg>' new.svg || fail "a plot replaced a link"
 # Where a link points to no file yet, that file is made whole or not at all.
 ln -s later.csv dangling.csv
 refuses 'File too large' 3 small "$aureole" points sobol -n 1000 -o dangling.csv

@@ -129,11 +129,9 @@ paste -d, rough.csv solved.csv | awk -F, 'NR > 1 { d = $4 - $8; if (d < -1e-5 ||
   awk -F, 'NR > 1 { s += $4; if ($3 < 0 && $4 != 0) exit 1 } END { exit !(s > 0.999999 && s < 1.000001) }' || fail "between roughnesses"
 [ "$("$program" info rough.table --format csv | tail -1 | tr , '\n' | grep -c "^3$")" = 1 ] || fail "info of roughnesses"
 
-if command -v gnuplot >/dev/null; then
-  "$program" weights random -n 50 --lobe cosine --plot "it's.svg" || fail "plot"
-  grep -q "</svg>" "it's.svg" || fail "no picture"
-  "$program" weights random -n 50 --lobe cosine --plot no/such/folder.svg 2>/dev/null && fail "a plot nowhere"
-fi
+"$program" weights random -n 50 --lobe cosine --plot "it's.svg" || fail "plot"
+grep -q "</svg>" "it's.svg" || fail "no picture"
+"$program" weights random -n 50 --lobe cosine --plot no/such/folder.svg 2>/dev/null && fail "a plot nowhere"
 
 # Where memory is short the weights are found or refused; they are not waited for.
 for limit in 150000 200000 250000; do

@@ -12,14 +12,15 @@ rm -rf results page drawn drawing small ./*.html
   fail "$(cat run.txt)"
 "$aureole" lab report results -o page >said.txt 2>&1 || fail "$(cat said.txt)"
 [ "$(cat said.txt)" = page/index.html ] || fail "what is said: $(cat said.txt)"
-for what in '<td class="within">within a factor of 1.5</td>' '<td class="agrees">agrees</td>' '<g class="s1"><polyline points=' \
+for what in '<td class="within">within a factor of 1.5</td>' '<td class="agrees">agrees</td>' '<g class="l1" ' \
   'data-name="marques-2018-gains.csv"' 'href="marques-2018-slopes-equal.pdf"'; do
   grep -q "$what" page/index.html || fail "no $what in the page"
 done
 head -c 5 page/marques-2018-slopes-equal.pdf | grep -q '^%PDF-' || fail "no PDF"
+grep -q 'begin{groupplot}' page/marques-2018-slopes-equal.tex || fail "no TikZ"
 grep -q '^<svg' page/marques-2018-slopes-equal.svg || fail "no SVG"
-# Two panels, each as large as a plot of one.
-grep -q 'width="1000" height="360"' page/marques-2018-slopes-equal.svg || fail "panels are squeezed"
+# Two panels, each as large as a plot of one, above one legend.
+grep -q 'width="1000" height="384"' page/marques-2018-slopes-equal.svg || fail "panels are squeezed"
 grep -qE '(src|href)="?(https?:)?//' page/index.html && fail "the page looks for something elsewhere"
 [ "$(wc -c <page/index.html)" -lt 1000000 ] || fail "the page is large"
 "$aureole" lab report results -o again >/dev/null && cmp page/index.html again/index.html || fail "two reports differ"

@@ -68,6 +68,9 @@ grep -q $'\x1b' said && fail "control characters of a file reach the terminal"
 
 importer crash <<<'os.kill(os.getpid(), 11)'
 told crash 2 'crashed on it (signal 11)'
+# A parent that ignores ended children does not hide how this one ended.
+env --ignore-signal=CHLD AUREOLE_IMPORT="$PWD/crash" "$aureole" info model.fbx >said 2>&1
+grep -q "crashed on it (signal 11)" said || fail "where SIGCHLD is ignored: $(cat said)"
 importer abort <<<'send(MESH, mesh); os.abort()'
 told abort 2 'crashed on it (signal 6)'
 importer killed <<<'os.kill(os.getpid(), 9)'
