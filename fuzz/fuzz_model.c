@@ -16,8 +16,7 @@ static aur_result find(void *state, const char *name, char **used, char **path, 
 }
 
 /* Everything is sent before the conversation begins: answers are not waited for. */
-static bool converse(const uint8_t *data, size_t size, aur_model_files *files, char **xml, size_t *xml_size,
-                     aur_error *error) {
+static bool converse(const uint8_t *data, size_t size, aur_model_files *files, aur_nodes *nodes) {
     int ends[2];
     fuzz_require(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0, "no socket");
     const bool sent = send(ends[1], data, size, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)size;
@@ -29,8 +28,10 @@ static bool converse(const uint8_t *data, size_t size, aur_model_files *files, c
                                      .alone = true,
                                      .location = {.file = "a.fbx"},
                                      .find = find};
+    const aur_error *const error = nodes->error;
+    aur_xml_node *const root = aur_node_add(nodes, NULL, "scene");
     const aur_result result =
-        sent ? aur_model_converse(&child, &source, files, xml, xml_size, error) : AUR_ERROR_FORMAT;
+        sent ? aur_model_converse(&child, &source, files, nodes, root) : AUR_ERROR_FORMAT;
     close(sent ? ends[1] : ends[0]);
     if (!sent)
         close(ends[1]);
@@ -41,19 +42,32 @@ static bool converse(const uint8_t *data, size_t size, aur_model_files *files, c
     return result == AUR_OK;
 }
 
+/* Texts without control characters, and ids that are those of their elements. */
+static void check_node(const aur_xml_node *node, size_t depth) {
+    fuzz_require(depth <= 102, "a tree that is too deep");
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        for (size_t i = 0; i < child->attribute_count; ++i)
+            for (const char *c = child->attributes[i].value; *c != '\0'; ++c)
+                fuzz_require((unsigned char)*c >= 32 && *c != 127, "a control character");
+        check_node(child, depth + 1);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static const char end[] = "</scene>\n";
     aur_error error = {0};
     aur_model_files files = {0};
-    char *xml = NULL;
-    size_t xml_size = 0;
-    if (converse(data, size, &files, &xml, &xml_size, &error))
-        fuzz_require(xml_size >= sizeof end - 1 && strcmp(xml + xml_size - (sizeof end - 1), end) == 0,
-                     "the scene has no end");
+    aur_xml_tree tree = {0};
+    aur_xml_variables variables = {.arena = &tree.arena};
+    aur_nodes nodes = {.tree = &tree, .variables = &variables, .error = &error};
+    if (converse(data, size, &files, &nodes))
+        check_node(tree.root, 0);
+    for (size_t i = 0; i < tree.id_count; ++i)
+        fuzz_require(aur_xml_attribute_value(tree.ids[i].node, "id") != NULL, "an id of no element");
     for (size_t i = 0; i < files.count; ++i)
         fuzz_require(files.items[i].name != NULL && files.items[i].data[files.items[i].size] == '\0',
                      "a part that is none");
-    free(xml);
+    free(variables.items);
+    aur_xml_tree_release(&tree);
     aur_model_release_files(&files);
     return 0;
 }
@@ -68,17 +82,17 @@ static uint8_t *put(uint8_t *at, aur_import_kind kind, uint32_t value, size_t si
 }
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
-    struct {
-        aur_import_scene scene;
-        char xml[64];
-    } last = {.scene = {.upper = {1.0, 2.0, 3.0}},
-              .xml = "<scene version=\"3.0.0\"><shape type=\"sphere\"/>"};
+    /* with the zero byte of the last one */
+    static const char records[] = "<shape\0=type\0sphere\0=id\0a\0<float\0=name\0radius\0=value\0"
+                                  "1\0>\0>\0<ref\0>";
+    aur_import_scene scene = {.upper = {1.0, 2.0, 3.0}};
+    uint8_t last[sizeof scene + sizeof records];
     uint8_t *at = data;
     if (index > 1)
         return 0;
     fuzz_require(capacity >= 1024, "a seed is too large");
     if (index == 1) {
-        last.scene.camera = (aur_import_camera){.is_there = 1, .direction = {0.0, 1.0, 0.0}, .aspect = 1.5};
+        scene.camera = (aur_import_camera){.is_there = 1, .direction = {0.0, 1.0, 0.0}, .aspect = 1.5};
         at = put(at, AUR_IMPORT_FAIL, 20, 9, "no\nfile\0!");
     }
     at = put(at, AUR_IMPORT_OPEN, 0, 5, "a.fbx");
@@ -87,6 +101,8 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     at = put(at, AUR_IMPORT_NOTE, 0, 6, "\x1b[31mx");
     at = put(at, AUR_IMPORT_MESH, 0, 4, "ply\n");
     at = put(at, AUR_IMPORT_PICTURE, 0, 8, "\x89PNG\r\n\x1a\n");
-    at = put(at, AUR_IMPORT_SCENE, 0, sizeof last, &last);
+    memcpy(last, &scene, sizeof scene);
+    memcpy(last + sizeof scene, records, sizeof records);
+    at = put(at, AUR_IMPORT_SCENE, 0, sizeof last, last);
     return (size_t)(at - data);
 }

@@ -14,7 +14,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_ARGUMENT,
                      "a failure of the wrong kind");
-        fuzz_require(strncmp(error.message, "not well-formed", 15) != 0, "the translation is no XML");
     }
     aur_scene_destroy(scene);
     return 0;

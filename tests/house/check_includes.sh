@@ -29,7 +29,7 @@ render/scene/shapes render/scene/lights render/scene/sensors render/scene/media 
 render/scene
 render/scene/importers/xml
 render/scene/importers/rad render/scene/importers/model
-render/scene/importers/meshes
+render/scene/importers/meshes render/scene/importers/nodes
 render/scene/materials
 render/image
 points/quality/table

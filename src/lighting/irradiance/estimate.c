@@ -239,7 +239,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     if (result == AUR_OK)
         result = aur_sensors_check(&sensors, AUR_ERROR_ARGUMENT, error);
     if (result == AUR_OK && aur_scene_emitter_count(scene) == 0)
-        result = aur_fail_at(error, scene->document.root->location, AUR_ERROR_UNSUPPORTED,
+        result = aur_fail_at(error, scene->document.tree.root->location, AUR_ERROR_UNSUPPORTED,
                              "the scene has no light, so that all would be 0");
     if (result != AUR_OK)
         return result;

@@ -160,9 +160,9 @@ static aur_result name_shapes(aur_facets *facets, aur_error *error) {
         char unnamed[40];
         aur_format(unnamed, sizeof unnamed, "shape-%zu", i);
         const char *name = unnamed;
-        for (size_t k = 0; k < scene->document.id_count; ++k)
-            if (scene->document.ids[k].node->object == scene->shapes[i])
-                name = scene->document.ids[k].id;
+        for (size_t k = 0; k < scene->document.tree.id_count; ++k)
+            if (scene->document.tree.ids[k].node->object == scene->shapes[i])
+                name = scene->document.tree.ids[k].id;
         facets->names[i] = strdup(name);
         if (facets->names[i] == NULL)
             return aur_fail_memory(error);

@@ -1,5 +1,5 @@
-/* aureole-import PARENT: reads a model by assimp, and gives it as XML and files to the process that started
- * it. Standard input is a socket; see render/scene/importers/model/message.h. The library starts it
+/* aureole-import PARENT: reads a model by assimp, and gives it as elements and files to the process that
+ * started it. Standard input is a socket; see render/scene/importers/model/message.h. The library starts it
  * (render/scene/importers/model/import.c), so that a file which assimp cannot bear ends this process alone.
  */
 #include <assimp/cimport.h>
@@ -41,22 +41,22 @@ static const struct aiScene *read_scene(const char *name, bool is_gltf) {
 }
 
 static void write_scene(writer *self) {
-    char *xml = NULL;
+    char *records = NULL;
     size_t size = 0;
-    self->xml = open_memstream(&xml, &size);
+    self->records = open_memstream(&records, &size);
     self->mesh_file = calloc(self->scene->mNumMeshes, sizeof *self->mesh_file);
     self->mesh_uses = calloc(self->scene->mNumMeshes, sizeof *self->mesh_uses);
     self->image_file = calloc(self->scene->mNumTextures + 1, sizeof *self->image_file);
-    if (self->xml == NULL || self->mesh_file == NULL || self->mesh_uses == NULL || self->image_file == NULL)
+    if (self->records == NULL || self->mesh_file == NULL || self->mesh_uses == NULL ||
+        self->image_file == NULL)
         stream_fail_memory();
-    writer_put(self, "<scene version=\"3.0.0\">\n");
     writer_add_meshes(self);
     writer_put_materials(self);
     writer_put_nodes(self);
-    const bool written = ferror(self->xml) == 0;
-    if (fclose(self->xml) != 0 || !written)
+    const bool written = ferror(self->records) == 0;
+    if (fclose(self->records) != 0 || !written)
         stream_fail_memory();
-    stream_send_two(AUR_IMPORT_SCENE, sizeof self->made, &self->made, size, xml);
+    stream_send_two(AUR_IMPORT_SCENE, sizeof self->made, &self->made, size, records);
 }
 
 int main(int argc, char **argv) {

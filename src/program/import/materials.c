@@ -83,16 +83,17 @@ static void put_color(writer *self, unsigned index, const char *name) {
     float color[4];
     base_color(self, material, color);
     const picture_use use = {from, name, "rgb", false, {color[0], color[1], color[2]}, 0.0f};
-    if (picture_exists(self, material, from))
+    if (picture_exists(self, material, from)) {
         picture_put(self, material, &use);
-    else if (uses_vertex_colors(self, index))
-        writer_put(self,
-                   "<texture type=\"mesh_attribute\" name=\"%s\"><string name=\"name\" "
-                   "value=\"vertex_color\"/></texture>\n",
-                   name);
-    else
-        writer_put(self, "<rgb name=\"%s\" value=\"%.9g %.9g %.9g\"/>\n", name, (double)color[0],
-                   (double)color[1], (double)color[2]);
+    } else if (uses_vertex_colors(self, index)) {
+        writer_open(self, "texture", "mesh_attribute");
+        writer_set(self, "name", "%s", name);
+        writer_property(self, "string", "name", "vertex_color");
+        writer_close(self);
+    } else {
+        writer_property(self, "rgb", name, "%.9g %.9g %.9g", (double)color[0], (double)color[1],
+                        (double)color[2]);
+    }
 }
 
 /* Blinn's exponent, where a material has no roughness: alpha^2 = 2 / (n + 2), and alpha is its square. */
@@ -127,18 +128,17 @@ static void put_principled(writer *self, unsigned index) {
     const float ior = writer_number(material, "$mat.refracti", 0.0f);
     float highlight[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     if (self->is_gltf && ior > 1.0f && ior < 100.0f)
-        writer_put(self, "<float name=\"eta\" value=\"%.9g\"/>\n", (double)ior);
+        writer_property(self, "float", "eta", "%.9g", (double)ior);
     else if (!self->is_gltf && writer_color(material, "$clr.specular", highlight) &&
              !(highlight[0] + highlight[1] + highlight[2] > 0.0f) && !(metal > 0.0f))
-        writer_put(self, "<float name=\"specular\" value=\"0\"/>\n");
+        writer_property(self, "float", "specular", "0");
     const float coat = at_most_one(writer_number(material, "$mat.clearcoat.factor", 0.0f));
     if (coat > 0.0f) {
         /* The coat's width is .1 without gloss, .001 with all of it. */
         const float width = writer_number(material, "$mat.clearcoat.roughnessFactor", 0.0f);
-        writer_put(self,
-                   "<float name=\"clearcoat\" value=\"%.9g\"/><float name=\"clearcoat_gloss\" "
-                   "value=\"%.9g\"/>\n",
-                   (double)coat, (double)at_most_one((0.1f - width * width) / 0.099f));
+        writer_property(self, "float", "clearcoat", "%.9g", (double)coat);
+        writer_property(self, "float", "clearcoat_gloss", "%.9g",
+                        (double)at_most_one((0.1f - width * width) / 0.099f));
     }
 }
 
@@ -167,10 +167,9 @@ static bool find_opacity(writer *self, const struct aiMaterial *material, pictur
 
 /* Opens a <bsdf> inside of those that are open; the outermost one has the id. */
 static void open_bsdf(writer *self, unsigned index, const char *type, unsigned *open) {
-    writer_put(self, "<bsdf type=\"%s\"", type);
+    writer_open(self, "bsdf", type);
     if ((*open)++ == 0)
-        writer_put(self, " id=\"material-%u-%u\"", self->first, index);
-    writer_put(self, ">\n");
+        writer_set(self, "id", "material-%u-%u", self->first, index);
 }
 
 static void put_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
@@ -206,11 +205,11 @@ static void put_material(writer *self, unsigned index) {
     }
     open_bsdf(self, index, unlit ? "diffuse" : "principled", &open);
     if (unlit)
-        writer_put(self, "<rgb name=\"reflectance\" value=\"0\"/>\n");
+        writer_property(self, "rgb", "reflectance", "0");
     else
         put_principled(self, index);
     while (open-- > 0)
-        writer_put(self, "</bsdf>\n");
+        writer_close(self);
 }
 
 void writer_put_materials(writer *self) {
@@ -240,7 +239,7 @@ bool writer_shines(writer *self, unsigned material) {
 void writer_put_emitter(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
     float color[4];
-    writer_put(self, "<emitter type=\"area\">");
+    writer_open(self, "emitter", "area");
     if (is_unlit(material)) {
         put_color(self, index, "radiance");
     } else if (emission_of(self, index, color) && picture_exists(self, material, emissive_slot)) {
@@ -248,8 +247,8 @@ void writer_put_emitter(writer *self, unsigned index) {
             self, material,
             &(picture_use){emissive_slot, "radiance", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
     } else {
-        writer_put(self, "<rgb name=\"radiance\" value=\"%.9g %.9g %.9g\"/>", (double)color[0],
-                   (double)color[1], (double)color[2]);
+        writer_property(self, "rgb", "radiance", "%.9g %.9g %.9g", (double)color[0], (double)color[1],
+                        (double)color[2]);
     }
-    writer_put(self, "</emitter>\n");
+    writer_close(self);
 }

@@ -48,10 +48,15 @@ static triple normalize(triple v) {
 }
 
 static void put_matrix(writer *self, const writer_matrix *to_world) {
-    writer_put(self, "<transform name=\"to_world\"><matrix value=\"");
-    for (size_t i = 0; i < 16; ++i)
-        writer_put(self, "%.17g ", to_world->m[i]);
-    writer_put(self, "\"/></transform>");
+    const double *const m = to_world->m;
+    writer_open(self, "transform", NULL);
+    writer_set(self, "name", "to_world");
+    writer_open(self, "matrix", NULL);
+    writer_set(self, "value",
+               "%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g 0 0 0 1", m[0], m[1],
+               m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9], m[10], m[11]);
+    writer_close(self);
+    writer_close(self);
 }
 
 static void copy(double to[3], triple from) {
@@ -73,20 +78,25 @@ static void widen(writer *self, const struct aiMesh *mesh, const writer_matrix *
     }
 }
 
+static void put_reference(writer *self, const char *kind, unsigned index) {
+    writer_open(self, "ref", NULL);
+    writer_set(self, "id", "%s-%u-%u", kind, self->first, index);
+    writer_close(self);
+}
+
 /* A mesh where `to_world` puts it, or in a group (NULL). */
 static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
     const struct aiMesh *const mesh = self->scene->mMeshes[index];
     const bool smooth = mesh->mNormals != NULL || !self->is_gltf;
-    writer_put(self,
-               "<shape type=\"ply\"><string name=\"filename\" value=\"*%u\"/>"
-               "<boolean name=\"face_normals\" value=\"%s\"/>",
-               self->mesh_file[index], smooth ? "false" : "true");
+    writer_open(self, "shape", "ply");
+    writer_property(self, "string", "filename", "*%u", self->mesh_file[index]);
+    writer_property(self, "boolean", "face_normals", "%s", smooth ? "false" : "true");
     if (to_world != NULL)
         put_matrix(self, to_world);
-    writer_put(self, "<ref id=\"material-%u-%u\"/>", self->first, mesh->mMaterialIndex);
+    put_reference(self, "material", mesh->mMaterialIndex);
     if (writer_shines(self, mesh->mMaterialIndex))
         writer_put_emitter(self, mesh->mMaterialIndex);
-    writer_put(self, "</shape>\n");
+    writer_close(self);
 }
 
 /* A mesh of many nodes is a group, unless it shines: a light is one shape. */
@@ -105,9 +115,10 @@ static void place_mesh(writer *self, unsigned index, const writer_matrix *to_wor
         put_mesh(self, index, to_world);
         return;
     }
-    writer_put(self, "<shape type=\"instance\"><ref id=\"group-%u-%u\"/>", self->first, index);
+    writer_open(self, "shape", "instance");
+    put_reference(self, "group", index);
     put_matrix(self, to_world);
-    writer_put(self, "</shape>\n");
+    writer_close(self);
 }
 
 static void count_uses(writer *self, const struct aiNode *node) {
@@ -121,17 +132,22 @@ static void put_groups(writer *self) {
     for (unsigned i = 0; i < self->scene->mNumMeshes; ++i) {
         if (self->mesh_file[i] == NO_FILE || !is_group(self, i))
             continue;
-        writer_put(self, "<shape type=\"shapegroup\" id=\"group-%u-%u\">", self->first, i);
+        writer_open(self, "shape", "shapegroup");
+        writer_set(self, "id", "group-%u-%u", self->first, i);
         put_mesh(self, i, NULL);
-        writer_put(self, "</shape>\n");
+        writer_close(self);
     }
 }
 
 /* --- lights */
 
 static void put_color(writer *self, const char *name, struct aiColor3D color) {
-    writer_put(self, "<rgb name=\"%s\" value=\"%.9g %.9g %.9g\"/>", name, fmax(0.0, (double)color.r),
-               fmax(0.0, (double)color.g), fmax(0.0, (double)color.b));
+    writer_property(self, "rgb", name, "%.9g %.9g %.9g", fmax(0.0, (double)color.r),
+                    fmax(0.0, (double)color.g), fmax(0.0, (double)color.b));
+}
+
+static void put_triple(writer *self, const char *tag, const char *name, triple v) {
+    writer_property(self, tag, name, "%.17g %.17g %.17g", v.x, v.y, v.z);
 }
 
 static void put_spot(writer *self, triple origin, triple direction) {
@@ -140,10 +156,14 @@ static void put_spot(writer *self, triple origin, triple direction) {
     /* At map coordinates a target one unit away would round the direction. */
     const triple target =
         add_scaled(origin, 1.0 + fabs(origin.x) + fabs(origin.y) + fabs(origin.z), direction);
-    writer_put(self,
-               "<transform name=\"to_world\"><lookat origin=\"%.17g, %.17g, %.17g\" "
-               "target=\"%.17g, %.17g, %.17g\" up=\"%g, %g, %g\"/></transform>\n",
-               origin.x, origin.y, origin.z, target.x, target.y, target.z, up.x, up.y, up.z);
+    writer_open(self, "transform", NULL);
+    writer_set(self, "name", "to_world");
+    writer_open(self, "lookat", NULL);
+    writer_set(self, "origin", "%.17g %.17g %.17g", origin.x, origin.y, origin.z);
+    writer_set(self, "target", "%.17g %.17g %.17g", target.x, target.y, target.z);
+    writer_set(self, "up", "%g %g %g", up.x, up.y, up.z);
+    writer_close(self);
+    writer_close(self);
 }
 
 static void place_light(writer *self, const struct aiLight *light, const writer_matrix *to_world) {
@@ -151,14 +171,13 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
     const triple direction = normalize(apply_vector(to_world, light->mDirection, 0.0));
     switch (light->mType) {
     case aiLightSource_DIRECTIONAL:
-        writer_put(self,
-                   "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.17g %.17g %.17g\"/>",
-                   direction.x, direction.y, direction.z);
+        writer_open(self, "emitter", "directional");
+        put_triple(self, "vector", "direction", direction);
         put_color(self, "irradiance", light->mColorDiffuse);
         break;
     case aiLightSource_POINT:
-        writer_put(self, "<emitter type=\"point\"><point name=\"position\" value=\"%.17g %.17g %.17g\"/>",
-                   origin.x, origin.y, origin.z);
+        writer_open(self, "emitter", "point");
+        put_triple(self, "point", "position", origin);
         put_color(self, "intensity", light->mColorDiffuse);
         break;
     case aiLightSource_SPOT: {
@@ -166,10 +185,9 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
         const double part = self->is_gltf ? 180.0 / pi : 90.0 / pi;
         const double outer = fmin(fmax(part * (double)light->mAngleOuterCone, 0.1), 89.9);
         const double inner = fmin(fmax(part * (double)light->mAngleInnerCone, 0.0), 0.999 * outer);
-        writer_put(self,
-                   "<emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"%.9g\"/>"
-                   "<float name=\"beam_width\" value=\"%.9g\"/>",
-                   outer, inner);
+        writer_open(self, "emitter", "spot");
+        writer_property(self, "float", "cutoff_angle", "%.9g", outer);
+        writer_property(self, "float", "beam_width", "%.9g", inner);
         put_color(self, "intensity", light->mColorDiffuse);
         put_spot(self, origin, direction);
         break;
@@ -178,7 +196,7 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
         writer_note("the light '%s' is of an unknown kind: it is left out", light->mName.data);
         return;
     }
-    writer_put(self, "</emitter>\n");
+    writer_close(self);
     self->made.has_light = 1;
 }
 

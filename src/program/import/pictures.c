@@ -99,13 +99,11 @@ bool picture_exists(writer *self, const struct aiMaterial *material, slot from) 
 }
 
 static void put_filename(writer *self, const char *path) {
-    writer_put(self, "<string name=\"filename\" value=\"");
     const unsigned held = find_image(self, path);
     if (held < self->scene->mNumTextures)
-        writer_put(self, "*%u.png", file_of_image(self, held));
+        writer_property(self, "string", "filename", "*%u.png", file_of_image(self, held));
     else
-        writer_put_escaped(self, find_picture(self, path));
-    writer_put(self, "\"/>");
+        writer_property(self, "string", "filename", "%s", find_picture(self, path));
 }
 
 static unsigned uv_set_of(const struct aiMaterial *material, slot from) {
@@ -145,11 +143,13 @@ static void put_transform(writer *self, const struct aiMaterial *material, slot 
     const double sx = (double)t.mScaling.x, sy = (double)t.mScaling.y;
     const double x = (double)t.mTranslation.x - 0.5 * sx * (1.0 + s - c);
     const double y = 0.5 * sy * (s + c - 1.0) + 1.0 - sy - (double)t.mTranslation.y;
-    writer_put(
-        self,
-        "<transform name=\"to_uv\"><matrix value=\"%.9g %.9g 0 %.9g %.9g %.9g 0 %.9g 0 0 1 0 0 0 0 1\"/>"
-        "</transform>",
-        c * sx, s * sy, x, -s * sx, c * sy, y);
+    writer_open(self, "transform", NULL);
+    writer_set(self, "name", "to_uv");
+    writer_open(self, "matrix", NULL);
+    writer_set(self, "value", "%.9g %.9g 0 %.9g %.9g %.9g 0 %.9g 0 0 1 0 0 0 0 1", c * sx, s * sy, x, -s * sx,
+               c * sy, y);
+    writer_close(self);
+    writer_close(self);
 }
 
 static const char *wrap_of(enum aiTextureMapMode mode) {
@@ -169,23 +169,23 @@ void picture_put(writer *self, const struct aiMaterial *material, const picture_
     int filter = 0;
     aiGetMaterialIntegerArray(material, AI_MATKEY_GLTF_MAPPINGFILTER_MAG(use->from.type, use->from.index),
                               &filter, NULL);
-    writer_put(self, "<texture type=\"bitmap\" name=\"%s\">", use->name);
+    writer_open(self, "texture", "bitmap");
+    writer_set(self, "name", "%s", use->name);
     put_filename(self, path.data);
-    writer_put(self,
-               "<boolean name=\"raw\" value=\"%s\"/><string name=\"channel\" value=\"%s\"/>"
-               "<string name=\"wrap_mode\" value=\"%s\"/><string name=\"filter_type\" value=\"%s\"/>",
-               use->raw ? "true" : "false", use->channel, wrap_of(modes[0]),
-               filter == 9728 ? "nearest" : "bilinear");
-    writer_put(self,
-               "<vector name=\"factor\" value=\"%.9g %.9g %.9g\"/><float name=\"cutoff\" value=\"%.9g\"/>",
-               (double)use->factor[0], (double)use->factor[1], (double)use->factor[2], (double)use->cutoff);
+    writer_property(self, "boolean", "raw", "%s", use->raw ? "true" : "false");
+    writer_property(self, "string", "channel", "%s", use->channel);
+    writer_property(self, "string", "wrap_mode", "%s", wrap_of(modes[0]));
+    writer_property(self, "string", "filter_type", "%s", filter == 9728 ? "nearest" : "bilinear");
+    writer_property(self, "vector", "factor", "%.9g %.9g %.9g", (double)use->factor[0],
+                    (double)use->factor[1], (double)use->factor[2]);
+    writer_property(self, "float", "cutoff", "%.9g", (double)use->cutoff);
     put_transform(self, material, use->from);
-    writer_put(self, "</texture>\n");
+    writer_close(self);
 }
 
 void picture_put_share(writer *self, const struct aiMaterial *material, const picture_use *use) {
     if (picture_exists(self, material, use->from))
         picture_put(self, material, use);
     else
-        writer_put(self, "<float name=\"%s\" value=\"%.9g\"/>\n", use->name, (double)use->factor[0]);
+        writer_property(self, "float", use->name, "%.9g", (double)use->factor[0]);
 }

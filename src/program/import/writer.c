@@ -7,24 +7,44 @@
 #include "points/base/text.h"
 #include "program/import/stream.h"
 
-void writer_put(writer *self, const char *format, ...) {
-    char text[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = aur_format_list(text, sizeof text, format, arguments);
-    va_end(arguments);
-    fwrite(text, 1, length < (int)sizeof text ? (size_t)length : sizeof text - 1, self->xml);
+static void put(writer *self, char kind, const char *text) {
+    fputc(kind, self->records);
+    fwrite(text, 1, strlen(text) + 1, self->records);
 }
 
-void writer_put_escaped(writer *self, const char *text) {
-    for (const unsigned char *c = (const unsigned char *)text; *c != '\0'; ++c) {
-        if (*c == '$')
-            fputs("\\$", self->xml);
-        else if (*c < 32 || strchr("&<>\"'", *c) != NULL)
-            fprintf(self->xml, "&#%u;", (unsigned)*c);
-        else
-            fputc(*c, self->xml);
-    }
+static void set_list(writer *self, const char *name, const char *format, va_list arguments) {
+    enum { LONGEST = 8192 }; /* names of files are shorter */
+    char text[LONGEST];
+    aur_format_list(text, sizeof text, format, arguments);
+    put(self, AUR_IMPORT_ATTRIBUTE, name);
+    fwrite(text, 1, strlen(text) + 1, self->records);
+}
+
+void writer_set(writer *self, const char *name, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    set_list(self, name, format, arguments);
+    va_end(arguments);
+}
+
+void writer_open(writer *self, const char *tag, const char *type) {
+    put(self, AUR_IMPORT_ELEMENT, tag);
+    if (type != NULL)
+        writer_set(self, "type", "%s", type);
+}
+
+void writer_close(writer *self) {
+    put(self, AUR_IMPORT_END, "");
+}
+
+void writer_property(writer *self, const char *tag, const char *name, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    writer_open(self, tag, NULL);
+    writer_set(self, "name", "%s", name);
+    set_list(self, "value", format, arguments);
+    writer_close(self);
+    va_end(arguments);
 }
 
 void writer_note(const char *format, ...) {

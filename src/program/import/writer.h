@@ -1,5 +1,5 @@
-/* What the parts of the importer share: the scene that assimp has read, and the XML and the files that are
- * made of it. */
+/* What the parts of the importer share: the scene that assimp has read, and the elements and the files that
+ * are made of it. */
 #pragma once
 
 #include <assimp/scene.h>
@@ -16,7 +16,7 @@ typedef struct writer_matrix {
 
 typedef struct writer {
     const struct aiScene *scene;
-    FILE *xml;
+    FILE *records; /* of elements: render/scene/importers/model/message.h */
     bool is_gltf;
     unsigned first;      /* files before this model: makes ids of several models differ */
     unsigned files;      /* of this model, so far */
@@ -31,10 +31,14 @@ typedef struct writer {
 
 #define NO_FILE UINT32_MAX
 
-/* To the XML, with decimal points under every locale. */
-void writer_put(writer *self, const char *format, ...) AUR_PRINTF(2, 3);
-/* A text in which XML and variables see nothing of their own. */
-void writer_put_escaped(writer *self, const char *text);
+/* <tag type="...">, or without a type where that is NULL; what follows is inside of it until it is closed. */
+void writer_open(writer *self, const char *tag, const char *type);
+void writer_close(writer *self);
+/* One more attribute of the element that was just opened; numbers have decimal points under every locale. */
+void writer_set(writer *self, const char *name, const char *format, ...) AUR_PRINTF(3, 4);
+/* <tag name="..." value="..."/> */
+void writer_property(writer *self, const char *tag, const char *name, const char *format, ...)
+    AUR_PRINTF(4, 5);
 /* A warning about the model. */
 void writer_note(const char *format, ...) AUR_PRINTF(1, 2);
 /* Adds a mesh's file; its number. */

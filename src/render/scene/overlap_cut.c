@@ -606,9 +606,9 @@ aur_result aur_scene_cut_overlaps(aur_scene *scene, size_t threads, aur_error *e
 
 static const char *name_of(const aur_scene *scene, uint32_t shape) {
     const aur_xml_document *const document = &scene->document;
-    for (size_t k = 0; k < document->id_count; ++k)
-        if (document->ids[k].node->object == scene->shapes[shape])
-            return document->ids[k].id;
+    for (size_t k = 0; k < document->tree.id_count; ++k)
+        if (document->tree.ids[k].node->object == scene->shapes[shape])
+            return document->tree.ids[k].id;
     return scene->shapes[shape]->descriptor->row.name;
 }
 

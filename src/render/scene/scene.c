@@ -37,7 +37,7 @@ static double reach_of(const aur_shape *shape, const double origin[3]) {
 static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
     const double width = 2.0 * (double)scene->radius;
     if (width < 1e-5)
-        aur_warn_at(warnings, scene->document.root->location,
+        aur_warn_at(warnings, scene->document.tree.root->location,
                     "the scene is %.2g wide, too small to be exact: scale it to 1e-5 or more", width);
 }
 
@@ -86,7 +86,7 @@ static aur_result check_reach(const aur_scene *scene, aur_error *error) {
                                shape->descriptor->row.name, reach_of(shape, scene->origin), AUR_REACH);
     }
     if (reach > most)
-        return aur_fail_at(error, scene->document.root->location, AUR_ERROR_FORMAT,
+        return aur_fail_at(error, scene->document.tree.root->location, AUR_ERROR_FORMAT,
                            "instances reach to %g from the origin; %g is the most", reach, AUR_REACH);
     reach = fmax(bounds_reach(scene, (const double[3]){0.0}), sensor_reach(&scene->sensor));
     for (size_t i = 0; i < scene->instance_count; ++i) {
@@ -299,7 +299,7 @@ aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *des
 
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {
     return scene->has_sensor ? AUR_OK
-                             : aur_xml_fail(scene->document.root, error, "the scene has no <sensor>");
+                             : aur_xml_fail(scene->document.tree.root, error, "the scene has no <sensor>");
 }
 
 const aur_film_settings *aur_scene_film(const aur_scene *scene) {

@@ -45,8 +45,11 @@ end_header
 0 1 0
 3 0 1 2
 """
-def scene(text=b'<shape type="ply"><string name="filename" value="*0"/></shape>', bounds=(0, 0, 0, 1, 1, 0)):
-    return struct.pack("=6d2I12d2I", *bounds, 0, 0, *[0.0] * 12, 0, 0) + b'<scene version="3.0.0">' + text
+def records(*texts):
+    return b"".join(text + b"\0" for text in texts)
+shape = records(b"<shape", b"=type", b"ply", b"<string", b"=name", b"filename", b"=value", b"*0", b">", b">")
+def scene(elements=shape, bounds=(0, 0, 0, 1, 1, 0)):
+    return struct.pack("=6d2I12d2I", *bounds, 0, 0, *[0.0] * 12, 0, 0) + elements
 PYTHON
     cat
   } >"$1"
@@ -111,8 +114,17 @@ importer short <<<'send(SCENE, b"<scene")'
 told short 2 'damaged'
 importer words <<<'send(FAIL, b"no\nwords\0here", 20)'
 told words 2 'no words'
-importer tree <<<'send(SCENE, scene(b"<shape"))'
-told tree 2 'not well-formed'
+# Elements that are no tree: without an end, of no kind, ended too often, an attribute of none or without a value, too deep; and
+# control characters. Elements by which XML names files are unknown here.
+for elements in 'shape[:-1]' 'shape[:-2]' 'b"shape\0"' 'b"\0" + shape' 'shape + records(b">")' 'records(b"=type", b"ply") + shape' \
+                'shape + records(b"<shape", b"=type")' 'records(*[b"<shape"] * 101, *[b">"] * 101)' 'shape.replace(b"*0", b"\x1b")'; do
+  importer tree <<<"send(MESH, mesh); send(SCENE, scene($elements))"
+  told tree 2 'damaged'
+done
+importer many <<<'send(SCENE, scene(records(b"<shape", *[b"=type", b"ply"] * 4, b">")))'
+told many 2 'too many attributes'
+importer outside <<<'send(SCENE, scene(records(b"<include", b"=filename", b"model.fbx", b">")))'
+told outside 2 'unknown element <include>'
 importer nowhere <<<'send(SCENE, scene(bounds=(float("nan"),) * 6))'
 AUREOLE_IMPORT=$PWD/nowhere "$aureole" info model.fbx >said 2>&1
 [ $? = 2 ] || fail "a scene without a camera and mesh is no error: $(cat said)"
@@ -214,7 +226,7 @@ def read(data):
             bounds = struct.unpack_from("=6d", data_read)
             lower, upper = bounds[:3], bounds[3:]
             origin = struct.unpack_from("=3d", data_read, 48 + 8)
-            matrices = [[float(v) for v in m.split()] for m in re.findall(rb'<matrix value="([^"]*)"', data_read)]
+            matrices = [[float(v) for v in m.split()] for m in re.findall(rb"<matrix\0=value\0([^\0]*)", data_read)]
             return lower, upper, origin, matrices
 at = [500000.3, 5400000.7, 412.15]
 # Several roots, nested nodes, one node as a matrix.

@@ -402,6 +402,14 @@ grep -q "2 files are found under other names: 'materials of quads.MTL' as 'Mater
   fail "other names are not reported: $(cat said)"
 "$aureole" compare quad-scene.exr quad-model.exr --metric relative-rmse --tolerance 1e-6 >compared || fail "materials of an OBJ are not those of its scene: $(cat compared)"
 
+# Names of files are bytes: they need not be UTF-8.
+cp color.png $'gr\374n.png'
+for name in color $'gr\374n'; do
+  printf 'newmtl Painted #1\nmap_Kd %s.png\n' "$name" >'materials of quads.MTL'
+  "$aureole" render quad.obj -q --spp 1 --width 16 -o "$name.exr" || fail "a texture is not read from $name.png"
+done
+cmp color.exr $'gr\374n.exr' || fail "a texture depends on its file's name"
+
 # A model at map coordinates is seen as the same one near 0, in every format that holds the digits: the coordinates are sums
 # of few powers of two, so that nothing is rounded in the files; what differs is the last digit of the camera's place.
 /usr/bin/python3 - <<'PYTHON' || fail "the models at map coordinates cannot be written"

@@ -63,28 +63,43 @@ static aur_result find_nothing(void *state, const char *name, char **used, char 
     return AUR_OK;
 }
 
-static char *translate(const char *name, const char *text, aur_model_files *files, heard *warnings) {
-    const aur_warnings to = {hear, warnings};
+/* What a model becomes. */
+typedef struct translation {
+    aur_xml_tree tree;
+    aur_model_files files;
+    heard warnings;
+} translation;
+
+static void translate(const char *name, const char *text, translation *made) {
+    *made = (translation){0};
+    aur_error error = {0};
+    const aur_warnings to = {hear, &made->warnings};
     const aur_model_source source = {.name = name,
                                      .size = strlen(text),
                                      .data = text,
                                      .warnings = &to,
                                      .location = {.file = name},
                                      .find = find_nothing};
-    char *xml;
-    size_t size;
-    aur_error error = {0};
-    if (aur_model_to_xml(&source, files, &xml, &size, &error) != AUR_OK)
+    aur_xml_variables variables = {.arena = &made->tree.arena};
+    aur_nodes nodes = {.tree = &made->tree, .variables = &variables, .error = &error};
+    if (aur_model_read(&source, &made->files, &nodes, aur_node_add(&nodes, NULL, "scene")) != AUR_OK)
         fail_msg("%s", error.message);
-    assert_int_equal(strlen(xml), size);
-    return xml;
+    free(variables.items);
 }
 
-static size_t count_of(const char *text, const char *what) {
+static void release(translation *made) {
+    aur_xml_tree_release(&made->tree);
+    aur_model_release_files(&made->files);
+}
+
+/* How many elements below `node` have the tag and, where it is given, the value of an attribute. */
+static size_t count_of(const aur_xml_node *node, const char *tag, const char *attribute, const char *value) {
     size_t count = 0;
-    while ((text = strstr(text, what)) != NULL) {
-        ++count;
-        text += strlen(what);
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        const char *const found = attribute != NULL ? aur_xml_attribute_value(child, attribute) : NULL;
+        count += strcmp(child->tag, tag) == 0 &&
+                 (attribute == NULL || (found != NULL && strcmp(found, value) == 0));
+        count += count_of(child, tag, attribute, value);
     }
     return count;
 }
@@ -110,16 +125,15 @@ static void test_parts(void **state) {
         "f 1/1 2/2 3/1\nusemtl a\nf 1/1 3/2 4/1\nusemtl b\nf 1/1 2/2 4/1\nusemtl a\nf 2/2 3/1 4/1\n";
     static const uint8_t corners[3][2][3] = {{{0, 2, 3}, {1, 2, 3}}, {{0, 1, 3}}, {{0, 1, 2}}};
     static const size_t counts[3] = {2, 1, 1};
-    aur_model_files files = {0};
-    heard warnings = {0};
-    char *const xml = translate("a.obj", text, &files, &warnings);
-    assert_int_equal(files.count, 3);
-    assert_int_equal(count_of(xml, "<shape "), 3);
-    assert_int_equal(count_of(xml, "<emitter"), 0);
-    assert_int_equal(warnings.count, 1);
-    assert_non_null(strstr(warnings.last, "1 file cannot be found: 'none.mtl'"));
+    translation made;
+    translate("a.obj", text, &made);
+    assert_int_equal(made.files.count, 3);
+    assert_int_equal(count_of(made.tree.root, "shape", "type", "ply"), 3);
+    assert_int_equal(count_of(made.tree.root, "emitter", NULL, NULL), 0);
+    assert_int_equal(made.warnings.count, 1);
+    assert_non_null(strstr(made.warnings.last, "1 file cannot be found: 'none.mtl'"));
     for (size_t i = 0; i < 3; ++i) {
-        aur_mesh_data data = read_part(&files.items[i]);
+        aur_mesh_data data = read_part(&made.files.items[i]);
         assert_int_equal(data.triangle_count, counts[i]);
         for (size_t k = 0; k < 3 * counts[i]; ++k) {
             const double *const expected = points[corners[i][k / 3][k % 3]];
@@ -129,8 +143,7 @@ static void test_parts(void **state) {
         assert_true(data.uvs[1] == 0.75f || data.uvs[1] == 1.0f);
         aur_mesh_data_release(&data);
     }
-    free(xml);
-    aur_model_release_files(&files);
+    release(&made);
 }
 
 /* Files of one material are taken as they are. */
@@ -150,18 +163,14 @@ static void test_whole(void **state) {
         /* by its bytes, whatever its name is */
         {"b.obj", "off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
-        aur_model_files files = {0};
-        heard warnings = {0};
-        char *const xml = translate(rows[i][0], rows[i][2], &files, &warnings);
-        char shape[64];
-        snprintf(shape, sizeof shape, "<shape type=\"%s\">", rows[i][1]);
-        assert_int_equal(count_of(xml, shape), 1);
-        assert_int_equal(count_of(xml, "vertex_color"), i == 0);
-        assert_int_equal(files.count, 1);
-        assert_string_equal(files.items[0].data, rows[i][2]);
-        assert_int_equal(files.items[0].size, strlen(rows[i][2]));
-        free(xml);
-        aur_model_release_files(&files);
+        translation made;
+        translate(rows[i][0], rows[i][2], &made);
+        assert_int_equal(count_of(made.tree.root, "shape", "type", rows[i][1]), 1);
+        assert_int_equal(count_of(made.tree.root, "string", "value", "vertex_color"), i == 0);
+        assert_int_equal(made.files.count, 1);
+        assert_string_equal(made.files.items[0].data, rows[i][2]);
+        assert_int_equal(made.files.items[0].size, strlen(rows[i][2]));
+        release(&made);
     }
 }
 

@@ -23,7 +23,7 @@ static void find_axes(const aur_scene *scene, double up[3], double north[3]) {
         if (is_zero(north))
             memcpy(north, at->north, sizeof at->north);
     }
-    const char *const file = scene->document.root->location.file;
+    const char *const file = scene->document.tree.root->location.file;
     const char *const dot = file != NULL ? strrchr(file, '.') : NULL;
     if (is_zero(up))
         up[dot != NULL && strcasecmp(dot, ".rad") == 0 ? 2 : 1] = 1.0;

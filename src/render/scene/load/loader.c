@@ -89,7 +89,7 @@ static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur
     if (known != NULL)
         *target = known->node;
     else
-        aur_names_hint((aur_names){document->id_count, id_at, document->ids}, id, "''", hint);
+        aur_names_hint((aur_names){document->tree.id_count, id_at, document->tree.ids}, id, "''", hint);
     return known != NULL ? AUR_OK
                          : aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
                                        "there is no object with the id '%s'%s", id, hint);

@@ -120,7 +120,7 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
                        .error = error};
     scene->film = (aur_film_settings){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
     scene->samples_per_pixel = 4;
-    aur_xml_node *const root = scene->document.root;
+    aur_xml_node *const root = scene->document.tree.root;
     aur_error *const left_out = &scene->document.left_out;
     refuse_unknown(&self, root, 0, left_out);
     if (left_out->result != AUR_OK)

@@ -9,6 +9,7 @@
 #include "points/base/module.h"
 #include "points/base/ranks.h"
 #include "render/scene/importers/model/named_files.h"
+#include "render/scene/importers/model/node_records.h"
 #include "render/scene/importers/model/surroundings.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
@@ -28,8 +29,8 @@ typedef struct conversation {
     size_t requests, notes, pictures;
     aur_named_files named;
     uint64_t received; /* bytes */
-    char **xml;
-    size_t *xml_size;
+    aur_nodes *nodes;
+    aur_xml_node *parent;
     aur_error *error;
 } conversation;
 
@@ -149,20 +150,10 @@ static aur_result take_scene(conversation *self, const message *got) {
     if (got->size < sizeof scene)
         return fail_damaged(self);
     memcpy(&scene, got->data, sizeof scene);
-    FILE *const xml = open_memstream(self->xml, self->xml_size);
-    if (xml == NULL)
-        return aur_fail_memory_at(self->error, self->source->location);
-    fwrite(got->data + sizeof scene, 1, got->size - sizeof scene, xml);
-    if (self->source->alone)
-        aur_model_surround(self->source, &scene, xml);
-    fputs("</scene>\n", xml);
+    if (!aur_node_records_read(self->nodes, self->parent, got->size - sizeof scene, got->data + sizeof scene))
+        return self->nodes->result != AUR_OK ? self->nodes->result : fail_damaged(self);
     aur_named_warn(&self->named);
-    const bool written = ferror(xml) == 0;
-    if (fclose(xml) == 0 && written)
-        return AUR_OK;
-    free(*self->xml);
-    *self->xml = NULL;
-    return aur_fail_memory_at(self->error, self->source->location);
+    return self->source->alone ? aur_model_surround(self->source, &scene, self->nodes, self->parent) : AUR_OK;
 }
 
 /* --- the conversation */
@@ -221,15 +212,15 @@ static aur_result start(conversation *self) {
 }
 
 aur_result aur_model_converse(aur_child *child, const aur_model_source *source, aur_model_files *files,
-                              char **xml, size_t *xml_size, aur_error *error) {
+                              aur_nodes *nodes, aur_xml_node *parent) {
     conversation self = {.child = child,
                          .source = source,
                          .named = {.source = source},
                          .files = files,
                          .first = files->count,
-                         .xml = xml,
-                         .xml_size = xml_size,
-                         .error = error};
+                         .nodes = nodes,
+                         .parent = parent,
+                         .error = nodes->error};
     bool over = false;
     aur_result result = start(&self);
     while (result == AUR_OK && !over) {
@@ -258,8 +249,9 @@ static aur_result find_program(const aur_model_source *source, char path[PATH_CA
                        "have: install libassimp-dev and build again, or convert the model to Mitsuba's XML");
 }
 
-aur_result aur_model_import(const aur_model_source *source, aur_model_files *files, char **xml,
-                            size_t *xml_size, aur_error *error) {
+aur_result aur_model_import(const aur_model_source *source, aur_model_files *files, aur_nodes *nodes,
+                            aur_xml_node *parent) {
+    aur_error *const error = nodes->error;
     aur_child child;
     char path[PATH_CAPACITY];
     const bool here = aur_ranks_rank() == 0;
@@ -269,6 +261,6 @@ aur_result aur_model_import(const aur_model_source *source, aur_model_files *fil
                              source->location.file);
     result = agree(error, result);
     if (result == AUR_OK)
-        result = aur_model_converse(here ? &child : NULL, source, files, xml, xml_size, error);
+        result = aur_model_converse(here ? &child : NULL, source, files, nodes, parent);
     return result;
 }

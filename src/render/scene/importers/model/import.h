@@ -6,9 +6,9 @@
 
 /* Errors: those of a file that cannot be read or may not be (OPEN, FORMAT), of limits that it exceeds
  * (FORMAT, MEMORY), CANCELLED, and UNSUPPORTED where the program is not there. */
-aur_result aur_model_import(const aur_model_source *source, aur_model_files *files, char **xml,
-                            size_t *xml_size, aur_error *error);
+aur_result aur_model_import(const aur_model_source *source, aur_model_files *files, aur_nodes *nodes,
+                            aur_xml_node *parent);
 
 /* The conversation with a program that has started. Ends the child. */
 aur_result aur_model_converse(aur_child *child, const aur_model_source *source, aur_model_files *files,
-                              char **xml, size_t *xml_size, aur_error *error);
+                              aur_nodes *nodes, aur_xml_node *parent);

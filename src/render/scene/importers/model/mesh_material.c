@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/scene/importers/model/xml_text.h"
-
 static double or_else(double value, double otherwise) {
     return isnan(value) ? otherwise : value;
 }
@@ -41,47 +39,55 @@ typedef struct use {
     double factor[3];
 } use;
 
-static void put_texture(const aur_mtl_material *material, const use *how, FILE *xml) {
+static void add_texture(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
+                        const use *how) {
     const aur_mtl_picture *const picture = &material->pictures[how->map];
-    aur_model_put(xml, "<texture type=\"bitmap\" name=\"%s\"><string name=\"filename\" value=\"", how->name);
-    aur_model_put_escaped(xml, picture->name);
-    aur_model_put(
-        xml,
-        "\"/><boolean name=\"raw\" value=\"%s\"/><string name=\"channel\" value=\"%s\"/>"
-        "<string name=\"wrap_mode\" value=\"%s\"/><vector name=\"factor\" value=\"%.9g %.9g %.9g\"/>"
-        "</texture>\n",
-        how->raw ? "true" : "false", how->channel, picture->clamped ? "clamp" : "repeat", how->factor[0],
-        how->factor[1], how->factor[2]);
+    aur_xml_node *const texture = aur_node_object(nodes, parent, "texture", "bitmap");
+    aur_node_set(nodes, texture, "name", "%s", how->name);
+    aur_node_property(nodes, texture, "string", "filename", "%s", picture->name);
+    aur_node_property(nodes, texture, "boolean", "raw", "%s", how->raw ? "true" : "false");
+    aur_node_property(nodes, texture, "string", "channel", "%s", how->channel);
+    aur_node_property(nodes, texture, "string", "wrap_mode", "%s", picture->clamped ? "clamp" : "repeat");
+    aur_node_property(nodes, texture, "vector", "factor", "%.9g %.9g %.9g", how->factor[0], how->factor[1],
+                      how->factor[2]);
+}
+
+/* A colour: by its picture, times a factor, or alone. */
+static void add_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
+                      const use *how) {
+    if (has(material, how->map))
+        add_texture(nodes, parent, material, how);
+    else
+        aur_node_property(nodes, parent, "rgb", how->name, "%.9g %.9g %.9g", how->factor[0], how->factor[1],
+                          how->factor[2]);
 }
 
 /* A share of the light: by its picture, times a factor, or a number. */
-static void put_share(const aur_mtl_material *material, aur_mtl_map map, const char *name,
-                      const char *channel, double value, FILE *xml) {
-    const use one = {map, name, channel, true, {value, value, value}};
-    if (has(material, map))
-        put_texture(material, &one, xml);
+static void add_share(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
+                      const use *how) {
+    if (has(material, how->map))
+        add_texture(nodes, parent, material, how);
     else
-        aur_model_put(xml, "<float name=\"%s\" value=\"%.9g\"/>\n", name, value);
+        aur_node_property(nodes, parent, "float", how->name, "%.9g", how->factor[0]);
 }
 
-static void put_base_color(const aur_mtl_material *material, bool colored, FILE *xml) {
+static void add_base_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
+                           bool colored) {
     use base = {AUR_MTL_DIFFUSE, "base_color", "rgb", false, {0}};
+    const bool textured = has(material, AUR_MTL_DIFFUSE);
     for (size_t i = 0; i < 3; ++i)
         base.factor[i] = share(or_else(material->diffuse[i], 0.6));
-    if (has(material, AUR_MTL_DIFFUSE)) {
-        /* Many files have a texture with a black colour, or no colour. */
-        const bool none =
-            isnan(material->diffuse[0]) || !(base.factor[0] + base.factor[1] + base.factor[2] > 0);
-        for (size_t i = 0; i < 3 && none; ++i)
-            base.factor[i] = 1.0;
-        put_texture(material, &base, xml);
-    } else if (colored) {
-        aur_model_put(xml, "<texture type=\"mesh_attribute\" name=\"base_color\"><string name=\"name\" "
-                           "value=\"vertex_color\"/></texture>\n");
-    } else {
-        aur_model_put(xml, "<rgb name=\"base_color\" value=\"%.9g %.9g %.9g\"/>\n", base.factor[0],
-                      base.factor[1], base.factor[2]);
+    if (!textured && colored) {
+        aur_xml_node *const texture = aur_node_object(nodes, parent, "texture", "mesh_attribute");
+        aur_node_set(nodes, texture, "name", "base_color");
+        aur_node_property(nodes, texture, "string", "name", "vertex_color");
+        return;
     }
+    /* Many files have a texture with a black colour, or no colour. */
+    const bool none = isnan(material->diffuse[0]) || !(base.factor[0] + base.factor[1] + base.factor[2] > 0);
+    for (size_t i = 0; i < 3 && textured && none; ++i)
+        base.factor[i] = 1.0;
+    add_color(nodes, parent, material, &base);
 }
 
 /* Blinn's exponent, where a material has no roughness: alpha^2 = 2 / (n + 2), and alpha is its square. */
@@ -97,25 +103,28 @@ static bool has_highlight(const aur_mtl_material *material) {
     return isnan(s[0]) ? !isnan(material->roughness) : s[0] + s[1] + s[2] > 0.0;
 }
 
-void aur_mesh_material_put(const aur_mtl_material *material, bool colored, FILE *xml) {
-    const double opacity = share(or_else(material->opacity, 1.0));
-    const bool masked = opacity < 1.0 || has(material, AUR_MTL_OPACITY), bent = has(material, AUR_MTL_NORMAL);
-    const use normals = {AUR_MTL_NORMAL, "normalmap", "rgb", true, {1.0, 1.0, 1.0}};
-    if (masked) {
-        aur_model_put(xml, "<bsdf type=\"mask\">");
-        put_share(material, AUR_MTL_OPACITY, "opacity", "rgb", opacity, xml);
+void aur_mesh_material_add(const aur_mtl_material *material, bool colored, aur_nodes *nodes,
+                           aur_xml_node *shape) {
+    const double opacity = share(or_else(material->opacity, 1.0)), rough = roughness_of(material);
+    const double metal = share(or_else(material->metal, has(material, AUR_MTL_METAL) ? 1.0 : 0.0));
+    aur_xml_node *bsdf = shape;
+    if (opacity < 1.0 || has(material, AUR_MTL_OPACITY)) {
+        bsdf = aur_node_object(nodes, bsdf, "bsdf", "mask");
+        add_share(nodes, bsdf, material,
+                  &(use){AUR_MTL_OPACITY, "opacity", "rgb", true, {opacity, opacity, opacity}});
     }
-    aur_model_put(xml, "<bsdf type=\"twosided\">%s", bent ? "<bsdf type=\"normalmap\">" : "");
-    if (bent)
-        put_texture(material, &normals, xml);
-    aur_model_put(xml, "<bsdf type=\"principled\">");
-    put_base_color(material, colored, xml);
-    put_share(material, AUR_MTL_ROUGHNESS, "roughness", "red", roughness_of(material), xml);
-    put_share(material, AUR_MTL_METAL, "metallic", "red",
-              share(or_else(material->metal, has(material, AUR_MTL_METAL) ? 1.0 : 0.0)), xml);
+    bsdf = aur_node_object(nodes, bsdf, "bsdf", "twosided");
+    if (has(material, AUR_MTL_NORMAL)) {
+        bsdf = aur_node_object(nodes, bsdf, "bsdf", "normalmap");
+        add_texture(nodes, bsdf, material, &(use){AUR_MTL_NORMAL, "normalmap", "rgb", true, {1.0, 1.0, 1.0}});
+    }
+    bsdf = aur_node_object(nodes, bsdf, "bsdf", "principled");
+    add_base_color(nodes, bsdf, material, colored);
+    add_share(nodes, bsdf, material,
+              &(use){AUR_MTL_ROUGHNESS, "roughness", "red", true, {rough, rough, rough}});
+    add_share(nodes, bsdf, material, &(use){AUR_MTL_METAL, "metallic", "red", true, {metal, metal, metal}});
     if (!has_highlight(material))
-        aur_model_put(xml, "<float name=\"specular\" value=\"0\"/>");
-    aur_model_put(xml, "</bsdf></bsdf>%s%s\n", bent ? "</bsdf>" : "", masked ? "</bsdf>" : "");
+        aur_node_property(nodes, bsdf, "float", "specular", "0");
 }
 
 bool aur_mesh_material_emits(const aur_mtl_material *material) {
@@ -123,15 +132,9 @@ bool aur_mesh_material_emits(const aur_mtl_material *material) {
     return isnan(e[0]) ? has(material, AUR_MTL_EMISSION) : e[0] + e[1] + e[2] > 0.0;
 }
 
-void aur_mesh_material_put_emitter(const aur_mtl_material *material, FILE *xml) {
+void aur_mesh_material_add_emitter(const aur_mtl_material *material, aur_nodes *nodes, aur_xml_node *shape) {
     use radiance = {AUR_MTL_EMISSION, "radiance", "rgb", false, {0}};
     for (size_t i = 0; i < 3; ++i)
         radiance.factor[i] = or_else(material->emission[i], 1.0);
-    aur_model_put(xml, "<emitter type=\"area\">");
-    if (has(material, AUR_MTL_EMISSION))
-        put_texture(material, &radiance, xml);
-    else
-        aur_model_put(xml, "<rgb name=\"radiance\" value=\"%.9g %.9g %.9g\"/>", radiance.factor[0],
-                      radiance.factor[1], radiance.factor[2]);
-    aur_model_put(xml, "</emitter>");
+    add_color(nodes, aur_node_object(nodes, shape, "emitter", "area"), material, &radiance);
 }

@@ -1,17 +1,19 @@
 #include "render/scene/importers/model/mesh_model.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "points/base/array.h"
 #include "render/scene/importers/model/mesh_material.h"
 #include "render/scene/importers/model/surroundings.h"
-#include "render/scene/importers/model/xml_text.h"
 
 typedef struct mesh_model {
     const aur_model_source *source;
     aur_model_files *files;
+    aur_nodes *nodes;
+    aur_xml_node *parent;
     aur_error *error;
     aur_mesh_data data;
     aur_named_files named;
@@ -43,16 +45,16 @@ static bool has_colors(const aur_mesh_data *data, size_t *index) {
     return false;
 }
 
-static void put_shape(mesh_model *self, const char *type, const aur_mtl_material *material, bool colored,
-                      FILE *xml) {
-    aur_model_put(xml, "<shape type=\"%s\"><string name=\"filename\" value=\"*%zu\"/>\n", type,
-                  self->files->count - 1);
-    aur_mesh_material_put(material, colored, xml);
+static aur_result add_shape(mesh_model *self, const char *type, const aur_mtl_material *material,
+                            bool colored) {
+    aur_xml_node *const shape = aur_node_object(self->nodes, self->parent, "shape", type);
+    aur_node_property(self->nodes, shape, "string", "filename", "*%zu", self->files->count - 1);
+    aur_mesh_material_add(material, colored, self->nodes, shape);
     if (aur_mesh_material_emits(material)) {
-        aur_mesh_material_put_emitter(material, xml);
+        aur_mesh_material_add_emitter(material, self->nodes, shape);
         self->scene.emits = 1;
     }
-    aur_model_put(xml, "</shape>\n");
+    return self->nodes->result;
 }
 
 static aur_result fail_empty(const mesh_model *self) {
@@ -61,7 +63,7 @@ static aur_result fail_empty(const mesh_model *self) {
 
 /* --- PLY, STL and OFF: the file as it is */
 
-static aur_result write_whole(mesh_model *self, const char *type, FILE *xml) {
+static aur_result add_whole(mesh_model *self, const char *type) {
     const aur_model_source *const source = self->source;
     aur_mtl_material *const grey = aur_mtl_add(&self->library, "", 0);
     char *const bytes = malloc(source->size + 1);
@@ -72,9 +74,7 @@ static aur_result write_whole(mesh_model *self, const char *type, FILE *xml) {
         grey != NULL ? add_part(self, source->size, bytes) : aur_fail_memory(self->error);
     if (grey == NULL)
         free(bytes);
-    if (result == AUR_OK)
-        put_shape(self, type, grey, has_colors(&self->data, &index), xml);
-    return result;
+    return result == AUR_OK ? add_shape(self, type, grey, has_colors(&self->data, &index)) : result;
 }
 
 /* --- OBJ: a part for each material */
@@ -186,8 +186,7 @@ static char *write_ply(mesh_model *self, size_t count, const uint32_t *triangles
     return bytes;
 }
 
-static aur_result write_part(mesh_model *self, size_t material, size_t count, const uint32_t *triangles,
-                             FILE *xml) {
+static aur_result add_triangles(mesh_model *self, size_t material, size_t count, const uint32_t *triangles) {
     const char *const name =
         material < self->data.materials.count ? self->data.materials.items[material] : "";
     aur_mtl_material *found = aur_mtl_find(&self->library, name);
@@ -200,12 +199,10 @@ static aur_result write_part(mesh_model *self, size_t material, size_t count, co
     size_t size = 0, index;
     char *const bytes = write_ply(self, count, triangles, &size);
     result = add_part(self, size, bytes);
-    if (result == AUR_OK)
-        put_shape(self, "ply", found, has_colors(&self->data, &index), xml);
-    return result;
+    return result == AUR_OK ? add_shape(self, "ply", found, has_colors(&self->data, &index)) : result;
 }
 
-static aur_result write_parts(mesh_model *self, FILE *xml) {
+static aur_result add_parts(mesh_model *self) {
     const aur_mesh_data *const data = &self->data;
     size_t *const firsts = calloc(data->materials.count + 3, sizeof *firsts);
     uint32_t *const order = malloc((data->triangle_count + 1) * sizeof *order);
@@ -219,7 +216,7 @@ static aur_result write_parts(mesh_model *self, FILE *xml) {
         memset(self->numbers, 0xff, data->vertex_count * sizeof *self->numbers);
     for (size_t m = 0; m <= data->materials.count && result == AUR_OK; ++m)
         if (firsts[m + 1] > firsts[m])
-            result = write_part(self, m, firsts[m + 1] - firsts[m], &order[firsts[m]], xml);
+            result = add_triangles(self, m, firsts[m + 1] - firsts[m], &order[firsts[m]]);
     free(firsts);
     free(order);
     return result;
@@ -251,47 +248,41 @@ static void find_bounds(mesh_model *self) {
     }
 }
 
-static aur_result write_scene(mesh_model *self, aur_mesh_format format, FILE *xml) {
+static aur_result add_model(mesh_model *self, aur_mesh_format format) {
     static const char *const types[AUR_MESH_FORMAT_COUNT] = {"obj", "ply", "stl", "off"};
     aur_result result = AUR_OK;
     if (self->data.triangle_count == 0)
         return fail_empty(self);
     find_bounds(self);
-    aur_model_put(xml, "<scene version=\"3.0.0\">\n");
     if (format == AUR_MESH_OBJ) {
         result = read_libraries(self);
         if (result == AUR_OK)
-            result = write_parts(self, xml);
+            result = add_parts(self);
         warn_of_flaws(self);
     } else {
-        result = write_whole(self, types[format], xml);
+        result = add_whole(self, types[format]);
     }
     aur_named_warn(&self->named);
-    if (result == AUR_OK && self->source->alone)
-        aur_model_surround(self->source, &self->scene, xml);
-    aur_model_put(xml, "</scene>\n");
-    return result;
+    return result == AUR_OK && self->source->alone
+               ? aur_model_surround(self->source, &self->scene, self->nodes, self->parent)
+               : result;
 }
 
 aur_result aur_model_from_mesh(const aur_model_source *source, aur_mesh_format format, aur_model_files *files,
-                               char **xml, size_t *xml_size, aur_error *error) {
+                               aur_nodes *nodes, aur_xml_node *parent) {
     const aur_mesh_source mesh = {
         .path = source->location.file, .format = format, .size = source->size, .data = source->data};
-    mesh_model self = {.source = source, .files = files, .error = error, .named = {.source = source}};
-    aur_result result = aur_mesh_read(&mesh, &self.data, error);
+    mesh_model self = {.source = source,
+                       .files = files,
+                       .nodes = nodes,
+                       .parent = parent,
+                       .error = nodes->error,
+                       .named = {.source = source}};
+    aur_result result = aur_mesh_read(&mesh, &self.data, nodes->error);
     if (result != AUR_OK)
         return result;
     const aur_mesh_format told = aur_mesh_format_of_bytes(source->size, source->data);
-    FILE *const stream = open_memstream(xml, xml_size);
-    result = stream != NULL ? write_scene(&self, told < AUR_MESH_FORMAT_COUNT ? told : format, stream)
-                            : aur_fail_memory(error);
-    const bool written = stream != NULL && ferror(stream) == 0;
-    if (stream != NULL && (fclose(stream) != 0 || !written) && result == AUR_OK)
-        result = aur_fail_memory(error);
-    if (result != AUR_OK && stream != NULL) {
-        free(*xml);
-        *xml = NULL;
-    }
+    result = add_model(&self, told < AUR_MESH_FORMAT_COUNT ? told : format);
     free(self.numbers);
     free(self.used);
     aur_mtl_release(&self.library);

@@ -6,4 +6,4 @@
 
 /* Errors: FORMAT with the line, MEMORY, OPEN for a file that may not be read. */
 aur_result aur_model_from_mesh(const aur_model_source *source, aur_mesh_format format, aur_model_files *files,
-                               char **xml, size_t *xml_size, aur_error *error);
+                               aur_nodes *nodes, aur_xml_node *parent);

@@ -17,8 +17,15 @@ typedef enum aur_import_kind {
     AUR_IMPORT_PICTURE, /* a part: a picture file; asks whether it can be read: if not, it is no part */
     AUR_IMPORT_NOTE,    /* a warning */
     AUR_IMPORT_FAIL,    /* value: -result; a text for a person */
-    AUR_IMPORT_SCENE    /* an aur_import_scene, and the scene's XML up to its end tag; the last message */
+    AUR_IMPORT_SCENE    /* an aur_import_scene, and records of the scene's elements; the last message */
 } aur_import_kind;
+
+/* Elements are records: texts that begin with one of these characters and end with a zero byte. */
+enum {
+    AUR_IMPORT_ELEMENT = '<',   /* a tag: an element inside of those that are open, open until its END */
+    AUR_IMPORT_ATTRIBUTE = '=', /* a name, and its value in one more text */
+    AUR_IMPORT_END = '>'
+};
 
 typedef struct aur_import_header {
     uint32_t kind, value;

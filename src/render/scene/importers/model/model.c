@@ -35,12 +35,11 @@ const char *aur_model_light_name(aur_model_light light) {
     return (size_t)light < AUR_MODEL_LIGHT_COUNT ? light_names[light] : NULL;
 }
 
-aur_result aur_model_to_xml(const aur_model_source *source, aur_model_files *files, char **xml,
-                            size_t *xml_size, aur_error *error) {
-    *xml = NULL;
+aur_result aur_model_read(const aur_model_source *source, aur_model_files *files, aur_nodes *nodes,
+                          aur_xml_node *parent) {
     const aur_mesh_format format = aur_mesh_format_of_name(source->name);
-    return format < AUR_MESH_FORMAT_COUNT ? aur_model_from_mesh(source, format, files, xml, xml_size, error)
-                                          : aur_model_import(source, files, xml, xml_size, error);
+    return format < AUR_MESH_FORMAT_COUNT ? aur_model_from_mesh(source, format, files, nodes, parent)
+                                          : aur_model_import(source, files, nodes, parent);
 }
 
 const aur_model_file *aur_model_find_file(const aur_model_files *files, const char *filename) {

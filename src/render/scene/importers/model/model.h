@@ -1,5 +1,5 @@
-/* Models: scenes in other formats than XML. They are translated into XML and into files in memory: meshes as
- * PLY and the pictures that a model holds. OBJ, PLY, STL and OFF are read here (mesh_model.c), others by the
+/* Models: scenes in other formats than XML. They become elements of a tree and files in memory: meshes as PLY
+ * and the pictures that a model holds. OBJ, PLY, STL and OFF are read here (mesh_model.c), others by the
  * library assimp in a program (src/program/import) that is started for each. */
 #pragma once
 
@@ -8,9 +8,9 @@
 
 #include <aureole/scene.h>
 
-#include "points/base/error.h"
+#include "render/scene/importers/nodes/node.h"
 
-/* A file in memory. The XML names file i as "*i", and any ending. */
+/* A file in memory. Elements name file i as "*i", and any ending. */
 typedef struct aur_model_file {
     char *name; /* for messages */
     size_t size;
@@ -42,11 +42,11 @@ typedef struct aur_model_source {
 /* Whether a scene's file is a model, by the end of its name. */
 bool aur_model_is_name(const char *path);
 
-/* Translates one. *xml is malloc'ed. Errors: OPEN, FORMAT, MEMORY, CANCELLED; UNSUPPORTED where this build
- * cannot. */
-aur_result aur_model_to_xml(const aur_model_source *source, aur_model_files *files, char **xml,
-                            size_t *xml_size, aur_error *error);
+/* Adds a model's elements to `parent`, and its parts to `files`. Errors: OPEN, FORMAT, MEMORY, CANCELLED;
+ * UNSUPPORTED where this build cannot. */
+aur_result aur_model_read(const aur_model_source *source, aur_model_files *files, aur_nodes *nodes,
+                          aur_xml_node *parent);
 
-/* The file that an XML's `filename` stands for, or NULL. */
+/* The file that an element's `filename` stands for, or NULL. */
 const aur_model_file *aur_model_find_file(const aur_model_files *files, const char *filename);
 void aur_model_release_files(aur_model_files *files);

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "render/scene/importers/model/xml_text.h"
+#include "points/base/text.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -20,7 +20,7 @@ static double clamp(double value, double lower, double upper) {
 
 /* --- the camera */
 
-static void put_look(FILE *xml, const aur_import_camera *camera) {
+static void add_look(aur_nodes *nodes, aur_xml_node *to_world, const aur_import_camera *camera) {
     const double *const o = camera->origin, *const d = camera->direction;
     double up[3] = {camera->up[0], camera->up[1], camera->up[2]};
     /* What is upright along the view does not matter, but must be another direction. */
@@ -32,37 +32,55 @@ static void put_look(FILE *xml, const aur_import_camera *camera) {
     }
     /* At map coordinates a target one unit away would round the direction. */
     const double far = 1.0 + fabs(o[0]) + fabs(o[1]) + fabs(o[2]);
-    aur_model_put(
-        xml,
-        "<lookat origin=\"%.17g, %.17g, %.17g\" target=\"%.17g, %.17g, %.17g\" up=\"%.17g, %.17g, %.17g\"/>",
-        o[0], o[1], o[2], o[0] + far * d[0], o[1] + far * d[1], o[2] + far * d[2], up[0], up[1], up[2]);
+    const double target[3] = {o[0] + far * d[0], o[1] + far * d[1], o[2] + far * d[2]};
+    aur_xml_node *const look = aur_node_add(nodes, to_world, "lookat");
+    aur_node_set_numbers(nodes, look, "origin", 3, o);
+    aur_node_set_numbers(nodes, look, "target", 3, target);
+    aur_node_set_numbers(nodes, look, "up", 3, up);
 }
 
-static void put_sensor(FILE *xml, const aur_import_camera *camera) {
-    const double width = 960.0, ratio = camera->aspect > 0.0 ? camera->aspect : 4.0 / 3.0;
-    aur_model_put(
-        xml,
-        "<default name=\"integrator\" value=\"path\"/><default name=\"spp\" value=\"64\"/>"
-        "<default name=\"resx\" value=\"%.0f\"/><default name=\"resy\" value=\"%.0f\"/>"
-        "<default name=\"rfilter\" value=\"gaussian\"/><default name=\"max_depth\" value=\"-1\"/>\n"
-        "<integrator type=\"$integrator\"><integer name=\"max_depth\" value=\"$max_depth\"/></integrator>\n",
-        width, clamp(round(width / ratio), 1.0, 9600.0));
-    if (camera->half_width > 0.0)
-        aur_model_put(
-            xml,
-            "<sensor type=\"orthographic\"><transform name=\"to_world\"><scale x=\"%.17g\" y=\"%.17g\"/>",
-            camera->half_width, camera->half_width);
-    else
-        aur_model_put(xml,
-                      "<sensor type=\"perspective\"><string name=\"fov_axis\" value=\"%s\"/>"
-                      "<float name=\"fov\" value=\"%.17g\"/><transform name=\"to_world\">",
-                      camera->angle_is_vertical != 0 ? "y" : "x", clamp(camera->angle, 0.01, 179.0));
-    put_look(xml, camera);
-    aur_model_put(xml,
-                  "</transform>\n<sampler type=\"multijitter\"><integer name=\"sample_count\" "
-                  "value=\"$spp\"/></sampler>"
-                  "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$resx\"/>"
-                  "<integer name=\"height\" value=\"$resy\"/><rfilter type=\"$rfilter\"/></film></sensor>\n");
+/* A property whose value $name may give. */
+static void add_variable(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *property,
+                         const char *name, const char *otherwise) {
+    aur_node_property(nodes, parent, tag, property, "%s", aur_node_variable(nodes, name, otherwise));
+}
+
+static void add_integrator(aur_nodes *nodes, aur_xml_node *parent) {
+    aur_xml_node *const integrator =
+        aur_node_object(nodes, parent, "integrator", aur_node_variable(nodes, "integrator", "path"));
+    add_variable(nodes, integrator, "integer", "max_depth", "max_depth", "-1");
+}
+
+static void add_film(aur_nodes *nodes, aur_xml_node *sensor, double ratio) {
+    const double width = 960.0;
+    char height[32];
+    aur_format(height, sizeof height, "%.0f", clamp(round(width / ratio), 1.0, 9600.0));
+    aur_xml_node *const film = aur_node_object(nodes, sensor, "film", "hdrfilm");
+    add_variable(nodes, film, "integer", "width", "resx", "960");
+    add_variable(nodes, film, "integer", "height", "resy", height);
+    aur_node_object(nodes, film, "rfilter", aur_node_variable(nodes, "rfilter", "gaussian"));
+}
+
+static void add_sensor(aur_nodes *nodes, aur_xml_node *parent, const aur_import_camera *camera) {
+    const bool flat = camera->half_width > 0.0;
+    aur_xml_node *const sensor =
+        aur_node_object(nodes, parent, "sensor", flat ? "orthographic" : "perspective");
+    if (!flat) {
+        aur_node_property(nodes, sensor, "string", "fov_axis", "%s",
+                          camera->angle_is_vertical != 0 ? "y" : "x");
+        aur_node_property(nodes, sensor, "float", "fov", "%.17g", clamp(camera->angle, 0.01, 179.0));
+    }
+    aur_xml_node *const to_world = aur_node_add(nodes, sensor, "transform");
+    aur_node_set(nodes, to_world, "name", "to_world");
+    if (flat) {
+        aur_xml_node *const scale = aur_node_add(nodes, to_world, "scale");
+        aur_node_set_numbers(nodes, scale, "x", 1, &camera->half_width);
+        aur_node_set_numbers(nodes, scale, "y", 1, &camera->half_width);
+    }
+    add_look(nodes, to_world, camera);
+    add_variable(nodes, aur_node_object(nodes, sensor, "sampler", "multijitter"), "integer", "sample_count",
+                 "spp", "64");
+    add_film(nodes, sensor, camera->aspect > 0.0 ? camera->aspect : 4.0 / 3.0);
 }
 
 /* From the front, above and the right, so far away that all of a ball around the model is seen. */
@@ -84,42 +102,42 @@ static aur_import_camera place_camera(const aur_import_scene *scene, bool z_up) 
 /* --- light */
 
 /* Light from all sides, and more from above and the left: white is about 1 where that falls straight on. */
-static void put_lights(FILE *xml, bool z_up) {
-    aur_model_put(xml,
-                  "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.5\"/></emitter>\n"
-                  "<emitter type=\"directional\"><vector name=\"direction\" value=\"%s\"/>"
-                  "<rgb name=\"irradiance\" value=\"1.5\"/></emitter>\n",
-                  z_up ? "0.5 0.5 -1" : "0.5 -1 -0.5");
+static void add_lights(aur_nodes *nodes, aur_xml_node *parent, bool z_up) {
+    aur_node_property(nodes, aur_node_object(nodes, parent, "emitter", "constant"), "rgb", "radiance", "0.5");
+    aur_xml_node *const sun = aur_node_object(nodes, parent, "emitter", "directional");
+    aur_node_property(nodes, sun, "vector", "direction", z_up ? "0.5 0.5 -1" : "0.5 -1 -0.5");
+    aur_node_property(nodes, sun, "rgb", "irradiance", "1.5");
 }
 
-static void light(const aur_model_source *source, const aur_import_scene *scene, bool z_up, FILE *xml) {
+static void light(const aur_model_source *source, const aur_import_scene *scene, bool z_up, aur_nodes *nodes,
+                  aur_xml_node *parent) {
     const bool lit = scene->has_light != 0;
     if (source->light == AUR_MODEL_LIGHT_NONE || (source->light == AUR_MODEL_LIGHT_AUTO && lit))
         return;
-    put_lights(xml, z_up);
+    add_lights(nodes, parent, z_up);
     if (!lit)
         aur_warn_at(source->warnings, source->location,
                     "this model has no light source%s: it is lit from all sides, and from above and the left",
                     scene->emits != 0 ? " but surfaces that emit" : "");
 }
 
-void aur_model_surround(const aur_model_source *source, const aur_import_scene *scene, FILE *xml) {
-    if (!(scene->lower[0] <= scene->upper[0])) {
-        if (scene->camera.is_there != 0)
-            put_sensor(xml, &scene->camera);
-        return;
-    }
+aur_result aur_model_surround(const aur_model_source *source, const aur_import_scene *scene, aur_nodes *nodes,
+                              aur_xml_node *parent) {
+    const bool has_triangles = scene->lower[0] <= scene->upper[0];
+    if (scene->camera.is_there == 0 && !has_triangles)
+        return nodes->result;
     /* Most formats have y upwards, or assimp turns them so; those of engineers have z. */
     const char *const dot_at = strrchr(source->name, '.');
     const bool z_up = dot_at != NULL && strcasecmp(dot_at, ".stl") == 0;
-    if (scene->camera.is_there != 0) {
-        put_sensor(xml, &scene->camera);
-    } else {
-        const aur_import_camera camera = place_camera(scene, z_up);
-        put_sensor(xml, &camera);
+    const aur_import_camera camera = scene->camera.is_there != 0 ? scene->camera : place_camera(scene, z_up);
+    add_integrator(nodes, parent);
+    add_sensor(nodes, parent, &camera);
+    if (!has_triangles)
+        return nodes->result;
+    if (scene->camera.is_there == 0)
         aur_warn_at(source->warnings, source->location,
                     "this model has no camera: it is seen from (%.9g, %.9g, %.9g)", camera.origin[0],
                     camera.origin[1], camera.origin[2]);
-    }
-    light(source, scene, z_up, xml);
+    light(source, scene, z_up, nodes, parent);
+    return nodes->result;
 }

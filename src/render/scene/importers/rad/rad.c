@@ -147,7 +147,7 @@ static aur_result read_material(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material = {.name = item->name, .row = item->row, .id = self->scene->bsdf_count++};
     for (size_t i = 0; i < 3; ++i)
         material.radiance[i] = item->numbers[i];
-    result = item->row->write(self, item, &material);
+    result = item->row->add(self, item, &material);
     return result == AUR_OK ? add_material(self, material) : result;
 }
 
@@ -158,14 +158,6 @@ static aur_result fail_type(const aur_rad *self, aur_rad_word type) {
     name[length] = '\0';
     aur_names_hint((aur_names){AUR_RAD_ROWS, row_name, aur_rad_rows}, name, "''", hint);
     return aur_rad_fail(self, type.line, AUR_ERROR_UNSUPPORTED, "'%s' is not read%s", name, hint);
-}
-
-/* The XML stands on the same line. */
-static aur_result put_lines(aur_rad *self, size_t line) {
-    aur_result result = AUR_OK;
-    for (; result == AUR_OK && self->xml_line < line; ++self->xml_line)
-        result = aur_rad_put(self, "\n");
-    return result;
 }
 
 /* Notes what is not read, and goes on to the next thing. What refers to a thing that is not there may do so
@@ -211,8 +203,7 @@ static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
     if (item->string_count > 0 && !item->row->names_file)
         result = aur_rad_fail(self, item->strings[0].line, AUR_ERROR_UNSUPPORTED, "%s takes no strings",
                               item->row->name);
-    if (result == AUR_OK)
-        result = put_lines(self, item->modifier.line);
+    self->nodes->location.line = item->modifier.line;
     if (result == AUR_OK && item->row->material)
         result = read_material(self, item);
     if (item->row->material)
@@ -221,7 +212,7 @@ static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
         return result;
     const aur_rad_material *material = NULL;
     result = find_modifier(self, item->modifier, &material);
-    return result == AUR_OK ? item->row->write(self, item, material) : result;
+    return result == AUR_OK ? item->row->add(self, item, material) : result;
 }
 
 static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
@@ -248,6 +239,16 @@ static bool next_of_line(aur_rad *self, aur_rad_word *word) {
     return self->at < self->end && *self->at != '\n' && *self->at != '#' && aur_rad_next_word(self, word);
 }
 
+static aur_result add_file(aur_rad *self, aur_rad_word name, size_t index) {
+    const aur_result result = aur_rad_check_name(self, name);
+    if (result != AUR_OK)
+        return result;
+    if (!aur_array_reserve(&self->words, &self->word_capacity, index + 1, sizeof *self->words))
+        return aur_fail_memory(self->error);
+    self->words[index] = name;
+    return AUR_OK;
+}
+
 /* `!cat FILE ...` and `!xform [-n NAME] FILE`, the commands that only include files: `command` is the word
  * with the exclamation mark, `!` alone where a blank follows. */
 static aur_result read_command(aur_rad *self, aur_rad_word command) {
@@ -261,7 +262,7 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
                             "the command '%.*s' is not run, only cat and xform that include files: %s",
                             word.length > 40 ? 40 : (int)word.length, word.text, advice);
     size_t files = 0;
-    aur_result result = put_lines(self, command.line);
+    aur_result result = AUR_OK;
     while (result == AUR_OK && next_of_line(self, &word)) {
         if (moves && files == 0 && aur_rad_is_word(word, "-n")) { /* names of objects are not kept */
             next_of_line(self, &word);
@@ -272,20 +273,18 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
                                 "'%.*s' is not read after %s, which may only include files: %s",
                                 word.length > 40 ? 40 : (int)word.length, word.text, moves ? "xform" : "cat",
                                 advice);
-        result = aur_rad_put(self, "<include filename=\"");
-        if (result == AUR_OK)
-            result = aur_rad_put_quoted(self, word);
-        if (result == AUR_OK)
-            result = aur_rad_put(self, "\"/>");
-        ++files;
+        result = add_file(self, word, files++);
     }
+    self->nodes->location.line = command.line;
+    self->include_count = result == AUR_OK ? files : 0;
+    self->include_next = 0;
     return result != AUR_OK || files > 0 ? result
                                          : aur_rad_fail(self, command.line, AUR_ERROR_FORMAT,
                                                         "the file that is to be included is missing");
 }
 
-aur_result aur_rad_open(aur_rad_scene *scene, const char *path, size_t size, const char *data, aur_rad **rad,
-                        aur_error *error) {
+aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *parent, size_t size,
+                        const char *data, aur_rad **rad) {
     aur_rad *const self = *rad = calloc(1, sizeof *self);
     /* With a zero byte after it, at which numbers end. */
     char *const text = malloc(size + 1);
@@ -293,48 +292,42 @@ aur_result aur_rad_open(aur_rad_scene *scene, const char *path, size_t size, con
         free(self);
         free(text);
         *rad = NULL;
-        return aur_fail_memory(error);
+        return aur_fail_memory(nodes->error);
     }
     memcpy(text, data, size);
     text[size] = '\0';
     *self = (aur_rad){.scene = scene,
-                      .path = path,
+                      .nodes = nodes,
+                      .parent = parent,
                       .text = text,
                       .at = text,
                       .end = text + size,
                       .line = 1,
-                      .xml_line = 1,
-                      .error = error};
+                      .error = nodes->error};
     return AUR_OK;
 }
 
-aur_result aur_rad_next(aur_rad *self, const char **xml, size_t *size) {
+aur_result aur_rad_next(aur_rad *self, const char **included) {
     aur_rad_word word;
     aur_result result = AUR_OK;
-    bool includes = false;
-    self->xml_size = 0;
-    if (!self->begun)
-        result = aur_rad_put(self, "<scene version=\"3.0.0\">");
-    self->begun = true;
-    while (result == AUR_OK && !includes && aur_rad_next_word(self, &word)) {
-        const size_t before = self->xml_size;
-        includes = word.text[0] == '!';
-        result = includes ? read_command(self, word) : read_primitive(self, word);
-        if (includes && result == AUR_ERROR_UNSUPPORTED) {
+    while (result == AUR_OK && self->include_next == self->include_count && aur_rad_next_word(self, &word)) {
+        if (word.text[0] != '!') {
+            result = read_primitive(self, word);
+            continue;
+        }
+        result = read_command(self, word);
+        if (result == AUR_ERROR_UNSUPPORTED) {
             result = leave_out(self, result);
-            self->xml_size = before;
-            includes = false;
             while (next_of_line(self, &word))
                 continue;
         }
     }
-    if (result == AUR_OK && !includes && !self->ended) {
-        result = aur_rad_put(self, "</scene>");
-        self->ended = true;
-    }
-    *xml = self->xml;
-    *size = self->xml_size;
-    return result;
+    *included = NULL;
+    if (result != AUR_OK || self->include_next == self->include_count)
+        return result;
+    word = self->words[self->include_next++];
+    *included = aur_arena_copy(self->scene->arena, word.text, word.length);
+    return *included != NULL ? AUR_OK : aur_fail_memory(self->error);
 }
 
 void aur_rad_close(aur_rad *self) {
@@ -343,7 +336,6 @@ void aur_rad_close(aur_rad *self) {
     free(self->text);
     free(self->words);
     free(self->numbers);
-    free(self->xml);
     free(self);
 }
 

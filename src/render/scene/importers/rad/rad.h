@@ -3,8 +3,7 @@
 
 #include <stdbool.h>
 
-#include "points/base/arena.h"
-#include "points/base/error.h"
+#include "render/scene/importers/nodes/node.h"
 
 /* Whether a scene's file is one, by its name: .rad. */
 bool aur_rad_is_name(const char *path);
@@ -21,20 +20,21 @@ typedef struct aur_rad_scene {
 
 void aur_rad_scene_release(aur_rad_scene *scene);
 
-/* One file that becomes XML. */
+/* One file whose elements are added to a tree. */
 typedef struct aur_rad aur_rad;
 
-/* `path` and `error` must last until it is closed. Errors: MEMORY. */
-aur_result aur_rad_open(aur_rad_scene *scene, const char *path, size_t size, const char *data, aur_rad **rad,
-                        aur_error *error);
-/* The next piece of an XML scene in which every object stands on the line of its primitive; it is the
- * reader's. A piece ends behind the <include> elements of a command that includes files, so that these are
- * read before what comes after them and may use their materials; one of 0 bytes is none: the file has ended.
+/* Elements go to the end of `parent`; `nodes` must last until the file is closed, and its location names the
+ * file. Errors: MEMORY. */
+aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *parent, size_t size,
+                        const char *data, aur_rad **rad);
+/* Adds elements, each at the line of its primitive, up to the next command that includes a file, at
+ * nodes->location: *included is the file's name, in the scene's arena, and NULL at the end of this file.
+ * What is included must be read before the next call, which may use its materials.
  * Known are the surfaces polygon, sphere, bubble, cylinder, tube, ring, mesh (of an OBJ file) and source, the
  * materials plastic and metal without specularity, glass, light and glow, aliases, and the commands cat and
  * xform where they do nothing but include. Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong;
  * NAME for a modifier that is not defined above; MEMORY. What is well-formed and not known is noted in the
  * scene's `left_out` instead, so that all of it can be said at once; a material that no surface uses may be
  * of any kind. */
-aur_result aur_rad_next(aur_rad *rad, const char **xml, size_t *size);
+aur_result aur_rad_next(aur_rad *rad, const char **included);
 void aur_rad_close(aur_rad *rad); /* NULL is allowed */

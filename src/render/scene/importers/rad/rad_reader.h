@@ -25,7 +25,7 @@ typedef struct aur_rad_primitive {
 struct aur_rad_material {
     aur_rad_word name; /* its text is in the scene's arena */
     const aur_rad_row *row;
-    size_t id; /* m0, m1, ... of the XML */
+    size_t id; /* its <bsdf> is m0, m1, ... */
     double radiance[3];
     /* In the scene's arena, where the material is not supported: the error of the first surface that uses it.
      */
@@ -35,24 +35,24 @@ struct aur_rad_material {
 
 struct aur_rad {
     aur_rad_scene *scene;
-    const char *path, *at, *end;
+    aur_nodes *nodes;
+    aur_xml_node *parent;
+    const char *at, *end;
     char *text;
     size_t line;
     aur_rad_word *words;
     double *numbers;
     size_t word_capacity, number_capacity;
-    char *xml;
-    size_t xml_size, xml_capacity, xml_line;
-    bool begun, ended; /* the XML has its first tag, and its last one */
+    size_t include_count, include_next; /* words of a command: files that are still to be included */
     aur_error *error;
 };
 
-/* A kind of primitive: how many numbers it takes, and what writes it. */
+/* A kind of primitive: how many numbers it takes, and what adds it. */
 struct aur_rad_row {
     const char *name;
     size_t least, most; /* numbers */
     bool material, emits, names_file;
-    aur_result (*write)(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material);
+    aur_result (*add)(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material);
 };
 
 enum { AUR_RAD_ROWS = 13 };
@@ -67,9 +67,5 @@ aur_result aur_rad_fail(const aur_rad *self, size_t line, aur_result result, con
     AUR_PRINTF(4, 5);
 /* `word` stands where `what` must; where it is empty, the file has ended. */
 aur_result aur_rad_fail_end(const aur_rad *self, const char *what, aur_rad_word word);
-
-/* Write XML: text of 1023 bytes at most, numbers with blanks between them, a word as a part of an attribute
- * in which `$` would be a variable. Errors: MEMORY. */
-aur_result aur_rad_put(aur_rad *self, const char *format, ...) AUR_PRINTF(2, 3);
-aur_result aur_rad_put_numbers(aur_rad *self, size_t count, const double *numbers);
-aur_result aur_rad_put_quoted(aur_rad *self, aur_rad_word word);
+/* Errors: FORMAT for a file's name with control characters. */
+aur_result aur_rad_check_name(const aur_rad *self, aur_rad_word name);

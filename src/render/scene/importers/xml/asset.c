@@ -32,7 +32,7 @@ static bool folder_at(const aur_xml_document *document, const char *file, size_t
     if (index == 0)
         *at = folder_of(file);
     else if (index == 1)
-        *at = folder_of(document->root != NULL ? document->root->location.file : file);
+        *at = folder_of(document->tree.root != NULL ? document->tree.root->location.file : file);
     else if (index - 2 < document->folder_count)
         *at = (folder){strlen(document->folders[index - 2]), document->folders[index - 2]};
     return index <= document->folder_count + 2;
@@ -136,8 +136,8 @@ static bool is_allowed(const aur_xml_document *document, const char *path) {
 
 aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
                              aur_error *error) {
-    const char *const own_name = aur_arena_copy(&document->arena, name, strlen(name));
-    const char *const own_path = aur_arena_copy(&document->arena, path, strlen(path));
+    const char *const own_name = aur_arena_copy(&document->tree.arena, name, strlen(name));
+    const char *const own_path = aur_arena_copy(&document->tree.arena, path, strlen(path));
     if (own_name == NULL || own_path == NULL ||
         !aur_array_reserve(&document->files, &document->file_capacity, document->file_count + 1,
                            sizeof *document->files))

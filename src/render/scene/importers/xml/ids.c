@@ -15,19 +15,20 @@ static int compare_id_to_key(const void *key, const void *item) {
 }
 
 aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id) {
-    return document->id_count == 0
-               ? NULL
-               : bsearch(id, document->ids, document->id_count, sizeof *document->ids, compare_id_to_key);
+    return document->tree.id_count == 0 ? NULL
+                                        : bsearch(id, document->tree.ids, document->tree.id_count,
+                                                  sizeof *document->tree.ids, compare_id_to_key);
 }
 
 static aur_result sort_ids(const aur_xml_document *document, aur_error *error) {
-    if (document->id_count > 1)
-        qsort(document->ids, document->id_count, sizeof *document->ids, compare_ids);
-    for (size_t i = 1; i < document->id_count; ++i) {
-        const aur_location first = document->ids[i - 1].node->location;
-        if (strcmp(document->ids[i - 1].id, document->ids[i].id) == 0)
-            return aur_xml_fail(document->ids[i].node, error, "id '%s' is given twice, first at %s:%zu:%zu",
-                                document->ids[i].id, first.file, first.line, first.column);
+    if (document->tree.id_count > 1)
+        qsort(document->tree.ids, document->tree.id_count, sizeof *document->tree.ids, compare_ids);
+    for (size_t i = 1; i < document->tree.id_count; ++i) {
+        const aur_location first = document->tree.ids[i - 1].node->location;
+        if (strcmp(document->tree.ids[i - 1].id, document->tree.ids[i].id) == 0)
+            return aur_xml_fail(document->tree.ids[i].node, error,
+                                "id '%s' is given twice, first at %s:%zu:%zu", document->tree.ids[i].id,
+                                first.file, first.line, first.column);
     }
     return AUR_OK;
 }
@@ -39,12 +40,12 @@ static aur_xml_id *next_id(const aur_xml_document *document, const aur_xml_id *a
 
 /* Every alias on the way to an object is given that object, so that a chain of aliases is walked once. */
 static aur_result resolve_aliases(const aur_xml_document *document, aur_error *error) {
-    for (size_t i = 0; i < document->id_count; ++i) {
-        aur_xml_id *const first = &document->ids[i];
+    for (size_t i = 0; i < document->tree.id_count; ++i) {
+        aur_xml_id *const first = &document->tree.ids[i];
         const aur_xml_id *last = first;
         for (size_t hops = 0; strcmp(last->node->tag, "alias") == 0; ++hops) {
             const aur_xml_id *const next = next_id(document, last);
-            if (next == NULL || hops > document->id_count)
+            if (next == NULL || hops > document->tree.id_count)
                 return aur_fail_at(error, first->node->location, AUR_ERROR_NAME,
                                    "<alias>: there is no id '%s'", aur_xml_attribute_value(last->node, "id"));
             last = next;

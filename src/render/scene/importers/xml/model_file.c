@@ -25,19 +25,18 @@ static aur_result find_part(void *state, const char *name, char **used, char **p
 }
 
 aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_options *options, bool included,
-                              const char *path, size_t *size, const char *data, char **xml,
-                              aur_error *error) {
-    const char *const slash = strrchr(path, '/');
+                              size_t size, const char *data, aur_nodes *nodes, aur_xml_node *parent) {
+    const char *const path = nodes->location.file, *const slash = strrchr(path, '/');
     model_reading reading = {document, path};
     const aur_model_source source = {.name = slash != NULL ? slash + 1 : path,
-                                     .size = *size,
+                                     .size = size,
                                      .data = data,
                                      .alone = !included,
                                      .light = options->model_light,
                                      .warnings = &options->warnings,
                                      .progress = options->progress,
-                                     .location = {.file = path},
+                                     .location = nodes->location,
                                      .find = find_part,
                                      .state = &reading};
-    return aur_model_to_xml(&source, &document->model_files, xml, size, error);
+    return aur_model_read(&source, &document->model_files, nodes, parent);
 }

@@ -1,4 +1,4 @@
-/* Models as XML. */
+/* Models as scenes, or parts of them. */
 #pragma once
 
 #include "render/scene/importers/xml/xml.h"
@@ -7,7 +7,7 @@
  * name of a mesh that it is about. */
 bool aur_xml_is_model(const char *path, size_t size, const char *data);
 
-/* Translates the model of *size bytes into *xml, which is malloc'ed, of *size bytes, and the document's model
- * files. `included`: in a scene, which has a camera and lights of its own. */
+/* Adds a model's elements to `parent`, and its parts to the document's model files. `included`: in a scene,
+ * which has a camera and lights of its own. */
 aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_options *options, bool included,
-                              const char *path, size_t *size, const char *data, char **xml, aur_error *error);
+                              size_t size, const char *data, aur_nodes *nodes, aur_xml_node *parent);

@@ -10,9 +10,9 @@
 #include "points/base/file.h"
 #include "points/base/text.h"
 #include "points/base/words.h"
+#include "render/scene/importers/nodes/variables.h"
 #include "render/scene/importers/rad/rad.h"
 #include "render/scene/importers/xml/model_file.h"
-#include "render/scene/importers/xml/variables.h"
 
 /* A few kilobytes of includes that double each other must not become an endless scene, so that files and
  * their bytes have a limit. */
@@ -32,10 +32,9 @@ typedef struct reading {
 /* One file being parsed. */
 typedef struct file_reading {
     reading *shared;
-    XML_Parser expat;
+    XML_Parser expat; /* NULL: the file is no XML */
     const char *file;
-    bool from_rad;   /* the text has been made from one of Radiance's: only its lines are known */
-    bool from_model; /* from a model: no place is known */
+    bool from_rad; /* one of Radiance's, or included by one */
     size_t include_depth;
     bool legacy; /* version < 2 */
     aur_result result;
@@ -51,9 +50,8 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
 /* --- nodes and their attributes */
 
 static aur_location here(const file_reading *reader) {
-    const bool exact = !reader->from_rad && !reader->from_model;
-    return (aur_location){reader->file, reader->from_model ? 0 : XML_GetCurrentLineNumber(reader->expat),
-                          exact ? XML_GetCurrentColumnNumber(reader->expat) + 1 : 0};
+    return (aur_location){reader->file, XML_GetCurrentLineNumber(reader->expat),
+                          XML_GetCurrentColumnNumber(reader->expat) + 1};
 }
 
 /* "toWorld" to "to_world". */
@@ -70,19 +68,16 @@ static char *snake_case(aur_arena *arena, const char *name) {
 
 static aur_result make_node(file_reading *reader, const char *tag, const char **attributes,
                             aur_xml_node **made) {
-    aur_arena *const arena = &reader->shared->document->arena;
+    aur_xml_tree *const tree = &reader->shared->document->tree;
     aur_error *const error = reader->shared->error;
-    aur_xml_node *const node = *made = aur_arena_allocate(arena, sizeof *node);
     size_t count = 0;
     while (attributes[2 * count] != NULL)
         ++count;
-    if (node == NULL)
-        return aur_fail_memory(error);
     const bool look_at = reader->legacy && strcmp(tag, "lookAt") == 0;
-    node->tag = aur_arena_copy(arena, look_at ? "lookat" : tag, strlen(tag));
-    node->location = here(reader);
-    node->attributes = aur_arena_allocate(arena, (count + 1) * sizeof *node->attributes);
-    if (node->tag == NULL || node->attributes == NULL)
+    tag = aur_arena_copy(&tree->arena, look_at ? "lookat" : tag, strlen(tag));
+    aur_xml_node *const node = *made =
+        tag != NULL ? aur_xml_node_create(tree, tag, here(reader), count) : NULL;
+    if (node == NULL)
         return aur_fail_memory(error);
     for (size_t i = 0; i < count; ++i) {
         const char *const name = attributes[2 * i];
@@ -92,8 +87,8 @@ static aur_result make_node(file_reading *reader, const char *tag, const char **
         if (result != AUR_OK)
             return result;
         if (reader->legacy && strcmp(name, "name") == 0)
-            value = snake_case(arena, value);
-        node->attributes[i] = (aur_xml_attribute){aur_arena_copy(arena, name, strlen(name)), value};
+            value = snake_case(&tree->arena, value);
+        node->attributes[i] = (aur_xml_attribute){aur_arena_copy(&tree->arena, name, strlen(name)), value};
         if (node->attributes[i].name == NULL || value == NULL)
             return aur_fail_memory(error);
         node->attribute_count = i + 1;
@@ -102,13 +97,7 @@ static aur_result make_node(file_reading *reader, const char *tag, const char **
 }
 
 static aur_result add_id(reading *shared, const char *id, aur_xml_node *node) {
-    aur_xml_document *const document = shared->document;
-    if (!aur_array_reserve(&document->ids, &document->id_capacity, document->id_count + 1,
-                           sizeof *document->ids))
-        return aur_fail_memory(shared->error);
-    document->ids[document->id_count] = (aur_xml_id){id, node, document->id_count};
-    ++document->id_count;
-    return AUR_OK;
+    return aur_xml_tree_add_id(&shared->document->tree, id, node) ? AUR_OK : aur_fail_memory(shared->error);
 }
 
 /* --- elements that leave no node */
@@ -120,20 +109,24 @@ static aur_result do_default(file_reading *reader, aur_xml_node *node, aur_xml_n
                                      reader->shared->error);
 }
 
-static aur_result do_include(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
+static aur_result include(const file_reading *reader, aur_location location, const char *name,
+                          aur_xml_node *parent) {
     reading *const shared = reader->shared;
     if (reader->include_depth == DEEPEST_INCLUDE)
-        return aur_xml_fail(node, shared->error,
-                            "includes are nested deeper than %d: does a file include itself?",
-                            DEEPEST_INCLUDE);
+        return aur_fail_at(shared->error, location, AUR_ERROR_FORMAT,
+                           "includes are nested deeper than %d: does a file include itself?",
+                           DEEPEST_INCLUDE);
     char *path;
-    aur_result result = aur_xml_find_asset(shared->document, node->location,
-                                           aur_xml_attribute_value(node, "filename"), &path, shared->error);
+    aur_result result = aur_xml_find_asset(shared->document, location, name, &path, shared->error);
     if (result != AUR_OK)
         return result;
     result = read_file(shared, path, reader, parent);
     free(path);
     return result;
+}
+
+static aur_result do_include(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
+    return include(reader, node->location, aur_xml_attribute_value(node, "filename"), parent);
 }
 
 static aur_result do_path(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
@@ -144,7 +137,7 @@ static aur_result do_path(file_reading *reader, aur_xml_node *node, aur_xml_node
         document, node->location, aur_xml_attribute_value(node, "value"), &path, reader->shared->error);
     if (result != AUR_OK)
         return result;
-    const char *const copy = aur_arena_copy(&document->arena, path, strlen(path));
+    const char *const copy = aur_arena_copy(&document->tree.arena, path, strlen(path));
     free(path);
     if (copy == NULL || !aur_array_reserve(&document->folders, &document->folder_capacity,
                                            document->folder_count + 1, sizeof *document->folders))
@@ -219,7 +212,7 @@ static aur_result open_element(file_reading *reader, const char *tag, const char
             return aur_xml_fail(node, error, "<scene> must be the first element");
         reader->open[1] = reader->target != NULL ? reader->target : node;
         if (reader->target == NULL)
-            reader->shared->document->root = node;
+            reader->shared->document->tree.root = node;
         return AUR_OK;
     }
     for (size_t i = 0; i < sizeof directives / sizeof directives[0]; ++i) {
@@ -229,11 +222,7 @@ static aur_result open_element(file_reading *reader, const char *tag, const char
         return result == AUR_OK ? directives[i].act(reader, node, parent) : result;
     }
     reader->open[reader->depth] = node;
-    if (parent->last_child != NULL)
-        parent->last_child->next = node;
-    else
-        parent->first_child = node;
-    parent->last_child = node;
+    aur_xml_node_append(parent, node);
     const char *const id = aur_xml_attribute_value(node, "id");
     return id != NULL && strcmp(tag, "ref") != 0 ? add_id(reader->shared, id, node) : AUR_OK;
 }
@@ -270,12 +259,11 @@ static void XMLCALL on_text(void *user, const XML_Char *text, int length) {
                                     "text between elements: '%.*s'", length > 40 ? 40 : length, text));
 }
 
-/* `last`: nothing comes after it. */
-static aur_result parse(file_reading *reader, const char *data, size_t size, bool last) {
+static aur_result parse(file_reading *reader, const char *data, size_t size) {
     enum { CHUNK = 1 << 24 };
     do {
         const size_t piece = size < CHUNK ? size : CHUNK;
-        const enum XML_Status status = XML_Parse(reader->expat, data, (int)piece, last && piece == size);
+        const enum XML_Status status = XML_Parse(reader->expat, data, (int)piece, piece == size);
         if (reader->result != AUR_OK)
             return reader->result;
         if (status != XML_STATUS_OK)
@@ -287,34 +275,43 @@ static aur_result parse(file_reading *reader, const char *data, size_t size, boo
     return AUR_OK;
 }
 
-/* One of Radiance's files, piece by piece: what a piece includes is read before the next one is made. */
-static aur_result parse_rad(file_reading *reader, const char *path, const char *data, size_t size) {
+/* Where elements of a file that is no XML go: into the element that includes it, or a root of their own. */
+static aur_nodes begin_nodes(file_reading *reader, size_t line) {
     reading *const shared = reader->shared;
-    aur_rad *rad;
-    const char *xml;
-    aur_result result = aur_rad_open(&shared->rad, path, size, data, &rad, shared->error);
+    aur_nodes nodes = {.tree = &shared->document->tree,
+                       .variables = &shared->variables,
+                       .location = {.file = reader->file, .line = line},
+                       .error = shared->error};
+    if (reader->target == NULL)
+        reader->target = aur_node_add(&nodes, NULL, "scene");
+    return nodes;
+}
+
+/* One of Radiance's files: what it includes is read before its next line, which may use its materials. */
+static aur_result read_rad(file_reading *reader, const char *data, size_t size) {
+    reading *const shared = reader->shared;
+    aur_nodes nodes = begin_nodes(reader, 1);
+    aur_rad *rad = NULL;
+    const char *included = NULL;
+    aur_result result = nodes.result;
+    if (result == AUR_OK)
+        result = aur_rad_open(&shared->rad, &nodes, reader->target, size, data, &rad);
     do {
         if (result == AUR_OK)
-            result = aur_rad_next(rad, &xml, &size);
-        if (result == AUR_OK)
-            result = parse(reader, xml, size, size == 0);
-    } while (result == AUR_OK && size > 0);
+            result = aur_rad_next(rad, &included);
+        if (result == AUR_OK && included != NULL)
+            result = include(reader, nodes.location, included, reader->target);
+    } while (result == AUR_OK && included != NULL);
     aur_rad_close(rad);
     return result;
 }
 
-/* A model, whose XML nobody sees: its places mean nothing. */
-static aur_result parse_model(file_reading *reader, const char *path, const char *data, size_t size) {
-    const reading *const shared = reader->shared;
-    char *xml;
+static aur_result read_model(file_reading *reader, const char *data, size_t size) {
     const bool included = reader->include_depth > 0;
-    aur_result result = aur_xml_read_model(shared->document, shared->options, included, path, &size, data,
-                                           &xml, shared->error);
-    reader->from_model = true;
-    if (result == AUR_OK)
-        result = parse(reader, xml, size, true);
-    free(xml);
-    return result;
+    aur_nodes nodes = begin_nodes(reader, 0);
+    return nodes.result != AUR_OK ? nodes.result
+                                  : aur_xml_read_model(reader->shared->document, reader->shared->options,
+                                                       included, size, data, &nodes, reader->target);
 }
 
 /* XML begins with '<', after white space and a byte order mark; of UTF-16 that mark is enough. */
@@ -331,13 +328,21 @@ static bool may_be_xml(const char *path, const char *data, size_t size) {
     return mark == 2 || (at < size && data[at] == '<') || (dot != NULL && strcasecmp(dot, ".xml") == 0);
 }
 
-static aur_result parse_xml(file_reading *reader, const char *path, const char *data, size_t size) {
-    if (may_be_xml(path, data, size))
-        return parse(reader, data, size, true);
-    return aur_fail_at(
-        reader->shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
-        "unknown kind of file: expected a scene of XML, Radiance's .rad, or a model (.glb, .gltf, "
-        ".obj, .fbx, .dae, .stl, .ply, .off, .3ds)");
+static aur_result read_xml(file_reading *reader, const char *data, size_t size) {
+    if (!may_be_xml(reader->file, data, size))
+        return aur_fail_at(
+            reader->shared->error, (aur_location){.file = reader->file}, AUR_ERROR_FORMAT,
+            "unknown kind of file: expected a scene of XML, Radiance's .rad, or a model (.glb, .gltf, "
+            ".obj, .fbx, .dae, .stl, .ply, .off, .3ds)");
+    reader->expat = XML_ParserCreate(NULL);
+    if (reader->expat == NULL)
+        return aur_fail_memory(reader->shared->error);
+    XML_SetUserData(reader->expat, reader);
+    XML_SetElementHandler(reader->expat, on_start, on_end);
+    XML_SetCharacterDataHandler(reader->expat, on_text);
+    const aur_result result = parse(reader, data, size);
+    XML_ParserFree(reader->expat);
+    return result;
 }
 
 /* The scene's own files may be text in memory, and so are hashed at once. */
@@ -354,31 +359,26 @@ static aur_result note_scene(reading *shared, const char *path, size_t size, con
     return result;
 }
 
-/* `from` is the file that includes this one, or NULL; without a parser, the scene, and this is a further file
- * of it. */
+/* `from` is the file that includes this one; NULL: this is the scene; one that shares nothing: this is a
+ * further file of the scene. */
 static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
                             const file_reading *from, aur_xml_node *target) {
     file_reading reader = {.shared = shared,
-                           .expat = XML_ParserCreate(NULL),
                            .from_rad = aur_rad_is_name(path) || (from != NULL && from->from_rad),
-                           .file = aur_arena_copy(&shared->document->arena, path, strlen(path)),
+                           .file = aur_arena_copy(&shared->document->tree.arena, path, strlen(path)),
                            .include_depth = from != NULL ? from->include_depth + 1 : 0,
                            .legacy = from != NULL && from->legacy,
                            .target = target};
-    aur_result result = reader.expat != NULL && reader.file != NULL ? AUR_OK : aur_fail_memory(shared->error);
-    if (result == AUR_OK && (from == NULL || from->expat == NULL)) /* no other file names it */
-        result = note_scene(shared, path, size, data);
-    if (result == AUR_OK) {
-        XML_SetUserData(reader.expat, &reader);
-        XML_SetElementHandler(reader.expat, on_start, on_end);
-        XML_SetCharacterDataHandler(reader.expat, on_text);
-        result = aur_xml_is_model(path, size, data) ? parse_model(&reader, path, data, size)
-                 : reader.from_rad                  ? parse_rad(&reader, path, data, size)
-                                                    : parse_xml(&reader, path, data, size);
+    if (reader.file == NULL)
+        return aur_fail_memory(shared->error);
+    if (from == NULL || from->shared == NULL) { /* no other file names it */
+        const aur_result result = note_scene(shared, path, size, data);
+        if (result != AUR_OK)
+            return result;
     }
-    if (reader.expat != NULL)
-        XML_ParserFree(reader.expat);
-    return result;
+    return aur_xml_is_model(path, size, data) ? read_model(&reader, data, size)
+           : reader.from_rad                  ? read_rad(&reader, data, size)
+                                              : read_xml(&reader, data, size);
 }
 
 static aur_result read_file(reading *shared, const char *path, const file_reading *from,
@@ -400,7 +400,7 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
 /* A file more, as if the scene's own, `path`, included it at its end. */
 static aur_result read_further(reading *shared, const char *path, const char *further) {
     const file_reading from = {.file = path, .from_rad = aur_rad_is_name(path)};
-    return read_file(shared, further, &from, shared->document->root);
+    return read_file(shared, further, &from, shared->document->tree.root);
 }
 
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
@@ -408,13 +408,13 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
     aur_error unseen;
     error = error != NULL ? error : &unseen;
     *document = (aur_xml_document){0};
-    reading shared = {
-        .document = document,
-        .variables = {.arena = &document->arena},
-        .rad = {.arena = &document->arena, .warnings = &options->warnings, .left_out = &document->left_out},
-
-        .options = options,
-        .error = error};
+    reading shared = {.document = document,
+                      .variables = {.arena = &document->tree.arena},
+                      .rad = {.arena = &document->tree.arena,
+                              .warnings = &options->warnings,
+                              .left_out = &document->left_out},
+                      .options = options,
+                      .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
     if (result == AUR_OK && options->confine)
         result = aur_xml_confine(document, path, error);
@@ -437,11 +437,10 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
 }
 
 void aur_xml_release(aur_xml_document *document) {
-    free(document->ids);
     free(document->folders);
     free(document->files);
     free(document->confines);
     aur_model_release_files(&document->model_files);
-    aur_arena_release(&document->arena);
+    aur_xml_tree_release(&document->tree);
     *document = (aur_xml_document){0};
 }

@@ -8,37 +8,11 @@
 
 #include <aureole/scene.h>
 
-#include "points/base/arena.h"
-#include "points/base/error.h"
 #include "render/scene/importers/model/model.h"
+#include "render/scene/importers/nodes/node.h"
 
 #include <stdbool.h>
 #include <time.h>
-
-typedef struct aur_xml_attribute {
-    const char *name;
-    const char *value;
-} aur_xml_attribute;
-
-typedef enum aur_xml_state { AUR_XML_UNBUILT, AUR_XML_BUILDING, AUR_XML_BUILT } aur_xml_state;
-
-typedef struct aur_xml_node aur_xml_node;
-struct aur_xml_node {
-    const char *tag;
-    aur_location location;
-    size_t attribute_count;
-    aur_xml_attribute *attributes;
-    aur_xml_node *first_child, *last_child, *next;
-    /* The loader's: what the node has become. */
-    aur_xml_state state;
-    void *object;
-};
-
-typedef struct aur_xml_id {
-    const char *id;
-    aur_xml_node *node;
-    size_t order; /* in the files */
-} aur_xml_id;
 
 /* A file that was read: what it is called where it is named, where it was found, and a hash of its bytes, if
  * it was known at once; else when it was changed last, as known before it was read. */
@@ -50,12 +24,9 @@ typedef struct aur_xml_file {
 } aur_xml_file;
 
 typedef struct aur_xml_document {
-    aur_arena arena; /* holds the nodes and all texts */
-    aur_xml_node *root;
+    aur_xml_tree tree;
     size_t folder_count, folder_capacity;
-    const char **folders; /* of <path> */
-    size_t id_count, id_capacity;
-    aur_xml_id *ids;             /* sorted */
+    const char **folders;        /* of <path> */
     aur_model_files model_files; /* in memory: parts of models */
     size_t file_count, file_capacity;
     char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */
@@ -69,28 +40,6 @@ typedef struct aur_xml_document {
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
                         aur_xml_document *document, aur_error *error);
 void aur_xml_release(aur_xml_document *document);
-
-/* NULL when absent. */
-const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
-
-enum { AUR_XML_MOST_NAMES = 5 };
-
-/* What attributes an element may have; the first `required` of them must be given. */
-typedef struct aur_xml_rule {
-    const char *tag;
-    size_t required;
-    const char *names[AUR_XML_MOST_NAMES + 1]; /* ends with NULL */
-} aur_xml_rule;
-
-/* Errors: NAME for an attribute that the rule does not name, FORMAT for one that is missing. */
-aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur_error *error);
-
-/* A FORMAT error at the node. */
-aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) AUR_PRINTF(3, 4);
-
-/* An error for a tag that is none of the `count` known here. */
-aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
-                            aur_error *error);
 
 /* NULL when there is none. */
 aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);

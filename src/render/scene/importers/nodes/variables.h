@@ -27,6 +27,9 @@ aur_result aur_xml_variables_define(aur_xml_variables *variables, const aur_scen
 /* A <default>: ignored when the name has a value. */
 aur_result aur_xml_variables_default(aur_xml_variables *variables, const char *name, const char *value,
                                      aur_location location, aur_error *error);
+/* The value of a variable, which is given a default. *value is in the arena. Errors: MEMORY. */
+aur_result aur_xml_variables_get(aur_xml_variables *variables, const char *name, const char *otherwise,
+                                 aur_location location, const char **value, aur_error *error);
 /* `text` with every $name replaced, in the arena. Errors: NAME for a name that has no value, FORMAT when the
  * values of all texts are too long, MEMORY. */
 aur_result aur_xml_variables_substitute(aur_xml_variables *variables, const char *text, aur_location location,

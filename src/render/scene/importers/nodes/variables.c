@@ -1,4 +1,4 @@
-#include "render/scene/importers/xml/variables.h"
+#include "render/scene/importers/nodes/variables.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -57,6 +57,17 @@ aur_result aur_xml_variables_default(aur_xml_variables *variables, const char *n
     if (known == NULL)
         return add(variables, name, value, false, error);
     known->used = true;
+    return AUR_OK;
+}
+
+aur_result aur_xml_variables_get(aur_xml_variables *variables, const char *name, const char *otherwise,
+                                 aur_location location, const char **value, aur_error *error) {
+    const aur_result result = aur_xml_variables_default(variables, name, otherwise, location, error);
+    aur_xml_variable *const variable = find(variables, name);
+    if (result != AUR_OK)
+        return result;
+    variable->used = true;
+    *value = variable->value;
     return AUR_OK;
 }
 

@@ -1,0 +1,107 @@
+/* The tree of a scene's elements, as Mitsuba's XML names them, whatever file they come from: the XML reader
+ * (xml/), Radiance's (rad/) and those of models (model/) add nodes to it; the loader reads it. */
+#pragma once
+
+#include <stdbool.h>
+
+#include "points/base/arena.h"
+#include "points/base/error.h"
+#include "render/scene/importers/nodes/variables.h"
+
+typedef struct aur_xml_attribute {
+    const char *name;
+    const char *value;
+} aur_xml_attribute;
+
+typedef enum aur_xml_state { AUR_XML_UNBUILT, AUR_XML_BUILDING, AUR_XML_BUILT } aur_xml_state;
+
+typedef struct aur_xml_node aur_xml_node;
+struct aur_xml_node {
+    const char *tag;
+    aur_location location;
+    size_t attribute_count, attribute_capacity;
+    aur_xml_attribute *attributes;
+    aur_xml_node *first_child, *last_child, *next;
+    /* The loader's: what the node has become. */
+    aur_xml_state state;
+    void *object;
+};
+
+typedef struct aur_xml_id {
+    const char *id;
+    aur_xml_node *node;
+    size_t order; /* in the files */
+} aur_xml_id;
+
+typedef struct aur_xml_tree {
+    aur_arena arena; /* holds the nodes and all texts */
+    aur_xml_node *root;
+    size_t id_count, id_capacity;
+    aur_xml_id *ids; /* sorted when all files are read */
+} aur_xml_tree;
+
+void aur_xml_tree_release(aur_xml_tree *tree);
+
+/* --- reading */
+
+/* NULL when absent. */
+const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
+
+enum { AUR_XML_MOST_NAMES = 5 };
+
+/* What attributes an element may have; the first `required` of them must be given. */
+typedef struct aur_xml_rule {
+    const char *tag;
+    size_t required;
+    const char *names[AUR_XML_MOST_NAMES + 1]; /* ends with NULL */
+} aur_xml_rule;
+
+/* Errors: NAME for an attribute that the rule does not name, FORMAT for one that is missing. */
+aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur_error *error);
+
+/* A FORMAT error at the node. */
+aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) AUR_PRINTF(3, 4);
+
+/* An error for a tag that is none of the `count` known here. */
+aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
+                            aur_error *error);
+
+/* --- adding: pieces, for the XML reader. NULL and false: no memory. */
+
+/* A node outside of the tree, with room for attributes. `tag` must last as long as the tree. */
+aur_xml_node *aur_xml_node_create(aur_xml_tree *tree, const char *tag, aur_location location,
+                                  size_t attribute_capacity);
+void aur_xml_node_append(aur_xml_node *parent, aur_xml_node *node);
+bool aur_xml_tree_add_id(aur_xml_tree *tree, const char *id, aur_xml_node *node);
+
+/* --- adding: whole elements, for importers */
+
+/* Where and how an importer adds. After the first failure all functions do nothing and return NULL, and NULL
+ * nodes are allowed: check `result` at the end. Tags and names of attributes must last as long as the tree;
+ * values are copied, and $names in them are not replaced. */
+typedef struct aur_nodes {
+    aur_xml_tree *tree;
+    aur_xml_variables *variables;
+    aur_location location; /* of what is added next; the file's name lasts as long as the tree */
+    aur_result result;
+    aur_error *error;
+} aur_nodes;
+
+/* <tag> as the last child of `parent`, or the root where that is NULL. */
+aur_xml_node *aur_node_add(aur_nodes *nodes, aur_xml_node *parent, const char *tag);
+/* <tag type="..."> */
+aur_xml_node *aur_node_object(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *type);
+/* <tag name="..." value="..."> */
+void aur_node_property(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *name,
+                       const char *format, ...) AUR_PRINTF(5, 6);
+/* The same with `count` numbers, each with all digits of a double. */
+void aur_node_numbers(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *name, size_t count,
+                      const double *numbers);
+/* One more attribute; an `id` can be referred to. Numbers have a decimal point under every locale. Errors:
+ * FORMAT for more than three attributes. */
+void aur_node_set(aur_nodes *nodes, aur_xml_node *node, const char *name, const char *format, ...)
+    AUR_PRINTF(4, 5);
+void aur_node_set_numbers(aur_nodes *nodes, aur_xml_node *node, const char *name, size_t count,
+                          const double *numbers);
+/* The value of $name: that of -D, or of a <default> above, or else `otherwise`; NULL after a failure. */
+const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *otherwise);
