@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "experimental.h"
+#include "render/film/integrator.h"
+#include "render/occlusion/rays.h"
 
 enum { SIDE = 128, TILES = SIDE / AUR_TILE_SIZE * (SIDE / AUR_TILE_SIZE), SAMPLES = 64 };
 

@@ -9,7 +9,6 @@
 
 #include "bench.h"
 #include "error_pattern.h"
-#include "experimental.h"
 
 enum { SIDE = 96, QUICK_SIDE = 16, SAMPLES = 16, ERROR_PAIRS = 4 };
 

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #include "bench.h"
-#include "experimental.h"
+#include "points/base/parallel.h"
+#include "points/base/simd.h"
 
 /* A line a bench. */
 /* clang-format off */

@@ -3,8 +3,9 @@
 #include <aureole/sphere.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits.h"
+#include "points/base/random.h"
+#include "points/base/vector.h"
 
 typedef struct measure_context {
     const char *metric;

@@ -1,6 +1,7 @@
 /* What sharing work among threads costs: the same items on one thread and on all of them. */
-#include "experimental.h"
 #include "limits.h"
+#include "points/base/parallel.h"
+#include "points/base/random.h"
 
 enum { ITEMS = 256 };
 

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits.h"
 #include "recorder.h"
+#include "render/scene/scene.h"
 
 enum { WIDTH = 128, SAMPLES = 16, QUICK_WIDTH = 16, CAPACITY = 1 << 22 };
 

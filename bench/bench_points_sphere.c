@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits.h"
+#include "points/base/parallel.h"
 
 enum { SLICES = 16, ROUNDS = 8 };
 

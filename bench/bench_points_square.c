@@ -2,8 +2,10 @@
 #include <aureole/pointset.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits.h"
+#include "points/base/parallel.h"
+#include "points/base/random.h"
+#include "points/pointset/net_2d.h"
 
 /* A run on threads is long beside a time slice of a busy machine, whose end the other thread waits for. */
 enum { SLICES = 16, ROUNDS = 256 };

@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits.h"
 #include "recorder.h"
+#include "render/scene/scene.h"
 
 enum { PATHS = 1 << 15, QUICK_PATHS = 1 << 9, BOUNCES = 6, CAPACITY = PATHS * (BOUNCES + 1) * 2 };
 

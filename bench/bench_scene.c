@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits.h"
 #include "trace.h"
 

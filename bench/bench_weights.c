@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "bench.h"
-#include "experimental.h"
+#include "points/base/random.h"
+#include "points/quadrature/kernel.h"
 
 /* Samples, their densities made ready as a renderer keeps them, and room for what is computed. */
 typedef struct solve_context {

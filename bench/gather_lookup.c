@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "child.h"
-#include "experimental.h"
 #include "gather_rays.h"
+#include "render/photons/irradiance.h"
 
 enum { PHOTONS = 500000, QUICK_PHOTONS = 2000, WARM_QUERIES = 4096, CAPACITY = 64 };
 

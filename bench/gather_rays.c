@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include "child.h"
-#include "experimental.h"
 #include "heavy_box.h"
 #include "packet_recorder.h"
+#include "render/scene/scene.h"
 
 enum { SIDE = 256, QUICK_SIDE = 32, DIRECTIONS = 32, BUMPY_TRIANGLES = 500000, MANY_TRIANGLES = 1500000 };
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "experimental.h"
+#include "render/film/integrator.h"
 
 enum { WIDTH = 128, QUICK_WIDTH = 16, CHANNELS = 3, ROUNDS = 2 };
 

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "experimental.h"
+#include "points/base/vector.h"
 
 static const char scene_head[] =
     "<scene version=\"3.0.0\">\n"

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "limits_kernels.h"
+#include "points/base/simd.h"
 
 static const bench_kernels *kernels(void) {
     switch (aur_isa_available()) {

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "experimental.h"
 #include "limits.h"
 #include "trace.h"
 

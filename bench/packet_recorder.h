@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "experimental.h"
+#include "render/scene/embree.h"
 
 enum { BENCH_RECORDED_LANES = 16 };
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "experimental.h"
+#include "points/base/random.h"
 
 struct RTCRayHit bench_query(const aur_ray *ray) {
     struct RTCRayHit query = {.ray = {.org_x = ray->origin.x,

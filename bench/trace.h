@@ -2,7 +2,8 @@
  * at most 16. */
 #pragma once
 
-#include "experimental.h"
+#include "render/scene/embree.h"
+#include "render/scene/scene.h"
 
 enum { BENCH_PACKET_SIZE = 16 };
 

@@ -1,6 +1,6 @@
 /* The view factors of an empty room, wall by wall, in closed form: what a radiant balance begins with.
  *
- *     cc examples/room.c -laureole-render -laureole -lm -o room && ./room 5 4 2.5
+ *     cc examples/room.c -laureole-lighting -laureole-render -laureole -lm -o room && ./room 5 4 2.5
  *
  * Prints the matrix of floor, ceiling and four walls; its rows sum to 1, and area times factor is the same
  * both ways. A room with furniture is a mesh: `aureole viewfactors room.obj`, or aur_facets_load. */

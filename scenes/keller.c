@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "experimental.h"
 #include "make/sheet.h"
 #include "make/solids.h"
+#include "points/base/random.h"
 
 static const double gap = 0.002;
 

@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "experimental.h"
 #include "make/sheet.h"
 #include "make/teapot_patches.h"
 

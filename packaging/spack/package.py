@@ -10,6 +10,7 @@ class Aureole(CMakePackage):
     version("0.1.0")
 
     variant("render", default=False, description="the renderer and the program")
+    variant("lighting", default=True, when="+render", description="irradiance, daylight and view factors")
     variant("mpi", default=False, when="+render", description="work shared between processes")
     variant("shared", default=True, description="shared libraries")
 
@@ -34,6 +35,7 @@ class Aureole(CMakePackage):
             self.define("AUREOLE_PYTHON", False),
             self.define("AUREOLE_ASSIMP", False),
             self.define_from_variant("AUREOLE_RENDER", "render"),
+            self.define_from_variant("AUREOLE_LIGHTING", "lighting"),
             self.define_from_variant("AUREOLE_MPI", "mpi"),
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
         ]

@@ -1,4 +1,4 @@
-"""Pictures, view factors and irradiance by libaureole-render, which is loaded when it is first asked for."""
+"""Pictures, view factors and irradiance by libaureole-lighting and libaureole-render, which are loaded when they are first used."""
 
 from __future__ import annotations
 
@@ -19,12 +19,13 @@ Array = NDArray[np.float64]
 Picture = NDArray[np.float32]
 Path = Union[str, os.PathLike[str]]
 
-_NAME = "libaureole-render.so.0"
+_NAMES = "libaureole-lighting.so.0", "libaureole-render.so.0"  # the first loads the second
 _opened: dict[str, Bridge] = {}
 
 
 def render_library() -> str:
-    """Where libaureole-render was found.
+    """Where libaureole-lighting, which loads libaureole-render, was found; or libaureole-render alone, which has no view factors
+    and no irradiance.
 
     It is looked for in the file that the environment's AUREOLE_RENDER_LIBRARY names, in the package aureole-render, and
     where the system has its libraries. Raises ImportError, with what was tried, where there is none.
@@ -40,9 +41,9 @@ def _library() -> Bridge:
     package = importlib.util.find_spec("aureole_render")
     places = [named] if named else []
     if not named and package is not None and package.origin is not None:
-        places.append(str(pathlib.Path(package.origin).with_name(_NAME)))
+        places += [str(pathlib.Path(package.origin).with_name(name)) for name in _NAMES]
     if not named:
-        places.append(_NAME)
+        places += _NAMES
     tried = []
     for place in places:
         try:
@@ -58,9 +59,18 @@ def _library() -> Bridge:
         _opened[place] = bridge
         return bridge
     raise ImportError(
-        "pictures, view factors and irradiance need libaureole-render, which was not found: pip install aureole[render], or "
+        "pictures, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found: pip install aureole[render], or "
         "install the tree (cmake --install build/release), or name the file in AUREOLE_RENDER_LIBRARY; tried: " + "; ".join(tried)
     )
+
+
+def _lighting() -> Bridge:
+    library = _library()
+    try:
+        library.lib.aur_irradiance_estimate
+    except (AttributeError, ffi.error) as error:
+        raise ImportError(f"view factors and irradiance need libaureole-lighting: {error}") from None
+    return library
 
 
 class _Call(Call):
@@ -324,7 +334,7 @@ def viewfactors(
     `confidence` (0: 0.95) come; pairs that see each other wholly have closed forms unless `rays_only`, and the sky is found
     by `half_planes`, 0: three for two rays. Each row with its sky and back adds up to 1.
     """
-    library, texts, facets = _library(), Texts(), ffi.new("aur_facets **")
+    library, texts, facets = _lighting(), Texts(), ffi.new("aur_facets **")
     lib = library.lib
     with _Call(progress) as call:
         given = library.options(
@@ -354,7 +364,7 @@ def viewfactors(
 
 def view_factor_polygons(from_corners: ArrayLike, to_corners: ArrayLike) -> float:
     """The view factor from a plane convex polygon (n, 3) to another (m, 3), seen from their fronts (Sparrow 1963)."""
-    library, value = _library(), ffi.new("double *")
+    library, value = _lighting(), ffi.new("double *")
     first, second = rows(from_corners, 3, "from_corners"), rows(to_corners, 3, "to_corners")
     library.call(
         library.lib.aur_view_factor_polygons, len(first), library.input(first), len(second), library.input(second), value
@@ -389,7 +399,7 @@ def irradiance(
     luminance. `max_depth`: edges of a light path, 1 is light straight from lights and sky, 0: no limit. `reflected`: "paths",
     "map" (a photon map) or "radiosity", with `particles` of these. Without bias at a given number of directions.
     """
-    library, texts = _library(), Texts()
+    library, texts = _lighting(), Texts()
     lib = library.lib
     loaded, where, along = _scene(scene, definitions), rows(positions, 3, "positions"), rows(normals, 3, "normals")
     if len(where) != len(along):

@@ -1,6 +1,6 @@
 #include "noise.h"
 
-#include "experimental.h"
+#include "points/base/random.h"
 
 static double corner(int64_t x, int64_t y, int64_t z, double dx, double dy, double dz) {
     const uint64_t hash = aur_hash3((uint64_t)x, (uint64_t)y, (uint64_t)z);

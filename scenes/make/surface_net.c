@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "experimental.h"
+#include "points/base/parallel.h"
 
 enum { BLOCK = 8, CHUNK = 512 };
 

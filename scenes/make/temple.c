@@ -1,7 +1,7 @@
 /* The place of the ambient occlusion scene: a half circle of fluted columns on three steps, a floor of tiles
  * with open joints, a beam with teeth, and pebbles. Large and fine things side by side. */
-#include "experimental.h"
 #include "noise.h"
+#include "points/base/random.h"
 #include "product.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A room includes only its own headers and those of rooms below it; the program and the lab include public headers only, the
-# other tools of the tree (bench, makers of scenes) those and src/experimental.h. Tests and fuzz harnesses may look inside.
+# A room includes only its own headers and those of rooms below it; the program and the lab include public headers only, makers of
+# scenes those and points/base. Tests, fuzz harnesses and the bench, which takes single loops of the libraries apart, may look inside.
 set -u
 source_tree=$2
 # From the top floor to the ground; rooms on one line stand side by side and do not include each other. A room inside a
@@ -79,22 +79,19 @@ points/base
       sub(/.*#include "/, "", target)
       sub(/".*/, "", target)
       if (file ~ /^include\//) { bad("public headers include <aureole/...> only"); next }
-      if (file ~ /^(tests|fuzz)\//) {
+      if (file ~ /^(tests|fuzz|bench)\//) {
         # The harness of command lines reads them by the tables of the program.
         if (file == "fuzz/fuzz_options.c" && target ~ /^program\/cli\//) next
         if (file == "tests/program/cli/test_progress.c" && target == "program/cli/progress.h") next # arithmetic that needs no program
-        if (target ~ /^(program|lab|bench|scenes)\//) bad("tests run programs, and do not look into them")
+        if (target ~ /^(program|lab|scenes)\//) bad("tests and the bench run programs, and do not look into them")
         next
       }
-      if (file ~ /^(bench|lab|scenes)\//) {
+      if (file ~ /^(lab|scenes)\//) {
         inside = room_of(target)
-        if (inside != "" && !(inside == "program/lab" && file ~ /^lab\//)) bad("tools use <aureole/...> and experimental.h only")
-        if (target == "experimental.h" && file ~ /^lab\//) bad("the lab uses <aureole/...> only")
+        if (inside != "" && inside != (file ~ /^lab\// ? "program/lab" : "points/base")) bad("this is inside of the libraries")
         next
       }
       if (target ~ /^data\//) next # a table of numbers, made from the text file of its name
-      if (target == "experimental.h") { bad("experimental.h is for tools"); next }
-      if (file == "src/experimental.h") next
       sub(/^src\//, "", file)
       here = room_of(file)
       there = room_of(target)

@@ -24,7 +24,7 @@ nm -A $objects | sed -E 's|^.*CMakeFiles/([^/]*)\.dir/([^:]*)\.o:|\1 \2 |' |
                if (target == "") target = shared[part[3]]
                if (target != "" && target != part[2]) print part[2], target, part[3] } }' | sort -u >arrows.txt
 [ "$(wc -l <arrows.txt)" -gt 2000 ] || { echo "only $(wc -l <arrows.txt) arrows: the symbols were not read"; exit 1; }
-for part in src/program/cli/ src/program/lab/ src/points/base/ src/render/scene/ lab/ bench/; do
+for part in src/program/cli/ src/program/lab/ src/points/base/ src/render/scene/ src/lighting/viewfactors/ lab/ bench/; do
   grep -q "^$part" arrows.txt || { echo "no arrow from a file of $part: its symbols were not read"; exit 1; }
 done
 

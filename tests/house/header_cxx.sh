@@ -10,7 +10,7 @@ while read -r compiler standard program; do
   command -v "$compiler" >/dev/null || { echo "no $compiler here"; continue; }
   [ -n "$flags" ] && [ "$compiler" != g++ ] && continue # sanitizers are those of the compiler that built the libraries
   "$compiler" -std="$standard" -Wall -Wextra -Wpedantic -Wshadow -Werror $flags -I "$source_tree/include" \
-    "$source_tree/tests/house/header_cxx/$program.cpp" -o "$program" -L "$build" -laureole-render -laureole -Wl,-rpath,"$build" &&
+    "$source_tree/tests/house/header_cxx/$program.cpp" -o "$program" -L "$build" -laureole-lighting -laureole-render -laureole -Wl,-rpath,"$build" &&
     ./"$program" "$source_tree/scenes/cornell-box/cornell-box.xml" || { echo "$compiler -std=$standard $program"; status=1; }
 done <<'END'
 g++ c++17 points

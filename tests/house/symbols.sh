@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the libraries show: every function of the public headers, each in one library, in the version that stays or, where it is
-# experimental, in one of this release; besides those only private names of this release, and none twice. Programs that know the public headers alone and are linked with the two
-# libraries alone (calls/*.c) call every public function.
+# experimental, in one of this release; besides those only private names of this release, and none twice. Programs that know the
+# public headers alone and are linked with the libraries alone (calls/*.c) call every public function.
 set -u
 build=$(dirname "$1")
 source_tree=$2
@@ -9,10 +9,10 @@ source_tree=$2
 status=0
 bash "$source_tree/cmake/symbols.sh" "$source_tree"/include/aureole/*.h >public.txt
 [ "$(wc -l <public.txt)" -gt 100 ] || { echo "only $(wc -l <public.txt) public functions were read"; exit 1; }
-for library in aureole aureole-render; do
+for library in aureole aureole-render aureole-lighting; do
   nm -D --defined-only --with-symbol-versions "$build/lib$library.so" | awk '$2 != "A" { print $3 }' >"$library.txt"
 done
-cat aureole.txt aureole-render.txt >shown.txt
+cat aureole.txt aureole-render.txt aureole-lighting.txt >shown.txt
 bash "$source_tree/cmake/symbols.sh" --experimental "$source_tree"/include/aureole/*.h >experimental.txt
 [ "$(wc -l <experimental.txt)" -gt 50 ] || { echo "only $(wc -l <experimental.txt) experimental functions were read"; exit 1; }
 release=$(sed -nE 's/#define AUREOLE_VERSION_(MAJOR|MINOR|PATCH) //p' "$source_tree/include/aureole/version.h" | paste -sd.)
@@ -24,7 +24,12 @@ shown() {
 shown AUREOLE_0 stable.txt
 shown "AUREOLE_EXPERIMENTAL_$release" experimental.txt
 grep -vE "^aur_[a-z0-9_]+@@AUREOLE_(0|EXPERIMENTAL_$release|PRIVATE_$release)$" shown.txt && { echo "names that are not the libraries' own"; status=1; }
-sed 's/@.*//' shown.txt | sort | uniq -d | grep . && { echo "both libraries have these"; status=1; }
+sed 's/@.*//' shown.txt | sort | uniq -d | grep . && { echo "two libraries have these"; status=1; }
+
+# A private name is one that another library needs; points/base shows all of its names.
+nm -D --undefined-only "$build"/libaureole-{render,lighting}.so | awk '{ sub(/@.*/, "", $NF); print $NF }' | sort -u >needed.txt
+sed -n 's/@@AUREOLE_PRIVATE_.*//p' aureole-render.txt aureole-lighting.txt | sort | comm -23 - needed.txt | grep . &&
+  { echo "these are AUR_INTERNAL, and no other library needs them"; status=1; }
 
 # Besides them the program does, which is a client of the public headers too, and the tests of two rooms.
 while read -r name; do
@@ -36,7 +41,7 @@ cc=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
 flags=$(sed -n 's/^AUREOLE_SANITIZE:[^=]*=\([a-z][a-z,]*\)$/-fsanitize=\1/p' "$build/CMakeCache.txt")
 for program in core points light; do
   "$cc" -std=c17 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Werror $flags -I "$source_tree/include" \
-    "$source_tree/tests/house/calls/$program.c" -o "$program" -L "$build" -laureole-render -laureole -lm \
+    "$source_tree/tests/house/calls/$program.c" -o "$program" -L "$build" -laureole-lighting -laureole-render -laureole -lm \
     -Wl,-rpath,"$build" || exit 1
   ./"$program" || { echo "calls/$program.c failed"; status=1; }
 done

@@ -1,4 +1,4 @@
-"""render.py PROGRAM SOURCE_TREE: what needs libaureole-render."""
+"""render.py PROGRAM SOURCE_TREE: what needs libaureole-render and libaureole-lighting."""
 
 import pathlib
 import subprocess
@@ -112,7 +112,7 @@ class Render(unittest.TestCase):
     def test_tables(self):
         tables = aureole.render_tables()
         self.assertIn("max_depth", tables["integrator"]["path"].keys)
-        self.assertTrue(aureole.render_library().rsplit("/", 1)[-1].startswith("libaureole-render.so"))
+        self.assertTrue(aureole.render_library().rsplit("/", 1)[-1].startswith("libaureole-lighting.so"))
 
 
 unittest.main(argv=sys.argv[:1])

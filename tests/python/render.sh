@@ -2,7 +2,7 @@
 # Pictures, view factors and irradiance from Python: the bits that the program writes.
 set -u
 . "$2/tests/python/python.sh.inc"
-library=$build/libaureole-render.so
+library=$build/libaureole-lighting.so
 [ -e "$library" ] || { echo "skipped: the libraries are static"; exit 77; }
 AUREOLE_RENDER_LIBRARY=$library "${python[@]}" -W error "$source_tree/tests/python/render.py" "$1" "$source_tree" || exit 1
 
@@ -14,6 +14,19 @@ try:
     aureole.render("scene.xml")
 except ImportError as error:
     assert "AUREOLE_RENDER_LIBRARY" in str(error) and "./none.so" in str(error), error
+else:
+    raise SystemExit("no error")
+PYTHON
+
+# By the renderer alone there are pictures, and the error names the library that light needs.
+AUREOLE_RENDER_LIBRARY=$build/libaureole-render.so "${python[@]}" - "$source_tree" <<'PYTHON' || exit 1
+import sys
+import aureole
+assert aureole.render(sys.argv[1] + "/scenes/cornell-box/cornell-box.xml", width=4, spp=1).shape == (4, 4, 3)
+try:
+    aureole.viewfactors("room.obj")
+except ImportError as error:
+    assert "libaureole-lighting" in str(error), error
 else:
     raise SystemExit("no error")
 PYTHON

@@ -5,6 +5,8 @@
 #include <aureole/core.h>
 #include <stdbool.h>
 
+#include "points/base/internal.h"
+
 /* Does item `index` of the work. Called from several threads at once, each index once. */
 typedef aur_result (*aur_parallel_function)(void *context, size_t index);
 
@@ -51,7 +53,7 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
 /* Rays that this thread has traced (render/scene/embree.h), and that others have in loops which it has run.
  * What a piece of work has traced is the difference between its end and its beginning, on the thread that
  * began it: threads, ranks and callbacks do not change it. */
-extern AUR_EXPERIMENTAL _Thread_local uint64_t aur_rays_traced __attribute__((tls_model("initial-exec")));
+extern AUR_INTERNAL _Thread_local uint64_t aur_rays_traced __attribute__((tls_model("initial-exec")));
 
 /* Calls a progress callback, from wherever the work is; true: it asks the work to stop. Whatever the callback
  * calls in the library is work of its own, as if it were called outside of all items. */

@@ -27,11 +27,11 @@ typedef struct aur_kernel_rule {
 } aur_kernel_rule;
 
 /* `smoothness` must be in the range of aur_check_smoothness. */
-AUR_EXPERIMENTAL aur_kernel_rule aur_kernel_rule_make(double smoothness);
+aur_kernel_rule aur_kernel_rule_make(double smoothness);
 
 /* row[j] = K(point, columns[j]), 0 <= j < count. The same bits on every instruction set. */
-AUR_EXPERIMENTAL void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count,
-                                     aur_columns columns, double *row);
+void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
+                    double *row);
 
 /* sum of weights[j] K(point, columns[j]), in an order that depends on count only. */
 double aur_kernel_sum(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
@@ -41,7 +41,7 @@ double aur_kernel_sum(const aur_kernel_rule *rule, const double point[3], size_t
 void aur_kernel_coefficients(double smoothness, size_t count, double *coefficients);
 
 /* Splits count x,y,z triples into x[count], y[count], z[count] at `storage` (3 * count). */
-AUR_EXPERIMENTAL aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
+aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
 
 /* The row for smoothness 3/2, once for each instruction set: entered through aur_kernel_row only. */
 void aur_kernel_row_portable(double top, const double point[3], size_t count, aur_columns columns,

@@ -5,6 +5,7 @@
 #include <aureole/sphere.h>
 #include <stdbool.h>
 
+#include "points/base/internal.h"
 #include "points/pointset/sets.h"
 
 /* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and
@@ -54,7 +55,7 @@ enum {
 #undef AUR_ONE_MORE
 
 /* Of all sets; for the table of samplers, too, in the other library. */
-AUR_EXPERIMENTAL extern const aur_row *const aur_set_rows[AUR_SET_COUNT];
+extern AUR_INTERNAL const aur_row *const aur_set_rows[AUR_SET_COUNT];
 
 /* The native set that a SET's text names, or NULL. */
 const aur_native_set *aur_native_find(const char *set);
@@ -67,6 +68,6 @@ aur_result aur_set_check_name(const char *set, aur_error *error);
 /* Whether a SET's text is file:PATH, whose path starts at set + 5. */
 bool aur_set_is_file(const char *set);
 /* Whether the points of a rule are not all worth the same. */
-AUR_EXPERIMENTAL bool aur_directions_weighted(const aur_directions *directions);
+AUR_INTERNAL bool aur_directions_weighted(const aur_directions *directions);
 
 extern const aur_table aur_set_table;

@@ -3,6 +3,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 
+#include "points/base/internal.h"
 #include "points/base/ranks.h"
 
 enum { TAG = 1 };
@@ -59,7 +60,7 @@ static void end_all(void *state, int status) {
     MPI_Abort(MPI_COMM_WORLD, status);
 }
 
-AUR_API aur_result aur_carrier_open(aur_carrier *carrier, aur_error *error);
+AUR_INTERNAL aur_result aur_carrier_open(aur_carrier *carrier, aur_error *error);
 
 aur_result aur_carrier_open(aur_carrier *carrier, aur_error *error) {
     int given = 0, rank = 0, count = 0;

@@ -106,7 +106,7 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
             }
 }
 
-AUR_EXPERIMENTAL aur_integrator_factory aur_integrator_create;
+aur_integrator_factory aur_integrator_create;
 /* Whether the parameters name an integrator and its keys can be read: what aur_integrator_create asks first.
  */
 aur_result aur_integrator_check(aur_parameters *parameters, aur_error *error);

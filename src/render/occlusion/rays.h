@@ -31,8 +31,8 @@ typedef struct aur_occlusion_places {
 } aur_occlusion_places;
 
 /* Sample `index` of every pixel of the tile whose corner is (x, y). */
-AUR_EXPERIMENTAL void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,
-                                                aur_occlusion_places *places);
+void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,
+                               aur_occlusion_places *places);
 
 /* Called with each packet of the tile's rays in a fixed order; lane k is place first_place + k. */
 typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_embree_order order,
@@ -40,6 +40,5 @@ typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_emb
 
 /* Makes the rays of sample `index` from its places and hands them on; returns how many directions a place
  * has. */
-AUR_EXPERIMENTAL size_t aur_occlusion_visit(const aur_occlusion *occlusion,
-                                            const aur_occlusion_places *places, size_t x, size_t y,
-                                            uint32_t index, aur_occlusion_visitor visit, void *context);
+size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_places *places, size_t x,
+                           size_t y, uint32_t index, aur_occlusion_visitor visit, void *context);

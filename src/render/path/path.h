@@ -2,6 +2,7 @@
  * lockstep (path_group.c, with its arithmetic in path_lanes*), for the pixels of a tile (path_tile.c). */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/film/integrator.h"
 #include "render/path/path_lanes.h"
 #include "render/trace/shape_class.h"
@@ -23,7 +24,7 @@ typedef struct aur_path {
     const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
 } aur_path;
 
-aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
+AUR_INTERNAL aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
 /* Radiance along one camera ray. `seen`: what of it lights send straight, where that is known; or NULL. */
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
                              const aur_vector *seen, aur_counters *counters);

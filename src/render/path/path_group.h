@@ -3,6 +3,7 @@
  * they are of: sixteen pixels (path_tile.c), or sixteen randomisations of a sensor. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/path/path.h"
 #include "render/trace/lanes.h"
 
@@ -40,19 +41,20 @@ typedef struct aur_path_group {
 } aur_path_group;
 
 /* What all groups of a scene share; `group` is zero. */
-void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const aur_sampler *sampler,
-                            aur_path_group *group);
+AUR_INTERNAL void aur_path_group_prepare(const aur_path *data, const aur_scene *scene,
+                                         const aur_sampler *sampler, aur_path_group *group);
 
 /* One bounce, the first has depth 1. To begin, `packet` has the rays of the lanes in `alive`, whose
  * throughputs and sums are set, and their `from` and `pdf` unless they are in `specular`; `pixels` and
  * `index` say which numbers they take. Adds the light that the rays meet, and keeps the lanes that meet a
  * surface. */
-void aur_path_group_meet(aur_path_group *group, uint32_t depth);
+AUR_INTERNAL void aur_path_group_meet(aur_path_group *group, uint32_t depth);
 /* Adds direct light at the surfaces that aur_path_group_meet has found, and makes the next rays. */
-void aur_path_group_scatter(aur_path_group *group, uint32_t depth);
+AUR_INTERNAL void aur_path_group_scatter(aur_path_group *group, uint32_t depth);
 /* What panes leave of the light along the shadow ray of a lane, which ended at `farthest` before something
  * was found on it: 0 unless data->panes is set and all that is there is panes, no more of them than paths
  * that have met `depth` surfaces may meet. */
-aur_vector aur_path_group_passed(const aur_path_group *group, size_t lane, float farthest, uint32_t depth);
+AUR_INTERNAL aur_vector aur_path_group_passed(const aur_path_group *group, size_t lane, float farthest,
+                                              uint32_t depth);
 /* Both, from bounce `depth` until all paths have ended. */
-void aur_path_group_trace(aur_path_group *group, uint32_t depth);
+AUR_INTERNAL void aur_path_group_trace(aur_path_group *group, uint32_t depth);

@@ -2,6 +2,7 @@
  * density estimate is made while a picture is rendered (after Christensen 1999). */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/photons/photon_map.h"
 #include "render/photons/texels.h"
 
@@ -34,10 +35,10 @@ typedef struct aur_irradiance_map_options {
     double photons_a_texel; /* on average, at least 1 */
 } aur_irradiance_map_options;
 
-AUR_EXPERIMENTAL aur_result aur_irradiance_map_create(const aur_scene *scene,
-                                                      const aur_irradiance_map_options *options,
-                                                      aur_irradiance_map **map, aur_error *error);
-AUR_EXPERIMENTAL void aur_irradiance_map_destroy(aur_irradiance_map *map);
+AUR_INTERNAL aur_result aur_irradiance_map_create(const aur_scene *scene,
+                                                  const aur_irradiance_map_options *options,
+                                                  aur_irradiance_map **map, aur_error *error);
+AUR_INTERNAL void aur_irradiance_map_destroy(aur_irradiance_map *map);
 
 /* The light on a triangle at a hit's barycentric u, v. */
 static inline const aur_texel_light *
@@ -54,5 +55,6 @@ typedef struct aur_texel_view {
 
 /* Radiance that leaves the surface of a hit towards `view` (world, unit): its irradiance times albedo / pi,
  * and the cos^m lobes over the texel's photons. Emission and other lobes are no part of it. */
-aur_texel_view aur_irradiance_view(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
-                                   const aur_surface *surface, aur_vector view);
+AUR_INTERNAL aur_texel_view aur_irradiance_view(const aur_irradiance_map *map, const aur_scene *scene,
+                                                const aur_hit *hit, const aur_surface *surface,
+                                                aur_vector view);

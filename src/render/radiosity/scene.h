@@ -3,6 +3,7 @@
  * those the backs of triangles that reflect on both sides. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/scene/scene.h"
 
 #define AUR_NO_PATCH UINT32_MAX
@@ -62,8 +63,8 @@ static inline aur_vector aur_radiosity_point(const aur_radiosity_triangle *trian
 }
 
 /* Diffuse albedo where a ray has met a triangle; `front`: on the side of the normal. */
-aur_vector aur_radiosity_albedo(const aur_radiosity_scene *scene, uint32_t triangle, bool front,
-                                const aur_ray *ray, const aur_hit *hit);
+AUR_INTERNAL aur_vector aur_radiosity_albedo(const aur_radiosity_scene *scene, uint32_t triangle, bool front,
+                                             const aur_ray *ray, const aur_hit *hit);
 /* Emitted radiance at a point of a light, with barycentric coordinates u, v. */
 aur_vector aur_radiosity_emitted(const aur_radiosity_scene *scene, uint32_t triangle, float u, float v);
 

@@ -2,6 +2,7 @@
  * randomisation. It is not changed by pictures and files; one call at a time may trace it further. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/radiosity/walk.h"
 
 struct aur_radiosity {
@@ -31,7 +32,7 @@ static inline uint64_t aur_radiosity_paths_of(const aur_radiosity *radiosity, si
 /* The power that a patch receives, RGB watts, over all randomisations. */
 void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]);
 /* That over pi and the patch's area: times the albedo it is the radiance that is reflected. */
-aur_vector aur_radiosity_exitance(const aur_radiosity *radiosity, size_t patch);
+AUR_INTERNAL aur_vector aur_radiosity_exitance(const aur_radiosity *radiosity, size_t patch);
 /* The standard error of the power; NaN with one randomisation. */
 void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]);
 /* Over all patches, in the unit of epsilon. */

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 
 #include "points/base/error.h"
+#include "points/base/internal.h"
 #include "points/base/random.h"
 
 typedef enum aur_sampler_kind {
@@ -31,9 +32,9 @@ typedef struct aur_sampler {
 } aur_sampler;
 
 /* `set` in SET syntax; `count` samples a pixel. */
-AUR_EXPERIMENTAL aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings,
-                                               aur_sampler **sampler, aur_error *error);
-AUR_EXPERIMENTAL void aur_sampler_destroy(aur_sampler *sampler);
+AUR_INTERNAL aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings,
+                                           aur_sampler **sampler, aur_error *error);
+AUR_INTERNAL void aur_sampler_destroy(aur_sampler *sampler);
 
 /* One sample's numbers. `pixel` is a hash of seed and pixel, `index` the sample's number there. */
 struct aur_stream {
@@ -47,7 +48,7 @@ void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]);
 /* The pairs first .. first + count - 1, faster than one by one, most of all AUR_STREAM_BLOCK at once. */
 void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]);
 /* One pair for sample `index` of `count` pixels, given by their hashes. */
-void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels, uint32_t index,
-                       uint32_t pair, float *u, float *v);
+AUR_INTERNAL void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels,
+                                    uint32_t index, uint32_t pair, float *u, float *v);
 /* A single number in [0,1), from a pair of its own. */
 float aur_stream_single(const aur_stream *stream, uint32_t pair);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "points/base/error.h"
+#include "points/base/internal.h"
 #include "points/base/vector.h"
 #include "render/scene/transform.h"
 
@@ -40,7 +41,7 @@ aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_p
 /* Exchanges inside and outside. */
 void aur_mesh_flip(aur_mesh *mesh);
 /* Normals at vertices: those of the triangles around, by their angle there (Thuermer and Wuethrich 1998). */
-aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error);
+AUR_INTERNAL aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error);
 /* Frees normals that are everywhere those of the triangles, but for rounding: what is flat has faster ways to
  * be rendered. */
 void aur_mesh_drop_flat_normals(aur_mesh *mesh);

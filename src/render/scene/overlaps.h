@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "points/base/error.h"
+#include "points/base/internal.h"
 
 /* Triangle `index` of the `count` that `context` knows, in any coordinates. */
 typedef struct aur_triangle_source {
@@ -33,6 +34,6 @@ typedef struct aur_overlaps {
  * floor, 1.2e-7 of it, which is the rounding of rays of floats, or with `doubles` the rounding of
  * coordinates. Plates whose fronts look at each other across an even gap do not overlap, however narrow it
  * is. What is narrower than 3e-6 of the larger extent does not count. Errors: MEMORY. */
-aur_result aur_overlaps_find(const aur_triangle_source *triangles, size_t threads, aur_overlaps *overlaps,
-                             aur_error *error);
-void aur_overlaps_release(aur_overlaps *overlaps);
+AUR_INTERNAL aur_result aur_overlaps_find(const aur_triangle_source *triangles, size_t threads,
+                                          aur_overlaps *overlaps, aur_error *error);
+AUR_INTERNAL void aur_overlaps_release(aur_overlaps *overlaps);

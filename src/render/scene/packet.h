@@ -6,6 +6,7 @@
  * in loops of 16. Lanes whose `valid` is 0 are not traced. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/scene/embree.h"
 #include "render/scene/scene.h"
 
@@ -17,7 +18,7 @@ typedef struct aur_packet {
 } aur_packet;
 
 /* No rays; what all rays share is set. Once a packet, however often it is refilled. */
-void aur_packet_clear(aur_packet *packet);
+AUR_INTERNAL void aur_packet_clear(aur_packet *packet);
 
 static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray *ray) {
     struct RTCRay16 *const rays = &packet->query.ray;
@@ -43,13 +44,15 @@ static inline aur_ray aur_packet_ray(const aur_packet *packet, size_t lane) {
 
 /* The nearest hits. Bit k of the result is set when the ray of lane k hits something; aur_packet_hit tells
  * what. A hit's distance takes the place of tfar, so tfar must be set again before the next call. */
-uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+AUR_INTERNAL uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order,
+                                            aur_packet *packet);
 /* The same by single rays: the oracle of packets, and their rival. */
 uint32_t aur_scene_intersect_each(const aur_scene *scene, aur_packet *packet);
-aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
+AUR_INTERNAL aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
 
 /* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */
-uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+AUR_INTERNAL uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order,
+                                           aur_packet *packet);
 /* The same by single rays; changes nothing. */
 uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packet);
 

@@ -3,6 +3,7 @@
 
 #include <aureole/scene.h>
 
+#include "points/base/internal.h"
 #include "points/base/keys.h"
 #include "render/scene/materials/bsdf.h"
 
@@ -39,13 +40,13 @@ typedef struct aur_surface {
 #define AUR_NO_EMITTER UINT32_MAX
 
 /* The nearest hit; false when there is none. */
-AUR_EXPERIMENTAL bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
+AUR_INTERNAL bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
 /* Whether anything lies on the ray, between its nearest and farthest distance. */
-bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
+AUR_INTERNAL bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 
 /* The surface at a hit. */
-AUR_EXPERIMENTAL void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit,
-                                        aur_surface *surface);
+AUR_INTERNAL void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit,
+                                    aur_surface *surface);
 
 /* How far rounding puts a point off a surface with this unit normal, and more, where all coordinates that it
  * is made of are within +-reach. A number x is rounded by u |x|, u = 2^-24, which along the axis d moves a
@@ -120,8 +121,8 @@ typedef struct aur_light_reference {
 /* Draws a point on a light: u[0] chooses the light in proportion to its power, u[1], u[2] the point, on
  * rectangles nearly in proportion to the cosine at the reference's normal. False when the scene has no light
  * or the point cannot be seen from there (pdf 0). */
-bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
-                             aur_light_sample *sample);
+AUR_INTERNAL bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference,
+                                          const float u[3], aur_light_sample *sample);
 bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
 /* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
 float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,
@@ -134,7 +135,7 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
  * (which points out of the scene), 0 without an environment; and the pdf with which aur_light_sample_direct
  * would draw that direction. */
 bool aur_scene_has_environment(const aur_scene *scene);
-aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction);
+AUR_INTERNAL aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction);
 float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction);
 /* Both at once. */
 aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, float *pdf);
@@ -144,7 +145,7 @@ aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, f
  * False when the scene has no light. */
 bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power);
 
-size_t aur_scene_emitter_count(const aur_scene *scene);
+AUR_INTERNAL size_t aur_scene_emitter_count(const aur_scene *scene);
 
 /* --- media */
 
@@ -162,7 +163,7 @@ void aur_surface_medium(const aur_scene *scene, const aur_surface *surface, aur_
  * bounds would have no sun. */
 float aur_light_reach(const aur_scene *scene, const aur_light_sample *sample, aur_vector reference);
 /* An UNSUPPORTED error where the scene has media, with the place of the first: "WHAT takes no media". */
-aur_result aur_scene_refuse_media(const aur_scene *scene, const char *what, aur_error *error);
+AUR_INTERNAL aur_result aur_scene_refuse_media(const aur_scene *scene, const char *what, aur_error *error);
 /* A warning there. */
 void aur_scene_warn_of_media(const aur_scene *scene, const char *what, const aur_warnings *warnings);
 
@@ -173,8 +174,8 @@ aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error);
 
 /* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the picture; width and
  * height are those of the picture being rendered. lens[2] in [0,1) for cameras that have one. */
-AUR_EXPERIMENTAL void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
-                                     const float lens[2], aur_ray *ray);
+void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
+                    const float lens[2], aur_ray *ray);
 
 /* Of cameras all whose rays begin at one point: that point, and where a direction from there is seen. */
 typedef struct aur_film_point {
@@ -200,14 +201,14 @@ void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const 
                      const float *lens_u, const float *lens_v, aur_camera_lanes *rays);
 
 /* Whether the camera's rays depend on `lens`. */
-AUR_EXPERIMENTAL bool aur_camera_has_lens(const aur_scene *scene);
+bool aur_camera_has_lens(const aur_scene *scene);
 
 /* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3),
  * mitchell (B = C = 1/3, radius 2). Samples are drawn in proportion to the filter's absolute value, so a
  * pixel is the plain mean of its samples times their aur_filter_weight in x and in y: 1 but for mitchell,
  * which falls below 0. */
 typedef struct aur_filter aur_filter;
-AUR_EXPERIMENTAL const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
+const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
 const char *aur_filter_name(const aur_filter *filter);
 /* The offset from the pixel's centre, in pixels, that u in [0,1) stands for. */
 float aur_filter_sample(const aur_filter *filter, float u);
@@ -239,7 +240,7 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene);
 
 /* All coordinates but those of what is read or written count from this point of the world, near which most of
  * the scene is: as floats they are as exact wherever it stands. `origin` lasts as long as the scene. */
-AUR_EXPERIMENTAL const double *aur_scene_origin(const aur_scene *scene);
+AUR_INTERNAL const double *aur_scene_origin(const aur_scene *scene);
 /* A point of the world in such coordinates. */
 static inline aur_vector aur_place_from(const double origin[3], const double point[3]) {
     return (aur_vector){(float)(point[0] - origin[0]), (float)(point[1] - origin[1]),
@@ -248,12 +249,12 @@ static inline aur_vector aur_place_from(const double origin[3], const double poi
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
 /* Embree's scene, for code that traces rays by itself: all shapes but those of groups, whose instances it
  * holds. */
-AUR_EXPERIMENTAL struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
+struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
 /* What Embree's devices are made with for so many primitives: one thread below a million, else as many as are
  * given, 0 for all that there are; and kernels for no wider instructions than aur_isa_of_rays(). */
 enum { AUR_EMBREE_CONFIGURATION_CAPACITY = 48 };
-AUR_EXPERIMENTAL void aur_embree_configuration(size_t primitives, size_t threads,
-                                               char text[AUR_EMBREE_CONFIGURATION_CAPACITY]);
+void aur_embree_configuration(size_t primitives, size_t threads,
+                              char text[AUR_EMBREE_CONFIGURATION_CAPACITY]);
 
 /* A triangle of a mesh, in world coordinates. */
 typedef struct aur_triangle {

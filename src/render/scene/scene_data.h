@@ -1,6 +1,7 @@
 /* What a loaded scene is made of. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/scene/distribution.h"
 #include "render/scene/emitter.h"
 #include "render/scene/filter.h"
@@ -90,8 +91,9 @@ struct aur_scene {
 
 /* As aur_scene_load or, with data, aur_scene_load_memory; but meshes keep their points in doubles, and no
  * warning is sent of overlaps. */
-aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data, aur_overlap_rule rule,
-                                      const aur_scene_options *options, aur_scene **scene, aur_error *error);
+AUR_INTERNAL aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data,
+                                                   aur_overlap_rule rule, const aur_scene_options *options,
+                                                   aur_scene **scene, aur_error *error);
 /* Builds the objects of the document into the empty scene (loader.c). */
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
 /* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */

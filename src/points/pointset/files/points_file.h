@@ -4,6 +4,8 @@
 #include <aureole/pointset.h>
 #include <stdbool.h>
 
+#include "points/base/internal.h"
+
 typedef struct aur_matrix {
     size_t row_count, column_count;
     double *values;   /* row by row; free with free() */
@@ -18,9 +20,9 @@ typedef struct aur_matrix {
 void aur_matrix_read_comment(aur_matrix *matrix, const char *text);
 
 /* `text` is changed and ends with a zero byte. `path` is for messages. */
-AUR_EXPERIMENTAL aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix,
-                                          aur_error *error);
-AUR_EXPERIMENTAL aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_matrix *matrix,
-                                          aur_error *error);
+AUR_INTERNAL aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix,
+                                      aur_error *error);
+AUR_INTERNAL aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_matrix *matrix,
+                                      aur_error *error);
 /* Whether the data begins as NPY files do. */
-AUR_EXPERIMENTAL int aur_npy_recognize(const char *data, size_t size);
+AUR_INTERNAL int aur_npy_recognize(const char *data, size_t size);

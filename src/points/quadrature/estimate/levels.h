@@ -6,6 +6,8 @@
 
 #include <aureole/statistics.h>
 
+#include "points/base/internal.h"
+
 typedef struct aur_levels {
     size_t replicates, values;
     double weight;
@@ -13,7 +15,7 @@ typedef struct aur_levels {
 } aur_levels;
 
 /* Adds one level: values of each replicate, found by `points` points. */
-AUR_EXPERIMENTAL void aur_levels_add(aur_levels *levels, size_t points, const double *values);
+AUR_INTERNAL void aur_levels_add(aur_levels *levels, size_t points, const double *values);
 
 /* The moments of value `index` over the randomisations. */
-AUR_EXPERIMENTAL aur_moments aur_levels_moments(const aur_levels *levels, size_t index);
+AUR_INTERNAL aur_moments aur_levels_moments(const aur_levels *levels, size_t index);

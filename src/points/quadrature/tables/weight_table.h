@@ -2,6 +2,7 @@
  * another layout need. A table does not change once it is built or read. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "points/base/vector.h"
 #include "points/quadrature/tables/oswa.h"
 
@@ -64,8 +65,8 @@ static inline float *aur_weight_table_row(const aur_weight_table *table, size_t 
 /* The row r at the lower end of where an angle (clamped to [0, pi/2]) lies; the weights there are (1 - *part)
  * times row r plus *part times row r + 1. `slot` must be in the table. Exported for the renderer, but no
  * part of the interface. */
-AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
-                                       float *part);
+AUR_INTERNAL size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
+                                            float *part);
 
 /* A table with patterns but neither pieces nor weights yet; `solves` as for aur_oswa_create_for. */
 aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_weight_table_grid *grid,
@@ -92,9 +93,10 @@ aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weigh
  * (points/base/cache_file.h), where it is left otherwise. Exported for the renderer, but no part of the
  * interface.
  */
-AUR_API aur_result aur_weight_table_find(const aur_oswa_options *options, const aur_weight_table_grid *grid,
-                                         size_t threads, const aur_progress *progress,
-                                         aur_weight_table **table, aur_error *error);
+AUR_INTERNAL aur_result aur_weight_table_find(const aur_oswa_options *options,
+                                              const aur_weight_table_grid *grid, size_t threads,
+                                              const aur_progress *progress, aur_weight_table **table,
+                                              aur_error *error);
 
 /* What a file ends with: of all that stands before it. */
 uint64_t aur_weight_table_check_sum(const char *data, size_t size);

@@ -2,6 +2,7 @@
  * coefficients. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "render/scene/lights/sun_position.h"
 #include "render/scene/scene.h"
 
@@ -15,6 +16,6 @@ typedef struct aur_open_sky {
 /* The radiance is 1 above the horizon and `ground` below. `up` and `north` all 0: those of the scene's sky;
  * where it has none, +z and +y for scenes of Radiance, else +y and -z. Errors: FORMAT (directions that are
  * 0 or lie along each other), MEMORY. */
-aur_result aur_open_sky_create(const aur_scene *scene, double ground, const double up[3],
-                               const double north[3], aur_open_sky *open, aur_error *error);
-void aur_open_sky_release(aur_open_sky *open); /* may be zero */
+AUR_INTERNAL aur_result aur_open_sky_create(const aur_scene *scene, double ground, const double up[3],
+                                            const double north[3], aur_open_sky *open, aur_error *error);
+AUR_INTERNAL void aur_open_sky_release(aur_open_sky *open); /* may be zero */

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "points/base/error.h"
+#include "points/base/internal.h"
 
 /* The radiance of a direction, but for a factor, is
  *
@@ -21,8 +22,8 @@ aur_sky_model aur_sky_model_cie(size_t type, const double sun[3]);
 aur_sky_model aur_sky_model_cie_of(const double coefficients[5], const double sun[3]);
 /* The same everywhere, and the CIE overcast sky (Moon and Spencer 1942): three times as bright at the zenith
  * as at the horizon. */
-aur_sky_model aur_sky_model_uniform(void);
-aur_sky_model aur_sky_model_overcast(void);
+AUR_INTERNAL aur_sky_model aur_sky_model_uniform(void);
+AUR_INTERNAL aur_sky_model aur_sky_model_overcast(void);
 
 /* What irradiances say of the weather, as the function below takes them: the clearness and brightness of
  * Perez, Seals and Michalsky (1993), equations (1) and (2), the latter held to 0.01 to 0.6; which of their
@@ -31,8 +32,8 @@ typedef struct aur_perez_conditions {
     double clearness, brightness, zenith;
     size_t category;
 } aur_perez_conditions;
-aur_perez_conditions aur_perez_conditions_of(double direct_normal, double diffuse_horizontal,
-                                             double extraterrestrial, const double sun[3]);
+AUR_INTERNAL aur_perez_conditions aur_perez_conditions_of(double direct_normal, double diffuse_horizontal,
+                                                          double extraterrestrial, const double sun[3]);
 
 /* The all-weather sky of Perez, Seals and Michalsky (1993), Solar Energy 50(3), 235-245, with the clearness
  * of their equation (1) and the brightness of (2), for the sun's irradiance on a plane that faces it, that of
@@ -40,16 +41,16 @@ aur_perez_conditions aur_perez_conditions_of(double direct_normal, double diffus
  * brightness is held to 0.01 to 0.6, and to 0.2 at least for clearness from 1.065 to 2.8, as its authors
  * advise. Where their b is above 0, which has no bound at the horizon and happens under a low sun in very
  * clear air, it is 0. */
-aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizontal, double extraterrestrial,
-                                  const double sun[3]);
+AUR_INTERNAL aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizontal,
+                                               double extraterrestrial, const double sun[3]);
 
 /* The formula above; `direction` is of unit length and not below the horizon. */
 double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3]);
 
 /* Its two factors, for those who evaluate one of them for many directions: by cos Z, and by chi in radians
  * with cos chi, which who has found the angle from it need not find again. */
-double aur_sky_model_gradation(const aur_sky_model *sky, double cosine);
-double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle, double along);
+AUR_INTERNAL double aur_sky_model_gradation(const aur_sky_model *sky, double cosine);
+AUR_INTERNAL double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle, double along);
 
 /* The irradiance of the sky on the horizontal plane: the integral of its radiance times cos Z, to 1e-10 of
  * it where the formula is nowhere below 0. */

@@ -1,6 +1,7 @@
 /* Where up, north and the sun are: keys that skies and suns share. */
 #pragma once
 
+#include "points/base/internal.h"
 #include "points/base/keys.h"
 #include "render/scene/transform.h"
 
@@ -38,14 +39,15 @@ typedef struct aur_sun_position {
 } aur_sun_position;
 
 /* The last day of a month, 1 to 12 (Gregorian). */
-unsigned aur_days_of_month(long year, unsigned month);
+AUR_INTERNAL unsigned aur_days_of_month(long year, unsigned month);
 /* Whole days from noon of the first of January 2000 to that of the date (Fliegel and Van Flandern 1968), or
  * false for a day that there is not, and for years before 1950 and after 2050. */
-bool aur_days_since_2000(long year, unsigned month, unsigned day, double *days);
+AUR_INTERNAL bool aur_days_since_2000(long year, unsigned month, unsigned day, double *days);
 /* The sun by east, north and up, at a time in days since noon of the first of January 2000 (UTC), of which
  * `hours` is the time of day; and how far it is, in its mean distances. Michalsky (1988): .01 degrees,
  * without refraction. */
-double aur_sun_locate(double days, double hours, double latitude, double longitude, double sun[3]);
+AUR_INTERNAL double aur_sun_locate(double days, double hours, double latitude, double longitude,
+                                   double sun[3]);
 
 /* Reads what the keys say. By date and time the position is that of Michalsky (1988), Solar Energy 40(3),
  * 227-235: to .01 degrees, without refraction. Errors: FORMAT (which key; both ways given; the sun below the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "points/base/error.h"
+#include "points/base/internal.h"
 #include "render/scene/importers/meshes/triangulate.h"
 
 typedef enum aur_mesh_format {
@@ -66,7 +67,7 @@ typedef struct aur_mesh_source {
 } aur_mesh_source;
 
 /* The format by the end of the name; COUNT for others. */
-aur_mesh_format aur_mesh_format_of_name(const char *path);
+AUR_INTERNAL aur_mesh_format aur_mesh_format_of_name(const char *path);
 /* The format by the first bytes; COUNT where they do not tell, as those of OBJ. */
 aur_mesh_format aur_mesh_format_of_bytes(size_t size, const char *data);
 
@@ -74,8 +75,8 @@ aur_mesh_format aur_mesh_format_of_bytes(size_t size, const char *data);
  * and those without area or with crossing outlines left out, as data->flaws says: the caller warns. Memory is
  * taken for what is there, not for what a header says. *data is empty after errors. Errors: FORMAT with the
  * line, or the byte of a binary file; MEMORY. */
-aur_result aur_mesh_read(const aur_mesh_source *source, aur_mesh_data *data, aur_error *error);
-void aur_mesh_data_release(aur_mesh_data *data);
+AUR_INTERNAL aur_result aur_mesh_read(const aur_mesh_source *source, aur_mesh_data *data, aur_error *error);
+AUR_INTERNAL void aur_mesh_data_release(aur_mesh_data *data);
 
 /* The face of a triangle, and the line of a face, 0 for none. */
 static inline size_t aur_mesh_face(const aur_mesh_data *data, size_t triangle) {
