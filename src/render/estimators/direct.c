@@ -49,39 +49,34 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 
 static aur_vector sample_light(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
                                const float u[3]) {
-    const aur_light_draws draws = {(float)data->emitter_samples, (float)data->bsdf_samples};
+    const aur_vertex_samples samples = {(float)data->emitter_samples, (float)data->bsdf_samples};
     aur_shadow shadow;
-    if (!aur_direct_light_choose(scene, shading, &draws, u, &shadow))
+    if (!aur_vertex_draw_light(scene, shading, AUR_VERTEX_ALL, samples, u, &shadow))
         return (aur_vector){0};
     return aur_scene_occluded(scene, &shadow.ray) ? (aur_vector){0} : shadow.radiance;
 }
 
 static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
                               const float u[3]) {
-    const aur_vector black = {0};
     aur_bsdf_sample sample;
-    if (!aur_shading_sample(shading, u, &sample))
-        return black;
+    if (!aur_vertex_direction(shading, AUR_VERTEX_ALL, u, &sample))
+        return (aur_vector){0};
+    const float count = (float)data->bsdf_samples;
+    const aur_bounce bounce = {aur_shading_reference(shading), count * sample.pdf,
+                               (float)data->emitter_samples, sample.specular};
     const aur_ray ray = aur_surface_ray(shading->surface, sample.light);
     aur_hit hit;
-    aur_vector light;
-    float rival;
-    if (aur_scene_intersect(scene, &ray, &hit)) {
-        aur_surface surface;
+    aur_surface surface;
+    const bool met = aur_scene_intersect(scene, &ray, &hit);
+    if (met)
         aur_scene_surface(scene, &ray, &hit, &surface);
-        light = aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
-        const aur_light_reference reference = aur_shading_reference(shading);
-        rival = aur_light_pdf_direct(scene, &reference, &surface);
-    } else {
-        light = aur_environment_light(scene, ray.direction, &rival);
-    }
-    if (aur_vector_is_zero(light))
-        return black;
-    const float count = (float)data->bsdf_samples;
-    const float weight = sample.specular
-                             ? 1.0f
-                             : aur_power_heuristic(count * sample.pdf, (float)data->emitter_samples * rival);
-    return aur_vector_scale(aur_vector_multiply(sample.weight, light), weight / count);
+    float light_pdf;
+    const aur_vector emission =
+        aur_vertex_emission(scene, &bounce, ray.direction, met ? &surface : NULL, &light_pdf);
+    if (aur_vector_is_zero(emission))
+        return (aur_vector){0};
+    return aur_vector_scale(aur_vector_multiply(sample.weight, emission),
+                            aur_bounce_weight(&bounce, light_pdf) / count);
 }
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,

@@ -28,8 +28,9 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
                 density = aur_gather_rule_density(&rule->rule, aur_vector_dot(lobe->axis, local)) *
                           rule->directions;
         }
-        const bool rivals = !light->delta && aur_gather_plan_gathers(plan, lobe);
-        sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);
+        const bool gathers = aur_gather_plan_gathers(plan, lobe);
+        sum = aur_vector_add_scaled(
+            sum, gathers ? aur_light_weight(light, AUR_VERTEX_ONE_EACH, density) : 1.0f, value);
     }
     return sum;
 }
@@ -38,7 +39,7 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
 static void add_lights(const aur_gather_places *places, aur_embree_order order,
                        const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums) {
     aur_packet *const packet = &sums->rays.packet;
-    aur_vector contribution[AUR_PACKET_SIZE];
+    aur_vector radiance[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
     aur_packet_empty(packet);
     for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
@@ -47,20 +48,19 @@ static void add_lights(const aur_gather_places *places, aur_embree_order order,
         const aur_light_sample *const light = &lights[lane];
         if (!(light->pdf > 0.0f))
             continue;
-        const aur_vector value = weighted_value(places->plan, place, light);
-        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light->radiance), 1.0f / light->pdf);
-        if (aur_vector_is_zero(contribution[lane]))
+        aur_shadow shadow;
+        if (!aur_vertex_shadow(&place->surface, light, weighted_value(places->plan, place, light), 1.0f,
+                               &shadow))
             continue;
-        float distance;
-        const aur_ray shadow = aur_surface_ray_to(&place->surface, light->position, &distance);
-        aur_packet_set(packet, lane, &shadow);
+        radiance[lane] = shadow.radiance;
+        aur_packet_set(packet, lane, &shadow.ray);
         aimed |= 1u << lane;
     }
     if (aimed == 0)
         return;
     const uint32_t lit = aimed & ~aur_gather_occluded(places->plan, order, packet);
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1)
-        aur_gather_add(sums, places, aur_first_lane(rest), contribution[aur_first_lane(rest)]);
+        aur_gather_add(sums, places, aur_first_lane(rest), radiance[aur_first_lane(rest)]);
 }
 
 void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {

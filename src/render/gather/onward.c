@@ -5,84 +5,16 @@
 #include "render/vertex/vertex.h"
 
 typedef struct onward_walk {
-    aur_vector sum, throughput;
-    aur_ray ray;
+    aur_walk path;
     uint64_t hash;
-    aur_light_reference from; /* the surface that the ray left, and the density of its direction there */
-    float pdf;
-    bool specular; /* no light sample could have found what the ray meets */
-    bool known;    /* the map has answered for the rest of the path, which had this sum then */
+    bool known; /* the map has answered for the rest of the path, which had this sum then */
     aur_vector known_sum;
 } onward_walk;
 
-/* BSDF * |cos| and the density of the whole BSDF's draws. `known_only`: of the lobes that a photon map
- * answers for, which are all but the specular and the sampled ones. */
-static aur_vector evaluate(const aur_shading *shading, bool known_only, aur_vector light, float *pdf) {
-    const aur_vector value = aur_shading_evaluate(shading, light, pdf);
-    const aur_surface *const surface = shading->surface;
-    if (!known_only || *pdf == 0.0f ||
-        (aur_bsdf_scatters(surface->bsdf, shading->view.z) & AUR_SCATTERS_SAMPLED) == 0)
-        return value;
-    float unused;
-    const aur_vector sampled =
-        aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view,
-                          aur_frame_to_local(&surface->frame, light), &unused);
-    return aur_vector_subtract(value, sampled);
-}
-
-/* The ray to a point on a light, and the light that comes along it if nothing lies between. */
-static bool reach_light(const aur_shading *shading, bool known_only, const aur_light_sample *light,
-                        aur_shadow *shadow) {
-    float pdf, distance;
-    if (!(light->pdf > 0.0f))
-        return false;
-    const aur_vector value = evaluate(shading, known_only, light->direction, &pdf);
-    if (aur_vector_is_zero(value))
-        return false;
-    shadow->ray = aur_surface_ray_to(shading->surface, light->position, &distance);
-    const float weight = (light->delta ? 1.0f : aur_power_heuristic(light->pdf, pdf)) / light->pdf;
-    shadow->radiance = aur_vector_scale(aur_vector_multiply(value, light->radiance), weight);
-    return true;
-}
-
-/* A direction by the BSDF; false where the path ends. */
-static bool scatter(const aur_shading *shading, bool known_only, onward_walk *walk) {
-    float u[3];
-    aur_bsdf_sample drawn;
-    aur_draw_units(&walk->hash, u);
-    if (!aur_shading_sample(shading, u, &drawn) || (known_only && drawn.specular))
-        return false;
-    if (known_only) {
-        float pdf;
-        drawn.weight = aur_vector_scale(evaluate(shading, true, drawn.light, &pdf), 1.0f / drawn.pdf);
-    }
-    walk->throughput = aur_vector_multiply(walk->throughput, drawn.weight);
-    walk->from = aur_shading_reference(shading);
-    walk->pdf = drawn.pdf;
-    walk->specular = drawn.specular;
-    walk->ray = aur_surface_ray(shading->surface, drawn.light);
-    return !aur_vector_is_zero(walk->throughput);
-}
-
-/* The light that the ray meets: an emitter's, or the sky where there is no surface. */
+/* The emission that the ray meets; `surface` NULL: the sky. Behind mirrors it is the caustic map's. */
 static void add_emission(const aur_onward *onward, const aur_surface *surface, onward_walk *walk) {
-    const aur_scene *const scene = onward->scene;
-    const aur_vector direction = walk->ray.direction;
-    if (walk->specular && onward->caustics != NULL)
-        return;
-    float rival = 0.0f;
-    const aur_vector emission = surface != NULL
-                                    ? aur_surface_emission(scene, surface, aur_vector_scale(direction, -1.0f))
-                                    : aur_environment_light(scene, direction, &rival);
-    if (aur_vector_is_zero(emission))
-        return;
-    float weight = 1.0f;
-    if (!walk->specular) {
-        if (surface != NULL)
-            rival = aur_light_pdf_direct(scene, &walk->from, surface);
-        weight = aur_power_heuristic(walk->pdf, rival);
-    }
-    walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, emission));
+    if (!walk->path.bounce.specular_bounce || onward->caustics == NULL)
+        aur_walk_add_emission(onward->scene, surface, &walk->path);
 }
 
 /* Roulette. Where the map answers for all that the surface scatters, what a path that ends would still have
@@ -97,24 +29,24 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
         texel = aur_irradiance_view(onward->map, onward->scene, hit, shading->surface, view);
         known = !aur_onward_is_near(onward, hit->distance, texel.area);
     }
-    const float survival = known ? go_on : aur_path_survival(walk->throughput);
+    const float survival = known ? go_on : aur_survival(walk->path.beta);
     aur_vector estimate = {0};
     if (known)
-        estimate = aur_vector_multiply(walk->throughput, texel.radiance);
-    walk->sum = aur_vector_add(walk->sum, estimate);
+        estimate = aur_vector_multiply(walk->path.beta, texel.radiance);
+    walk->path.radiance = aur_vector_add(walk->path.radiance, estimate);
     if (onward->caustics != NULL) {
         const aur_texel_view caustic =
             aur_irradiance_view(onward->caustics, onward->scene, hit, shading->surface, view);
-        walk->sum = aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, caustic.radiance));
+        walk->path.radiance =
+            aur_vector_add(walk->path.radiance, aur_vector_multiply(walk->path.beta, caustic.radiance));
     }
     if (known && !walk->known) {
         walk->known = true;
-        walk->known_sum = walk->sum;
+        walk->known_sum = walk->path.radiance;
     }
-    if (!(aur_draw_unit(&walk->hash) < survival))
+    if (!aur_vertex_survives(survival, aur_draw_unit(&walk->hash), &walk->path.beta))
         return false;
-    walk->throughput = aur_vector_scale(walk->throughput, 1.0f / survival);
-    walk->sum = aur_vector_add_scaled(walk->sum, -1.0f / survival, estimate);
+    walk->path.radiance = aur_vector_add_scaled(walk->path.radiance, -1.0f / survival, estimate);
     return true;
 }
 
@@ -123,7 +55,8 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
 typedef struct onward_walks {
     const aur_onward *onward;
     uint32_t alive;
-    bool first; /* the surface is the one that the path began at: the lobes that the map answers for */
+    aur_vertex_lobes
+        lobes; /* of the surface that the path began at those that the map answers for, then all */
     onward_walk walk[AUR_PACKET_SIZE];
     aur_surface met[AUR_PACKET_SIZE];
     aur_vector view[AUR_PACKET_SIZE];
@@ -170,7 +103,7 @@ static void add_direct_light(onward_walks *walks) {
         const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
         const aur_light_sample light = aur_light_lane(&lights, k);
         aur_shadow shadow;
-        if (!reach_light(&shading, walks->first, &light, &shadow))
+        if (!aur_vertex_light(&shading, walks->lobes, AUR_VERTEX_ONE_EACH, &light, &shadow))
             continue;
         radiance[k] = shadow.radiance;
         aur_packet_set(&walks->packet, k, &shadow.ray);
@@ -182,9 +115,9 @@ static void add_direct_light(onward_walks *walks) {
         ~(is_packet(walks->onward, lit) ? aur_scene_occluded16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
                                         : aur_scene_occluded_each(scene, &walks->packet));
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
-        onward_walk *const walk = &walks->walk[aur_first_lane(rest)];
-        walk->sum =
-            aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, radiance[aur_first_lane(rest)]));
+        aur_walk *const path = &walks->walk[aur_first_lane(rest)].path;
+        path->radiance =
+            aur_vector_add(path->radiance, aur_vector_multiply(path->beta, radiance[aur_first_lane(rest)]));
     }
 }
 
@@ -195,8 +128,10 @@ static uint32_t trace(onward_walks *walks) {
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
-        if (scatter(&shading, walks->first, &walks->walk[k]))
-            aur_packet_set(&walks->packet, k, &walks->walk[k].ray);
+        float u[3];
+        aur_draw_units(&walks->walk[k].hash, u);
+        if (aur_walk_scatter(&shading, walks->lobes, u, &walks->walk[k].path))
+            aur_packet_set(&walks->packet, k, &walks->walk[k].path.ray);
         else
             walks->alive &= ~(1u << k);
     }
@@ -212,9 +147,9 @@ static bool meet(onward_walks *walks, size_t k) {
     const aur_onward *const onward = walks->onward;
     onward_walk *const walk = &walks->walk[k];
     const aur_hit hit = aur_packet_hit(onward->scene, &walks->packet, k);
-    aur_scene_surface(onward->scene, &walk->ray, &hit, &walks->met[k]);
+    aur_scene_surface(onward->scene, &walk->path.ray, &hit, &walks->met[k]);
     add_emission(onward, &walks->met[k], walk);
-    walks->view[k] = aur_vector_scale(walk->ray.direction, -1.0f);
+    walks->view[k] = aur_vector_scale(walk->path.ray.direction, -1.0f);
     const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
     return ++walks->edges[k] < onward->max_depth && survives(onward, &hit, &shading, walks->view[k], walk);
 }
@@ -241,11 +176,11 @@ static void bounce(onward_walks *walks) {
 static aur_vector corrected(const aur_onward *onward, const aur_onward_start *start,
                             const onward_walk *walk) {
     if (start->near && onward->lone)
-        return walk->known ? aur_vector_subtract(walk->sum, walk->known_sum) : (aur_vector){0};
+        return walk->known ? aur_vector_subtract(walk->path.radiance, walk->known_sum) : (aur_vector){0};
     if (start->near)
-        return walk->sum;
+        return walk->path.radiance;
     return aur_vector_add_scaled(aur_onward_kept(onward, start->known), 1.0f / onward->share,
-                                 aur_vector_subtract(walk->sum, start->known));
+                                 aur_vector_subtract(walk->path.radiance, start->known));
 }
 
 void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward_start *starts,
@@ -255,14 +190,15 @@ void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward
     walks.alive = 0;
     aur_packet_clear(&walks.packet);
     for (size_t k = 0; k < count; ++k) {
-        walks.walk[k] = (onward_walk){.throughput = {1.0f, 1.0f, 1.0f}, .hash = aur_mix64(~starts[k].hash)};
+        walks.walk[k] =
+            (onward_walk){.path = {.beta = {1.0f, 1.0f, 1.0f}}, .hash = aur_mix64(~starts[k].hash)};
         walks.met[k] = starts[k].surface;
         walks.view[k] = starts[k].view;
         walks.edges[k] = starts[k].edges;
         if (starts[k].edges < onward->max_depth)
             walks.alive |= 1u << k;
     }
-    for (walks.first = true; walks.alive != 0; walks.first = false)
+    for (walks.lobes = AUR_VERTEX_MAPPED; walks.alive != 0; walks.lobes = AUR_VERTEX_ALL)
         bounce(&walks);
     for (size_t k = 0; k < count; ++k)
         radiance[k] = corrected(onward, &starts[k], &walks.walk[k]);

@@ -71,62 +71,51 @@ static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
 
 /* --- lanes that are not plain, one by one */
 
-static void add_light(aur_path_group *g, size_t k, float weight, aur_vector radiance) {
-    const aur_vector throughput = aur_lane_vector(&g->lanes.throughput, k);
-    aur_lane_set(&g->lanes.sum, k,
-                 aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight,
-                                       aur_vector_multiply(throughput, radiance)));
+/* The path of a lane. */
+static aur_walk walk_of(const aur_path_group *g, size_t k) {
+    const aur_path_lanes *const lanes = &g->lanes;
+    return (aur_walk){
+        aur_lane_vector(&lanes->sum, k), aur_lane_vector(&lanes->throughput, k),
+        aur_packet_ray(&g->packet, k),
+        (aur_bounce){{aur_lane_vector(&lanes->from, k), aur_lane_vector(&lanes->from_normal, k)},
+                     lanes->pdf[k],
+                     1.0f,
+                     aur_has_lane(g->specular, k)}};
 }
 
 static void add_sky(aur_path_group *g, uint32_t lanes) {
     const struct RTCRay16 *const rays = &g->packet.query.ray;
     aur_lane_vectors directions, radiance;
-    aur_lane_numbers rivals;
+    aur_lane_numbers light_pdfs;
     if (lanes == 0)
         return;
     memcpy(directions.x, rays->dir_x, sizeof directions.x);
     memcpy(directions.y, rays->dir_y, sizeof directions.y);
     memcpy(directions.z, rays->dir_z, sizeof directions.z);
-    aur_environment_lanes(g->scene, lanes, &directions, &radiance, rivals);
+    aur_environment_lanes(g->scene, lanes, &directions, &radiance, light_pdfs);
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
         const aur_vector sky = aur_lane_vector(&radiance, k);
         if (aur_vector_is_zero(sky))
             continue;
-        const bool found = (g->specular >> k & 1u) == 0;
-        const float weight = found ? aur_power_heuristic(g->lanes.pdf[k], rivals[k]) : 1.0f;
-        add_light(g, k, weight, sky);
+        const float weight =
+            aur_has_lane(g->specular, k) ? 1.0f : aur_power_heuristic(g->lanes.pdf[k], light_pdfs[k]);
+        const aur_vector light = aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), sky);
+        aur_lane_set(&g->lanes.sum, k,
+                     aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight, light));
         if (g->from_sky != NULL)
-            g->from_sky(
-                g->from_sky_user, k, aur_lane_vector(&directions, k),
-                aur_vector_scale(aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), sky), weight),
-                (g->straight >> k & 1u) != 0);
+            g->from_sky(g->from_sky_user, k, aur_lane_vector(&directions, k), aur_vector_scale(light, weight),
+                        aur_has_lane(g->straight, k));
     }
 }
 
-/* Where the ray of a lane began. */
-static aur_light_reference from_of(const aur_path_group *g, size_t k) {
-    return (aur_light_reference){aur_lane_vector(&g->lanes.from, k),
-                                 aur_lane_vector(&g->lanes.from_normal, k)};
-}
-
-static void set_from(aur_path_group *g, size_t k, const aur_light_reference *from) {
-    aur_lane_set(&g->lanes.from, k, from->position);
-    aur_lane_set(&g->lanes.from_normal, k, from->normal);
-}
-
-static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view) {
-    if (g->known != NULL && (g->straight >> k & 1u) != 0 && surface->emitter != AUR_NO_EMITTER &&
-        g->known[surface->emitter] >= 0.0f)
+static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface) {
+    if (surface->emitter == AUR_NO_EMITTER ||
+        (g->known != NULL && aur_has_lane(g->straight, k) && g->known[surface->emitter] >= 0.0f))
         return;
-    const aur_vector emission = aur_surface_emission(g->scene, surface, view);
-    if (aur_vector_is_zero(emission))
-        return;
-    const bool found = (g->specular >> k & 1u) == 0;
-    const aur_light_reference from = from_of(g, k);
-    const float weight =
-        found ? aur_power_heuristic(g->lanes.pdf[k], aur_light_pdf_direct(g->scene, &from, surface)) : 1.0f;
-    add_light(g, k, weight, emission);
+    aur_walk walk = walk_of(g, k);
+    aur_walk_add_emission(g->scene, surface, &walk);
+    aur_lane_set(&g->lanes.sum, k, walk.radiance);
 }
 
 /* The surfaces of lanes that are not plain, with the light that they give. */
@@ -139,7 +128,7 @@ static void set_surfaces(aur_path_group *g, uint32_t lanes) {
         const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
         aur_scene_surface(g->scene, &ray, &hit, &g->surfaces[k]);
         if (!aur_has_lane(g->told, k))
-            add_emission(g, k, &g->surfaces[k], aur_vector_scale(ray.direction, -1.0f));
+            add_emission(g, k, &g->surfaces[k]);
     }
 }
 
@@ -165,7 +154,7 @@ static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) 
     const aur_light_sample light = aur_light_lane(&g->lanes.light, k);
     aur_shadow shadow;
     g->lanes.lit[k] = 0;
-    if (!aur_direct_light_shadow(&shading, &AUR_LIGHT_DRAWS_OF_PATHS, &light, &shadow))
+    if (!aur_vertex_light(&shading, AUR_VERTEX_ALL, AUR_VERTEX_ONE_EACH, &light, &shadow))
         return;
     g->lanes.lit[k] = -1;
     aur_packet_set(&g->shadows, k, &shadow.ray);
@@ -173,48 +162,33 @@ static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) 
                  aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), shadow.radiance));
 }
 
-/* Lanes of which the masks were before. */
-typedef struct lanes_before {
-    uint32_t specular, straight;
-} lanes_before;
-
 /* Straight on through a pane the ray is the same one, which rays to lights find as well. */
-static bool goes_through(const aur_path_group *g, const aur_surface *surface, aur_vector view,
-                         const aur_bsdf_sample *drawn) {
-    return g->data->panes && surface->bsdf->passes && drawn->specular &&
-           aur_vector_dot(drawn->light, view) < -1.0f + 1e-6f;
+static bool goes_through(const aur_path_group *g, const aur_surface *surface, const aur_walk *before,
+                         const aur_walk *walk) {
+    return g->data->panes && surface->bsdf->passes && walk->bounce.specular_bounce &&
+           aur_vector_dot(walk->ray.direction, before->ray.direction) > 1.0f - 1e-6f;
 }
 
-static bool scatter_one(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view,
-                        bool roulette, lanes_before before) {
-    const aur_shading shading = aur_shading_at(surface, view);
+/* Of a lane that is not plain, on the path `before`. */
+static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, bool straight, bool roulette) {
+    const aur_surface *const surface = &g->surfaces[k];
+    const aur_shading shading = aur_shading_at(surface, aur_vector_scale(before->ray.direction, -1.0f));
     const float u[3] = {g->lanes.lobe[k], g->lanes.direction_u[k], g->lanes.direction_v[k]};
-    aur_bsdf_sample drawn;
-    if (!aur_shading_sample(&shading, u, &drawn))
+    aur_walk walk = *before;
+    if (!aur_walk_scatter(&shading, AUR_VERTEX_ALL, u, &walk) ||
+        (roulette && !aur_vertex_survives(aur_survival(walk.beta), g->lanes.roulette[k], &walk.beta)))
         return false;
-    aur_vector throughput = aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), drawn.weight);
-    if (roulette) {
-        const float survival = aur_path_survival(throughput);
-        if (!(g->lanes.roulette[k] < survival))
-            return false;
-        throughput = aur_vector_scale(throughput, 1.0f / survival);
+    if (goes_through(g, surface, before, &walk)) {
+        walk.bounce = before->bounce;
+        walk.ray = aur_surface_ray(surface, before->ray.direction);
+        g->straight |= (uint32_t)straight << k;
     }
-    if (aur_vector_is_zero(throughput))
-        return false;
-    aur_lane_set(&g->lanes.throughput, k, throughput);
-    if (goes_through(g, surface, view, &drawn)) {
-        g->specular |= before.specular & 1u << k;
-        g->straight |= before.straight & 1u << k;
-        drawn.light = aur_vector_scale(view, -1.0f);
-    } else {
-        const aur_light_reference from = aur_shading_reference(&shading);
-        set_from(g, k, &from);
-        g->lanes.pdf[k] = drawn.pdf;
-        if (drawn.specular)
-            g->specular |= 1u << k;
-    }
-    const aur_ray ray = aur_surface_ray(surface, drawn.light);
-    aur_packet_set(&g->packet, k, &ray);
+    aur_lane_set(&g->lanes.throughput, k, walk.beta);
+    aur_lane_set(&g->lanes.from, k, walk.bounce.from.position);
+    aur_lane_set(&g->lanes.from_normal, k, walk.bounce.from.normal);
+    g->lanes.pdf[k] = walk.bounce.pdf;
+    g->specular |= (uint32_t)walk.bounce.specular_bounce << k;
+    aur_packet_set(&g->packet, k, &walk.ray);
     return true;
 }
 
@@ -355,30 +329,19 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
 }
 
 static void scatter(aur_path_group *g, bool roulette) {
-    const uint32_t plain = g->plain, others = g->alive & ~plain;
-    aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE];
-    aur_light_reference from[AUR_PACKET_SIZE];
-    float pdf[AUR_PACKET_SIZE];
-    for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
-        const size_t k = aur_first_lane(rest);
-        views[k] = view_of(g, k);
-        throughputs[k] = aur_lane_vector(&g->lanes.throughput, k);
-        from[k] = from_of(g, k);
-        pdf[k] = g->lanes.pdf[k];
-    }
+    const uint32_t plain = g->plain, others = g->alive & ~plain, straight = g->straight;
+    aur_walk before[AUR_PACKET_SIZE]; /* the kernels leave nothing of it */
+    for (uint32_t rest = others; rest != 0; rest &= rest - 1)
+        before[aur_first_lane(rest)] = walk_of(g, aur_first_lane(rest));
     uint32_t alive = 0;
     if (plain != 0) {
         g->data->kernels->scatter(&g->lanes, roulette, &g->packet);
         alive = aur_lanes_set(g->lanes.alive) & plain;
     }
-    const lanes_before before = {g->specular, g->straight};
     g->specular = g->straight = 0;
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        aur_lane_set(&g->lanes.throughput, k, throughputs[k]);
-        set_from(g, k, &from[k]);
-        g->lanes.pdf[k] = pdf[k];
-        alive |= (uint32_t)scatter_one(g, k, &g->surfaces[k], views[k], roulette, before) << k;
+        alive |= (uint32_t)scatter_one(g, k, &before[k], aur_has_lane(straight, k), roulette) << k;
     }
     g->alive = alive;
 }

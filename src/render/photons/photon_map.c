@@ -7,7 +7,7 @@
 #include "points/base/memory.h"
 #include "points/base/parallel.h"
 #include "render/sampling/stream.h"
-#include "render/vertex/shading.h"
+#include "render/vertex/vertex.h"
 
 enum {
     CHUNKS_A_BATCH = 16,
@@ -53,7 +53,7 @@ static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_samp
     const float cos_in = fmaxf(fabsf(shading->view.z), 0.01f);
     const float cos_out = fabsf(reversed.view.z);
     float pdf;
-    return aur_vector_scale(aur_shading_evaluate(&reversed, in_world, &pdf),
+    return aur_vector_scale(aur_shading_evaluate(&reversed, AUR_BSDF_WHOLE, in_world, &pdf),
                             cos_out / (cos_in * sample->pdf));
 }
 
@@ -114,9 +114,9 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         const aur_vector weight = adjoint_weight(&shading, &sample, in);
         const float survival =
             fminf(1.0f, aur_vector_max(aur_vector_multiply(power, weight)) / aur_vector_max(power));
-        if (!(lobe[1] < survival))
+        power = aur_vector_multiply(power, weight);
+        if (!aur_vertex_survives(survival, lobe[1], &power))
             return true;
-        power = aur_vector_scale(aur_vector_multiply(power, weight), 1.0f / survival);
         ray = aur_surface_ray(&surface, sample.light);
         if (unlimited && edge == limit)
             ++chunk->cut;

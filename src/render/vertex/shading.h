@@ -23,16 +23,16 @@ static inline aur_light_reference aur_shading_reference(const aur_shading *shadi
     return reference;
 }
 
-/* BSDF * |cos| towards a world direction, and the density that aur_shading_sample has there. A light on one
- * side of the surface and shaded on the other is black. */
-static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_vector light_world,
+/* BSDF * |cos| of a part towards a world direction, and the density that aur_shading_draw has there. A light
+ * on one side of the surface and shaded on the other is black. */
+static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_bsdf_part part, aur_vector wi,
                                               float *pdf) {
     const aur_surface *const surface = shading->surface;
-    const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
+    const aur_vector light = aur_frame_to_local(&surface->frame, wi);
     *pdf = 0.0f;
-    if (aur_vector_dot(surface->geometric_normal, light_world) * light.z <= 0.0f)
+    if (aur_vector_dot(surface->geometric_normal, wi) * light.z <= 0.0f)
         return (aur_vector){0};
-    return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light, pdf);
+    return aur_bsdf_evaluate(surface->bsdf, part, surface->texture, shading->view, light, pdf);
 }
 
 /* A point on a light, u[0] chooses which. */

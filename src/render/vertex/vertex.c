@@ -1,25 +1,106 @@
 #include "render/vertex/vertex.h"
 
-bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, const aur_light_draws *draws,
-                             const float u[3], aur_shadow *shadow) {
-    aur_light_sample light;
-    return aur_shading_draw_light(scene, shading, u, &light) &&
-           aur_direct_light_shadow(shading, draws, &light, shadow);
+aur_vector aur_vertex_emission(const aur_scene *scene, const aur_bounce *bounce, aur_vector direction,
+                               const aur_surface *surface, float *light_pdf) {
+    *light_pdf = 0.0f;
+    if (surface == NULL) {
+        float pdf;
+        const aur_vector sky = aur_environment_light(scene, direction, &pdf);
+        *light_pdf = bounce->specular_bounce ? 0.0f : pdf;
+        return sky;
+    }
+    const aur_vector emission = aur_surface_emission(scene, surface, aur_vector_scale(direction, -1.0f));
+    if (!bounce->specular_bounce && !aur_vector_is_zero(emission))
+        *light_pdf = aur_light_pdf_direct(scene, &bounce->from, surface);
+    return emission;
 }
 
-bool aur_direct_light_shadow(const aur_shading *shading, const aur_light_draws *draws,
-                             const aur_light_sample *light, aur_shadow *shadow) {
-    float pdf;
-    if (!(light->pdf > 0.0f))
+static unsigned kinds_of(const aur_shading *shading) {
+    return aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
+}
+
+aur_vector aur_vertex_evaluate(const aur_shading *shading, aur_vertex_lobes lobes, aur_vector wi,
+                               float *pdf) {
+    float unused;
+    if (lobes != AUR_VERTEX_UNMAPPED) {
+        const aur_vector value = aur_shading_evaluate(shading, AUR_BSDF_WHOLE, wi, pdf);
+        if (lobes == AUR_VERTEX_ALL || *pdf == 0.0f || (kinds_of(shading) & AUR_SCATTERS_SAMPLED) == 0)
+            return value;
+        return aur_vector_subtract(value, aur_shading_evaluate(shading, AUR_BSDF_SAMPLED_LOBES, wi, &unused));
+    }
+    const aur_vector value = aur_shading_evaluate(shading, AUR_BSDF_SAMPLED_LOBES, wi, pdf);
+    if ((kinds_of(shading) & AUR_SCATTERS_SPECULAR) != 0 && !aur_vector_is_zero(value))
+        aur_shading_evaluate(shading, AUR_BSDF_WHOLE, wi, pdf);
+    return value;
+}
+
+bool aur_vertex_direction(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3],
+                          aur_bsdf_sample *sample) {
+    if (lobes == AUR_VERTEX_UNMAPPED && (kinds_of(shading) & AUR_SCATTERS_SPECULAR) == 0)
+        return aur_shading_draw(shading, AUR_BSDF_SAMPLED_LOBES, u, sample);
+    if (!aur_shading_sample(shading, u, sample))
         return false;
-    const aur_vector scattered = aur_shading_evaluate(shading, light->direction, &pdf);
-    const aur_vector radiance = aur_vector_multiply(scattered, light->radiance);
+    if (lobes == AUR_VERTEX_ALL)
+        return true;
+    if (sample->specular)
+        return lobes == AUR_VERTEX_UNMAPPED;
+    if (lobes == AUR_VERTEX_UNMAPPED && (kinds_of(shading) & AUR_SCATTERS_SAMPLED) == 0)
+        return false;
+    float pdf;
+    const aur_vector value = lobes == AUR_VERTEX_MAPPED
+                                 ? aur_vertex_evaluate(shading, lobes, sample->light, &pdf)
+                                 : aur_shading_evaluate(shading, AUR_BSDF_SAMPLED_LOBES, sample->light, &pdf);
+    sample->weight = aur_vector_scale(value, 1.0f / sample->pdf);
+    return sample->pdf > 0.0f;
+}
+
+bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light, aur_vector value,
+                       float weight, aur_shadow *shadow) {
+    const aur_vector radiance = aur_vector_multiply(value, light->radiance);
     if (aur_vector_is_zero(radiance))
         return false;
     float distance;
-    shadow->ray = aur_surface_ray_to(shading->surface, light->position, &distance);
-    const float weight =
-        light->delta ? 1.0f : aur_power_heuristic(draws->count * light->pdf, draws->rivals * pdf);
-    shadow->radiance = aur_vector_scale(radiance, weight / draws->count / light->pdf);
+    shadow->ray = aur_surface_ray_to(surface, light->position, &distance);
+    shadow->radiance = aur_vector_scale(radiance, weight / light->pdf);
     return true;
+}
+
+bool aur_vertex_light(const aur_shading *shading, aur_vertex_lobes lobes, aur_vertex_samples samples,
+                      const aur_light_sample *light, aur_shadow *shadow) {
+    float pdf;
+    if (!(light->pdf > 0.0f))
+        return false;
+    const aur_vector value = aur_vertex_evaluate(shading, lobes, light->direction, &pdf);
+    return !aur_vector_is_zero(value) &&
+           aur_vertex_shadow(shading->surface, light, value,
+                             aur_light_weight(light, samples, pdf) / samples.lights, shadow);
+}
+
+bool aur_vertex_draw_light(const aur_scene *scene, const aur_shading *shading, aur_vertex_lobes lobes,
+                           aur_vertex_samples samples, const float u[3], aur_shadow *shadow) {
+    const aur_light_reference reference = aur_shading_reference(shading);
+    aur_light_sample light;
+    return aur_light_sample_direct(scene, &reference, u, &light) &&
+           aur_vertex_light(shading, lobes, samples, &light, shadow);
+}
+
+void aur_walk_add_emission(const aur_scene *scene, const aur_surface *surface, aur_walk *walk) {
+    float light_pdf;
+    if (surface != NULL && surface->emitter == AUR_NO_EMITTER)
+        return;
+    const aur_vector emission =
+        aur_vertex_emission(scene, &walk->bounce, walk->ray.direction, surface, &light_pdf);
+    if (!aur_vector_is_zero(emission))
+        walk->radiance = aur_vector_add_scaled(walk->radiance, aur_bounce_weight(&walk->bounce, light_pdf),
+                                               aur_vector_multiply(walk->beta, emission));
+}
+
+bool aur_walk_scatter(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3], aur_walk *walk) {
+    aur_bsdf_sample sample;
+    if (!aur_vertex_direction(shading, lobes, u, &sample))
+        return false;
+    walk->beta = aur_vector_multiply(walk->beta, sample.weight);
+    walk->ray = aur_surface_ray(shading->surface, sample.light);
+    walk->bounce = (aur_bounce){aur_shading_reference(shading), sample.pdf, 1.0f, sample.specular};
+    return !aur_vector_is_zero(walk->beta);
 }

@@ -1,9 +1,12 @@
-/* Direct light at a surface point by multiple importance sampling of lights and BSDF (Veach 1997, power
- * heuristic). */
+/* A vertex of a light path, for all estimators: the emission that a ray meets, a point on a light, a
+ * direction by the BSDF, multiple importance sampling of the two (Veach 1997, power heuristic), Russian
+ * roulette. */
 #pragma once
 
 #include "render/film/integrator.h"
 #include "render/vertex/shading.h"
+
+/* --- random numbers of a vertex */
 
 /* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, choice among
  * candidates), direction. */
@@ -22,35 +25,106 @@ static inline bool aur_path_stops(uint32_t depth, bool *stopped) {
     return *stopped;
 }
 
-/* The probability to go on, under Russian roulette. */
-static inline float aur_path_survival(aur_vector throughput) {
-    return aur_smaller(aur_vector_max(throughput), 0.95f);
-}
+/* --- the emission that a ray meets */
 
-/* The weight of a sample drawn with density `pdf` where the rival technique has density `other`. */
+/* How the direction of a ray was drawn. */
+typedef struct aur_bounce {
+    aur_light_reference from; /* the vertex that the ray leaves, as light sampling sees it */
+    float pdf;                /* of the direction, per steradian, times the directions drawn there */
+    float light_samples;      /* points on lights drawn there */
+    bool specular_bounce;     /* light sampling cannot find what the ray meets: mirrors, rays of the camera */
+} aur_bounce;
+
+/* The weight of a sample drawn with density `pdf` where the other strategy has density `other`. */
 static inline float aur_power_heuristic(float pdf, float other) {
     const float ratio = other / pdf;
     return 1.0f / (1.0f + ratio * ratio);
 }
 
+/* The weight of light that a ray meets; light sampling draws it with density `light_pdf`. */
+static inline float aur_bounce_weight(const aur_bounce *bounce, float light_pdf) {
+    return bounce->specular_bounce ? 1.0f
+                                   : aur_power_heuristic(bounce->pdf, bounce->light_samples * light_pdf);
+}
+
+/* Radiance, RGB, that `surface` emits against the unit `direction` of a ray, or the environment if the ray
+ * met nothing (NULL). *light_pdf: the density per steradian with which light sampling draws it from
+ * bounce->from; 0 if that is not needed: after a specular bounce, or for no emission. */
+aur_vector aur_vertex_emission(const aur_scene *scene, const aur_bounce *bounce, aur_vector direction,
+                               const aur_surface *surface, float *light_pdf);
+
+/* --- scattering */
+
+/* The lobes of a BSDF that count. Directions are drawn by all lobes in any case, unless the others have no
+ * part that can be left out. */
+typedef enum aur_vertex_lobes {
+    AUR_VERTEX_ALL,
+    AUR_VERTEX_MAPPED,  /* a photon map answers for them: all but the specular and the sampled ones */
+    AUR_VERTEX_UNMAPPED /* specular and sampled lobes */
+} aur_vertex_lobes;
+
+/* BSDF * |cos| of the lobes towards `wi` (world), and the density of aur_vertex_direction there. */
+aur_vector aur_vertex_evaluate(const aur_shading *shading, aur_vertex_lobes lobes, aur_vector wi, float *pdf);
+/* A direction by the BSDF, from u in [0,1)^3, in world coordinates; false: the path ends. */
+bool aur_vertex_direction(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3],
+                          aur_bsdf_sample *sample);
+
+/* --- a point on a light */
+
 /* A light sample before it is known whether anything lies between. */
 typedef struct aur_shadow {
-    aur_ray ray; /* from the surface to the light */
-    aur_vector
-        radiance; /* reflected towards the viewer if nothing does, by its share in the sum of samples */
+    aur_ray ray;         /* from the surface to the light */
+    aur_vector radiance; /* reflected towards wo if nothing does, by its share in the sum of samples */
 } aur_shadow;
 
-/* How many light samples there are at a surface, and how many BSDF samples rival with them. */
-typedef struct aur_light_draws {
-    float count, rivals;
-} aur_light_draws;
+/* How many points on lights are drawn at a vertex, and how many directions by the BSDF. */
+typedef struct aur_vertex_samples {
+    float lights, directions;
+} aur_vertex_samples;
 
-static const aur_light_draws AUR_LIGHT_DRAWS_OF_PATHS = {1.0f, 1.0f};
+static const aur_vertex_samples AUR_VERTEX_ONE_EACH = {1.0f, 1.0f};
 
-/* One of the light samples; u[0] chooses the light and the others a point on it, in [0,1). False: no light
- * comes that way. */
-bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, const aur_light_draws *draws,
-                             const float u[3], aur_shadow *shadow);
-/* The same of a point that has been drawn. */
-bool aur_direct_light_shadow(const aur_shading *shading, const aur_light_draws *draws,
-                             const aur_light_sample *light, aur_shadow *shadow);
+/* The MIS weight of a point on a light, which the BSDF finds with density `pdf`. */
+static inline float aur_light_weight(const aur_light_sample *light, aur_vertex_samples samples, float pdf) {
+    return light->delta ? 1.0f : aur_power_heuristic(samples.lights * light->pdf, samples.directions * pdf);
+}
+
+/* The ray to a point on a light, and what the light brings, from `value`: BSDF * |cos|, or a part of it.
+ * False: no light comes that way. */
+bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light, aur_vector value,
+                       float weight, aur_shadow *shadow);
+/* The same of the lobes, with their MIS weight, for a point that has been drawn. */
+bool aur_vertex_light(const aur_shading *shading, aur_vertex_lobes lobes, aur_vertex_samples samples,
+                      const aur_light_sample *light, aur_shadow *shadow);
+/* Draws the point: u[0] chooses the light, u[1], u[2] the point on it, in [0,1). */
+bool aur_vertex_draw_light(const aur_scene *scene, const aur_shading *shading, aur_vertex_lobes lobes,
+                           aur_vertex_samples samples, const float u[3], aur_shadow *shadow);
+
+/* --- Russian roulette */
+
+/* The probability that a path goes on. */
+static inline float aur_survival(aur_vector beta) {
+    return aur_smaller(aur_vector_max(beta), 0.95f);
+}
+
+/* Whether u in [0,1) lets a path go on, whose beta grows by as much as others end. */
+static inline bool aur_vertex_survives(float survival, float u, aur_vector *beta) {
+    if (!(u < survival))
+        return false;
+    *beta = aur_vector_scale(*beta, 1.0f / survival);
+    return true;
+}
+
+/* --- a path from vertex to vertex */
+
+typedef struct aur_walk {
+    aur_vector radiance; /* found so far */
+    aur_vector beta;     /* BSDF * |cos| / pdf of all vertices */
+    aur_ray ray;
+    aur_bounce bounce; /* of the ray */
+} aur_walk;
+
+/* Adds the emission that the ray meets; `surface` NULL: the environment's. */
+void aur_walk_add_emission(const aur_scene *scene, const aur_surface *surface, aur_walk *walk);
+/* Goes on by a direction that u in [0,1)^3 draws; false where the path ends. */
+bool aur_walk_scatter(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3], aur_walk *walk);

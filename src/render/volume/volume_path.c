@@ -14,8 +14,7 @@ typedef struct volume_walk {
     aur_vector sum;
     aur_ray ray;
     const aur_medium *medium; /* that the ray is in; NULL: none */
-    aur_light_reference from; /* where light was scattered last */
-    bool specular;            /* no light sample could have found what the ray meets */
+    aur_bounce bounce;        /* of the ray; its pdf is in `state` */
     float ior_squared;        /* product of those of the boundaries: what radiance has become larger by */
     uint32_t depth;           /* of the edge that the ray belongs to */
     size_t passed;            /* surfaces that let the path straight through */
@@ -41,30 +40,24 @@ static bool normalise(aur_medium_walk *state) {
     return true;
 }
 
-/* Adds light that the ray has found; `rival` is the density with which a light sample finds it. */
-static void add_light(volume_walk *walk, aur_vector radiance, float rival) {
+/* Adds light that the ray has found; light sampling finds it with density `light_pdf`. */
+static void add_light(volume_walk *walk, aur_vector radiance, float light_pdf) {
     if (aur_vector_is_zero(radiance))
         return;
     const aur_medium_walk *const state = &walk->state;
-    const float density =
-        walk->specular ? mean(state->path) : mean(aur_vector_add_scaled(state->path, rival, state->light));
+    const float density = walk->bounce.specular_bounce
+                              ? mean(state->path)
+                              : mean(aur_vector_add_scaled(state->path, light_pdf, state->light));
     if (density > 0.0f)
         walk->sum = aur_vector_add_scaled(walk->sum, 1.0f / density,
                                           aur_vector_multiply(state->throughput, radiance));
 }
 
-static void add_sky(const aur_scene *scene, volume_walk *walk) {
-    float rival;
-    const aur_vector sky = aur_environment_light(scene, walk->ray.direction, &rival);
-    add_light(walk, sky, walk->specular ? 0.0f : rival);
-}
-
 static void add_emission(const aur_scene *scene, const aur_surface *surface, volume_walk *walk) {
-    if (surface->emitter == AUR_NO_EMITTER)
-        return;
-    const aur_vector view = aur_vector_scale(walk->ray.direction, -1.0f);
-    const float rival = walk->specular ? 0.0f : aur_light_pdf_direct(scene, &walk->from, surface);
-    add_light(walk, aur_surface_emission(scene, surface, view), rival);
+    float light_pdf;
+    const aur_vector emission =
+        aur_vertex_emission(scene, &walk->bounce, walk->ray.direction, surface, &light_pdf);
+    add_light(walk, emission, light_pdf);
 }
 
 /* A point on a light that is seen from `from` by a ray in `medium`, where `scattered` of its light is
@@ -99,11 +92,8 @@ static bool survives(const aur_volume_path *data, volume_walk *walk) {
         return false;
     if (walk->depth < data->rr_depth)
         return true;
-    const float survival = aur_path_survival(aur_vector_scale(walk->state.throughput, walk->ior_squared));
-    if (!(walk->pairs[AUR_PATH_CHOICE][1] < survival))
-        return false;
-    walk->state.throughput = aur_vector_scale(walk->state.throughput, 1.0f / survival);
-    return true;
+    const float survival = aur_survival(aur_vector_scale(walk->state.throughput, walk->ior_squared));
+    return aur_vertex_survives(survival, walk->pairs[AUR_PATH_CHOICE][1], &walk->state.throughput);
 }
 
 /* In a medium: adds light from a point on a light, and goes on in a drawn direction. */
@@ -131,8 +121,7 @@ static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scen
     const aur_vector direction =
         aur_vector_normalize(aur_frame_to_world(&frame, aur_direction_at(cosine, u[1])));
     walk->state.light = aur_vector_scale(walk->state.path, 1.0f / pdf);
-    walk->specular = !medium->samples_emitters;
-    walk->from = reference;
+    walk->bounce = (aur_bounce){.from = reference, .specular_bounce = !medium->samples_emitters};
     walk->ray = (aur_ray){from, 0.0f, direction, INFINITY};
     return survives(data, walk);
 }
@@ -157,7 +146,7 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     aur_light_sample light;
     if (!last && draw_light(scene, &reference, walk->pairs, &light)) {
         float pdf, distance;
-        const aur_vector scattered = aur_shading_evaluate(&shading, light.direction, &pdf);
+        const aur_vector scattered = aur_vertex_evaluate(&shading, AUR_VERTEX_ALL, light.direction, &pdf);
         const aur_ray ray = aur_surface_ray_to(surface, light.position, &distance);
         const aur_medium *medium = walk->medium;
         aur_surface_medium(scene, surface, light.direction, &medium);
@@ -168,7 +157,7 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     const float choice =
         surface->bsdf->passes ? aur_draw_unit(&walk->state.hash) : walk->pairs[AUR_PATH_LOBE][0];
     aur_bsdf_sample drawn;
-    if (!aur_shading_sample(&shading, (const float[3]){choice, u[0], u[1]}, &drawn))
+    if (!aur_vertex_direction(&shading, AUR_VERTEX_ALL, (const float[3]){choice, u[0], u[1]}, &drawn))
         return false;
     const bool straight =
         drawn.specular && surface->bsdf->passes && aur_vector_dot(drawn.light, before) > 1.0f - 1e-6f;
@@ -182,10 +171,9 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
         return false;
     if (!drawn.specular)
         walk->state.light = aur_vector_scale(walk->state.path, 1.0f / drawn.pdf);
-    walk->specular = drawn.specular;
+    walk->bounce = (aur_bounce){.from = reference, .specular_bounce = drawn.specular};
     if (drawn.ior_squared > 0.0f)
         walk->ior_squared *= drawn.ior_squared;
-    walk->from = reference;
     aur_surface_medium(scene, surface, drawn.light, &walk->medium);
     walk->ray = aur_surface_ray(surface, drawn.light);
     return survives(data, walk);
@@ -213,7 +201,7 @@ static bool step(const aur_volume_path *data, const aur_scene *scene, volume_wal
     const bool hides = data->hide_emitters && walk->depth == 1;
     if (!met) {
         if (!hides)
-            add_sky(scene, walk);
+            add_emission(scene, NULL, walk);
         return false;
     }
     aur_surface surface;
@@ -241,7 +229,7 @@ aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene
                   .hash = aur_hash2(pixel, sample->stream.index)},
         .ray = sample->ray,
         .medium = aur_scene_camera_medium(scene),
-        .specular = true, /* light sampling cannot hit the camera either */
+        .bounce = {.specular_bounce = true}, /* light sampling cannot hit the camera either */
         .ior_squared = 1.0f,
         .depth = 1,
         .pairs = &sample->first_pairs[AUR_PAIR_FIRST],
