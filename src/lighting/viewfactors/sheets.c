@@ -6,12 +6,13 @@
 #include "render/scene/overlaps.h"
 
 /* As the file has them, whose digits say how well places are known. */
-static void find_corners(const void *context, size_t index, double corners[3][3]) {
+static void find_corners(const void *context, size_t first, size_t count, double (*corners)[3][3]) {
     const aur_facets *const facets = context;
     const double *const origin = aur_scene_origin(facets->scene);
-    for (int c = 0; c < 3; ++c)
-        for (int d = 0; d < 3; ++d)
-            corners[c][d] = facets->corners[index][c][d] + origin[d];
+    for (size_t i = 0; i < count; ++i)
+        for (int c = 0; c < 3; ++c)
+            for (int d = 0; d < 3; ++d)
+                corners[i][c][d] = facets->corners[first + i][c][d] + origin[d];
 }
 
 aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error) {

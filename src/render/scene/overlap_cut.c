@@ -61,13 +61,16 @@ static void corners_of(const aur_mesh *mesh, size_t triangle, double corners[3][
         memcpy(corners[c], &mesh->points[3 * (size_t)mesh->indices[3 * triangle + c]], sizeof corners[c]);
 }
 
-static void find_corners(const void *context, size_t index, double corners[3][3]) {
+static void find_corners(const void *context, size_t first, size_t count, double (*corners)[3][3]) {
     const triangles *const t = context;
-    const size_t i = find_shape(t, index);
-    corners_of(&t->scene->shapes[t->shapes[i]]->mesh, find_triangle(t, i, index), corners);
-    for (size_t c = 0; t->instances[i] != AUR_NO_INSTANCE && c < 3; ++c) {
-        const double local[3] = {corners[c][0], corners[c][1], corners[c][2]};
-        aur_transform_point(&t->scene->instances[t->instances[i]]->to_world, local, corners[c]);
+    for (size_t shape = find_shape(t, first), i = 0; i < count; ++i) {
+        while (first + i >= t->starts[shape + 1])
+            ++shape;
+        corners_of(&t->scene->shapes[t->shapes[shape]]->mesh, find_triangle(t, shape, first + i), corners[i]);
+        for (size_t c = 0; t->instances[shape] != AUR_NO_INSTANCE && c < 3; ++c) {
+            const double local[3] = {corners[i][c][0], corners[i][c][1], corners[i][c][2]};
+            aur_transform_point(&t->scene->instances[t->instances[shape]]->to_world, local, corners[i][c]);
+        }
     }
 }
 
@@ -296,7 +299,7 @@ static bool divide(pieces *list) {
 static bool cut_triangle(const triangles *t, const aur_overlap *covers, size_t count, pieces *left,
                          pieces *other) {
     double corners[3][3], origin[3];
-    find_corners(t, covers->second, corners);
+    find_corners(t, covers->second, 1, &corners);
     memcpy(origin, corners[0], sizeof origin);
     piece whole = {.count = 3};
     double extent = 0.0;
@@ -312,7 +315,7 @@ static bool cut_triangle(const triangles *t, const aur_overlap *covers, size_t c
         return false;
     for (size_t i = 0; i < count; ++i) {
         aur_plane edges[3];
-        find_corners(t, covers[i].first, corners);
+        find_corners(t, covers[i].first, 1, &corners);
         for (int c = 0; c < 3; ++c)
             for (int d = 0; d < 3; ++d)
                 corners[c][d] -= origin[d];

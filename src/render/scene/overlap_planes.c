@@ -4,75 +4,94 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "points/base/polygon.h"
 #include "points/base/random.h"
-#include "points/base/vector3d.h"
 
 /* A ball around a plane's normal and offset, in parts of the reach of all triangles, is put into each cell
  * that it meets; planes that are the same within rounding have a cell in common. */
-enum { CELLS = 512, EXPONENTS = 257, ZERO_EXPONENT = 127 };
+enum { CELLS = 512, CELL_BITS = 12, EXPONENTS = 257, ZERO_EXPONENT = 127 };
 
 /* Triangles are like each other if no extent is above a power of two and no altitude below this part of it,
  * so that balls are no wider than a cell. */
 enum { LIKE_BITS = 7 };
 
-/* Fewer triangles are all looked at. */
-enum { FEW = 64 };
+/* Fewer triangles are all looked at. So many tell what most are like. */
+enum { FEW = 64, SAMPLES = 256 };
 
-typedef struct row {
-    float normal[3], offset; /* from the first triangle's first corner */
-    float extent, altitude;  /* altitude 0: without area */
-} row;
+/* Triangles of other sizes are UNLIKE, so that products of four sides are floats. */
+enum { LEAST_EXPONENT = ZERO_EXPONENT - 28, MOST_EXPONENT = ZERO_EXPONENT + 28 };
+
+/* So many triangles at a time are described in floats, in loops over vectors. */
+enum { BLOCK = 64 };
+
+/* Floats change normals by less than a quarter of aur_overlap_tilt. */
+typedef struct block {
+    float sides[2][3][BLOCK], from[3][BLOCK]; /* from the first triangle's first corner */
+    float extent[BLOCK], altitude[BLOCK];
+    float away[BLOCK];      /* of the farthest point, and twice the longest side more than that */
+    float plane[4][BLOCK];  /* normal and offset, in parts of the reach, turned to one side */
+    float tilt[BLOCK];      /* radius of the ball */
+    int32_t on_edge[BLOCK]; /* whether the plane turned over counts too */
+    uint32_t low[2][BLOCK], high[2][BLOCK]; /* cells, two sides a word, CELL_BITS each */
+} block;
 
 typedef struct planes {
-    size_t count;
-    row *rows;
-    double reach, largest;
-    float most, least; /* the extent and altitude of triangles that are like each other */
+    const aur_triangle_source *triangles;
+    double start[3];
+    float reach;       /* of triangles that are like each other: the largest `away`, */
+    float most, least; /* the largest extent and the least altitude */
+    float slack;       /* in parts of the reach */
+    uint8_t *marks;
     uint64_t *table;
     size_t table_size, filled;
 } planes;
 
-static inline double larger_of(double a, double b) {
+static inline float larger_of(float a, float b) {
     return a > b ? a : b;
 }
 
-/* Returns the square of the longest side. */
-static double describe(const double corners[3][3], const double start[3], row *r) {
-    double sides[3][3], normal[3], longest = 0.0, extent = 0.0, offset = 0.0;
-    for (size_t c = 0; c < 3; ++c) {
-        for (size_t d = 0; d < 3; ++d) {
-            sides[c][d] = corners[(c + 1) % 3][d] - corners[c][d];
-            extent = larger_of(extent, fabs(sides[c][d]));
-        }
-        longest = larger_of(longest, aur_dot3(sides[c], sides[c]));
-    }
-    aur_cross3(sides[0], sides[1], normal);
-    const double length = aur_length3(normal), scale = length > 0.0 ? 1.0 / length : 0.0;
-    for (size_t d = 0; d < 3; ++d) {
-        r->normal[d] = (float)(normal[d] * scale);
-        offset += normal[d] * (corners[0][d] - start[d]);
-    }
-    r->offset = (float)(offset * scale);
-    r->extent = (float)extent;
-    r->altitude = length > 0.0 ? (float)(length / sqrt(longest)) : 0.0F;
-    return longest;
+static inline float length_of(float x, float y, float z) {
+    return sqrtf(x * x + y * y + z * z);
 }
 
-static void describe_all(planes *p, const aur_triangle_source *triangles) {
-    double corners[3][3], start[3], far = 0.0, longest = 0.0;
-    triangles->corners(triangles->context, 0, corners);
-    memcpy(start, corners[0], sizeof start);
-    for (size_t i = 0; i < p->count; ++i) {
-        triangles->corners(triangles->context, i, corners);
-        longest = larger_of(longest, describe((const double(*)[3])corners, start, &p->rows[i]));
-        double away = 0.0;
-        for (size_t d = 0; d < 3; ++d)
-            away += (corners[0][d] - start[d]) * (corners[0][d] - start[d]);
-        far = larger_of(far, away);
+static void load(const planes *p, size_t first, size_t count, size_t place, block *b) {
+    double corners[BLOCK][3][3];
+    p->triangles->corners(p->triangles->context, first, count, corners);
+    for (size_t k = 0; k < count; ++k)
+        for (size_t d = 0; d < 3; ++d) {
+            b->sides[0][d][place + k] = (float)(corners[k][1][d] - corners[k][0][d]);
+            b->sides[1][d][place + k] = (float)(corners[k][2][d] - corners[k][0][d]);
+            b->from[d][place + k] = (float)(corners[k][0][d] - p->start[d]);
+        }
+}
+
+static void describe(const planes *p, block *b) {
+    const float inverse = p->reach > 0.0F ? 1.0F / p->reach : 0.0F, scaled = 5.0F * p->slack * p->reach;
+    for (size_t i = 0; i < BLOCK; ++i) {
+        const float ax = b->sides[0][0][i], ay = b->sides[0][1][i], az = b->sides[0][2][i];
+        const float bx = b->sides[1][0][i], by = b->sides[1][1][i], bz = b->sides[1][2][i];
+        const float cx = bx - ax, cy = by - ay, cz = bz - az;
+        const float fx = b->from[0][i], fy = b->from[1][i], fz = b->from[2][i];
+        const float widest =
+            larger_of(larger_of(larger_of(fabsf(ax), fabsf(ay)), larger_of(fabsf(az), fabsf(bx))),
+                      larger_of(larger_of(fabsf(by), fabsf(bz)), larger_of(fabsf(cx), fabsf(cy))));
+        b->extent[i] = larger_of(widest, fabsf(cz));
+        const float longest =
+            larger_of(length_of(ax, ay, az), larger_of(length_of(bx, by, bz), length_of(cx, cy, cz)));
+        const float nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+        /* Without area it is all zero. */
+        const float length = length_of(nx, ny, nz), scale = 1.0F / larger_of(length, FLT_MIN);
+        b->altitude[i] = length / larger_of(longest, FLT_MIN);
+        b->away[i] = length_of(fx, fy, fz) + 3.0F * longest;
+        b->tilt[i] = scaled / larger_of(b->altitude[i], FLT_MIN) + 1e-6F;
+        const float along = scale * (0.531F * nx + 0.617F * ny + 0.581F * nz),
+                    signed_scale = along < 0.0F ? -scale : scale;
+        b->plane[0][i] = nx * signed_scale;
+        b->plane[1][i] = ny * signed_scale;
+        b->plane[2][i] = nz * signed_scale;
+        b->plane[3][i] = (nx * fx + ny * fy + nz * fz) * signed_scale * inverse;
+        b->on_edge[i] = fabsf(along) <= 2.0F * b->tilt[i];
     }
-    /* No corner is farther from the start, and no coordinate larger. */
-    p->reach = sqrt(far) + sqrt(longest);
-    p->largest = p->reach + larger_of(fabs(start[0]), larger_of(fabs(start[1]), fabs(start[2])));
 }
 
 /* x <= 2^(this - ZERO_EXPONENT), and more than half of that; of 0 and numbers without normal form 0. */
@@ -82,32 +101,49 @@ static uint32_t exponent_of(float x) {
     return (bits >> 23 & 0xff) + ((bits & 0x7fffff) != 0);
 }
 
-/* The power of two with which most triangles are like each other. */
-static void choose_size(planes *p) {
+/* What most of the triangles are like, by some of them. False: they cannot be told apart. */
+static bool choose_sizes(planes *p) {
+    const size_t count = p->triangles->count;
     size_t extents[EXPONENTS] = {0}, altitudes[EXPONENTS] = {0};
     size_t above = 0, below = 0, least = SIZE_MAX;
-    for (size_t i = 0; i < p->count; ++i)
-        if (p->rows[i].altitude > 0.0F) {
-            ++extents[exponent_of(p->rows[i].extent)];
-            ++altitudes[exponent_of(p->rows[i].altitude)];
+    float away = 0.0F;
+    block b;
+    for (size_t i = 0; i < SAMPLES; ++i) {
+        load(p, count > SAMPLES ? aur_mix64(i) % count : i % count, 1, i % BLOCK, &b);
+        if ((i + 1) % BLOCK != 0)
+            continue;
+        describe(p, &b);
+        for (size_t k = 0; k < BLOCK; ++k) {
+            away = larger_of(away, b.away[k]);
+            if (!(b.altitude[k] > 0.0F))
+                continue;
+            ++extents[exponent_of(b.extent[k])];
+            ++altitudes[exponent_of(b.altitude[k])];
             ++above;
         }
-    for (int k = LIKE_BITS; k < EXPONENTS; ++k) {
+    }
+    for (int k = 0; k <= MOST_EXPONENT; ++k) {
         above -= extents[k];
-        below += altitudes[k - LIKE_BITS];
-        if (above + below < least) {
+        below += k >= LIKE_BITS ? altitudes[k - LIKE_BITS] : 0;
+        if (k >= LEAST_EXPONENT + LIKE_BITS && above + below < least) {
             least = above + below;
             p->most = ldexpf(1.0F, k - ZERO_EXPONENT);
         }
     }
+    p->least = ldexpf(p->most, -LIKE_BITS);
+    p->reach = 2.0F * away;
+    const double largest =
+                     (double)p->reach + fmax(fabs(p->start[0]), fmax(fabs(p->start[1]), fabs(p->start[2]))),
+                 slack = aur_overlap_slack((double)p->most, largest);
+    p->slack = (float)(slack / (double)p->reach);
+    /* Far from the origin, where coordinates are too coarse, balls would have more cells than two a side. */
+    return p->reach > 0.0F && p->reach < 1e18F &&
+           2.0 * (1.25 * aur_overlap_tilt(slack, (double)p->least) + 2e-6 + (double)p->slack) * CELLS < 1.0;
 }
 
 /* Marks the triangle and the first one in this cell. False: the table is full. */
-static bool enter(planes *p, const uint32_t cell[4], size_t index, uint8_t *marks) {
-    uint64_t hash = cell[0];
-    for (size_t k = 1; k < 4; ++k)
-        hash = hash << 12 | cell[k];
-    hash = aur_mix64(hash);
+static inline bool enter(planes *p, const uint32_t cell[2], size_t index) {
+    const uint64_t hash = aur_mix64((uint64_t)cell[0] << 32 | cell[1]);
     const uint64_t tag = hash & ~(uint64_t)UINT32_MAX;
     for (size_t at = hash & (p->table_size - 1);; at = (at + 1) & (p->table_size - 1)) {
         const uint64_t found = p->table[at];
@@ -119,93 +155,111 @@ static bool enter(planes *p, const uint32_t cell[4], size_t index, uint8_t *mark
         if ((found & ~(uint64_t)UINT32_MAX) != tag)
             continue;
         if (first != index)
-            marks[first] = marks[index] = AUR_PLANE_SHARED;
+            p->marks[first] = p->marks[index] = AUR_PLANE_SHARED;
         return true;
     }
 }
 
-/* Enters a ball into all cells that it meets. */
-static bool enter_ball(planes *p, const float middle[4], const float radius[2], size_t index,
-                       uint8_t *marks) {
-    uint32_t low[4], high[4];
-    uint32_t both = 0; /* bits of the sides on which it lies in two cells */
-    for (size_t k = 0; k < 4; ++k) {
-        low[k] = (uint32_t)((middle[k] - radius[k / 3] + 2.0F) * (float)CELLS);
-        high[k] = (uint32_t)((middle[k] + radius[k / 3] + 2.0F) * (float)CELLS);
-        both |= (uint32_t)(low[k] != high[k]) << k;
+static inline uint32_t cell_of(float x) {
+    const float above = larger_of(x, -1.9F), within = above < 1.9F ? above : 1.9F;
+    return (uint32_t)(int32_t)((within + 2.0F) * (float)CELLS);
+}
+
+/* The cells that the balls meet: two a side at most. */
+static void find_cells(const planes *p, block *b, float sign) {
+    for (size_t k = 0; k < 2; ++k) {
+        const float slack = k == 1 ? p->slack : 0.0F;
+        for (size_t i = 0; i < BLOCK; ++i) {
+            const float x = sign * b->plane[2 * k][i], y = sign * b->plane[2 * k + 1][i], tilt = b->tilt[i];
+            b->low[k][i] = cell_of(x - tilt) << CELL_BITS | cell_of(y - tilt - slack);
+            b->high[k][i] = cell_of(x + tilt) << CELL_BITS | cell_of(y + tilt + slack);
+        }
     }
-    for (uint32_t sides = 0; sides < 16; ++sides) {
+}
+
+/* Enters a ball into all cells that it meets. */
+static bool enter_ball(planes *p, const block *b, size_t i, size_t index) {
+    const uint32_t low[2] = {b->low[0][i], b->low[1][i]}, high[2] = {b->high[0][i], b->high[1][i]};
+    if (low[0] == high[0] && low[1] == high[1])
+        return enter(p, low, index);
+    static const uint32_t masks[4] = {0, (1U << CELL_BITS) - 1, ~0U << CELL_BITS, ~0U};
+    const uint32_t apart[2] = {low[0] ^ high[0], low[1] ^ high[1]};
+    /* Bits of the sides on which it lies in two cells. */
+    const uint32_t both =
+        (uint32_t)((apart[0] & masks[1]) != 0) | (uint32_t)((apart[0] & masks[2]) != 0) << 1 |
+        (uint32_t)((apart[1] & masks[1]) != 0) << 2 | (uint32_t)((apart[1] & masks[2]) != 0) << 3;
+    for (uint32_t sides = 0; sides <= both; ++sides) {
         if ((sides & ~both) != 0)
             continue;
-        uint32_t cell[4];
-        for (size_t k = 0; k < 4; ++k)
-            cell[k] = (sides >> k & 1) != 0 ? high[k] : low[k];
-        if (!enter(p, cell, index, marks))
+        const uint32_t cell[2] = {low[0] ^ (apart[0] & masks[sides & 3]),
+                                  low[1] ^ (apart[1] & masks[sides >> 2])};
+        if (!enter(p, cell, index))
             return false;
-        if (both == 0)
-            break;
     }
     return true;
 }
 
-/* Planes are the same whichever way they look: the normal is turned to one side, and counts for both sides
- * near its edge. */
-static bool enter_plane(planes *p, size_t index, double slack, uint8_t *marks) {
-    static const float side[3] = {0.531F, 0.617F, 0.581F};
-    const row *const r = &p->rows[index];
-    /* More than floats round. */
-    const float tilt = (float)aur_overlap_tilt(slack, (double)r->altitude) + 1e-6F;
-    const float radius[2] = {tilt, tilt + (float)(slack / p->reach)};
-    const float along = r->normal[0] * side[0] + r->normal[1] * side[1] + r->normal[2] * side[2];
-    const float sign = along < 0.0F ? -1.0F : 1.0F, offset = (float)((double)r->offset / p->reach);
-    const float middle[4] = {sign * r->normal[0], sign * r->normal[1], sign * r->normal[2], sign * offset},
-                turned[4] = {-middle[0], -middle[1], -middle[2], -middle[3]};
-    return enter_ball(p, middle, radius, index, marks) &&
-           (sign * along > 2.0F * tilt || enter_ball(p, turned, radius, index, marks));
+/* Floats have lost the area of some that are narrow. */
+static bool has_area(const planes *p, size_t index) {
+    double corners[3][3];
+    aur_plane plane;
+    p->triangles->corners(p->triangles->context, index, 1, &corners);
+    return aur_polygon_plane(3, (const double(*)[3])corners, &plane) > 0.0;
 }
 
-static bool mark(planes *p, uint8_t *marks, size_t *unlike) {
-    p->least = ldexpf(p->most, -LIKE_BITS);
-    const double slack = aur_overlap_slack((double)p->most, p->largest);
-    const double widest = aur_overlap_tilt(slack, (double)p->least);
-    /* Far from the origin, where coordinates are too coarse, balls would have more cells than two a side. */
-    bool good = 2.0 * (widest + 2e-6 + slack / p->reach) * CELLS < 1.0 && p->reach > 0.0;
-    *unlike = 0;
-    for (size_t i = 0; i < p->count && good; ++i) {
-        const row *const r = &p->rows[i];
-        if (r->altitude == 0.0F)
-            continue;
-        if (r->extent <= p->most && r->altitude >= p->least) {
-            good = enter_plane(p, i, slack, marks);
-        } else {
-            marks[i] = AUR_PLANE_UNLIKE;
+static bool is_like(const planes *p, const block *b, size_t i) {
+    return b->extent[i] <= p->most && b->altitude[i] >= p->least && b->away[i] <= p->reach;
+}
+
+/* Planes are the same whichever way they look: the normal is turned to one side, and counts for both sides
+ * near its edge. */
+static bool mark_block(planes *p, block *b, size_t first, size_t count, size_t *unlike) {
+    bool any_on_edge = false, good = true;
+    load(p, first, count, 0, b);
+    describe(p, b);
+    find_cells(p, b, 1.0F);
+    for (size_t i = 0; i < count && good; ++i)
+        if (is_like(p, b, i)) {
+            good = enter_ball(p, b, i, first + i);
+            any_on_edge |= b->on_edge[i];
+        } else if (has_area(p, first + i)) {
+            p->marks[first + i] = AUR_PLANE_UNLIKE;
             ++*unlike;
         }
-    }
+    if (any_on_edge)
+        find_cells(p, b, -1.0F);
+    for (size_t i = 0; i < count && good && any_on_edge; ++i)
+        if (b->on_edge[i] && is_like(p, b, i))
+            good = enter_ball(p, b, i, first + i);
+    return good;
+}
+
+static bool mark(planes *p, size_t *unlike) {
+    const size_t count = p->triangles->count;
+    bool good = choose_sizes(p);
+    block b = {0};
+    for (size_t first = 0; first < count && good; first += BLOCK)
+        good = mark_block(p, &b, first, count - first < BLOCK ? count - first : BLOCK, unlike);
     return good;
 }
 
 size_t aur_planes_mark(const aur_triangle_source *triangles, uint8_t *marks) {
-    planes p = {.count = triangles->count, .table_size = 64};
-    if (p.count < FEW) {
-        memset(marks, AUR_PLANE_UNLIKE, p.count);
-        return p.count;
-    }
-    while (p.table_size < 2 * p.count)
+    const size_t count = triangles->count;
+    planes p = {.triangles = triangles, .marks = marks, .table_size = 64};
+    while (p.table_size < 2 * count)
         p.table_size *= 2;
-    p.rows = malloc(p.count * sizeof *p.rows);
-    p.table = calloc(p.table_size, sizeof *p.table);
-    size_t unlike = SIZE_MAX;
-    if (p.rows != NULL && p.table != NULL) {
-        memset(marks, AUR_PLANE_ALONE, p.count);
-        describe_all(&p, triangles);
-        choose_size(&p);
-        if (!mark(&p, marks, &unlike)) {
-            memset(marks, AUR_PLANE_UNLIKE, p.count);
-            unlike = p.count;
-        }
+    p.table = count >= FEW ? calloc(p.table_size, sizeof *p.table) : NULL;
+    if (p.table == NULL && count >= FEW)
+        return SIZE_MAX;
+    double corners[3][3];
+    triangles->corners(triangles->context, 0, 1, &corners);
+    memcpy(p.start, corners[0], sizeof p.start);
+    memset(marks, AUR_PLANE_ALONE, count);
+    size_t unlike = 0;
+    if (count < FEW || !mark(&p, &unlike)) {
+        memset(marks, AUR_PLANE_UNLIKE, count);
+        unlike = count;
     }
-    free(p.rows);
     free(p.table);
     return unlike;
 }

@@ -217,6 +217,10 @@ typedef struct search {
     aur_overlaps *found; /* of blocks */
 } search;
 
+static void find_corners(const search *s, size_t index, double corners[3][3]) {
+    s->triangles->corners(s->triangles->context, index, 1, (double(*)[3][3])corners);
+}
+
 /* Wider than rounding and the distances across which triangles overlap. */
 static void include(const search *s, const double corners[3][3], float lower[3], float upper[3]) {
     const double slack = aur_overlap_slack(extent_of(corners), 0.0);
@@ -311,7 +315,7 @@ static void build(search *s, size_t first, size_t count) {
     }
     for (size_t i = first; count <= LEAF && i < first + count; ++i) {
         double corners[3][3];
-        s->triangles->corners(s->triangles->context, s->order[i], corners);
+        find_corners(s, s->order[i], corners);
         include(s, (const double(*)[3])corners, n->lower, n->upper);
     }
     n->skip = (uint32_t)s->node_count;
@@ -322,7 +326,7 @@ static void build_tree(search *s, size_t count) {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double corners[3][3];
     for (size_t i = 0; i < count; ++i) {
-        s->triangles->corners(s->triangles->context, s->order[i], corners);
+        find_corners(s, s->order[i], corners);
         for (int d = 0; d < 3; ++d) {
             low[d] = smaller_of(low[d], side((const double(*)[3])corners, d, false));
             high[d] = larger_of(high[d], side((const double(*)[3])corners, d, true));
@@ -331,7 +335,7 @@ static void build_tree(search *s, size_t count) {
     for (int d = 0; d < 3; ++d)
         s->middle[d] = 0.5 * (low[d] + high[d]);
     for (size_t i = 0; i < count; ++i) {
-        s->triangles->corners(s->triangles->context, s->order[i], corners);
+        find_corners(s, s->order[i], corners);
         for (int d = 0; d < 3; ++d)
             s->centers[s->order[i]][d] =
                 (float)((corners[0][d] + corners[1][d] + corners[2][d]) / 3.0 - s->middle[d]);
@@ -371,7 +375,7 @@ static bool choose(search *s, size_t *count) {
         build_tree(s, list_marked(s, marks, AUR_PLANE_UNLIKE));
         for (size_t i = 0; i < s->triangles->count; ++i) {
             double corners[3][3];
-            s->triangles->corners(s->triangles->context, i, corners);
+            find_corners(s, i, corners);
             if (marks[i] == AUR_PLANE_ALONE && meets_leaf(s, (const double(*)[3])corners))
                 marks[i] = AUR_PLANE_SHARED;
         }
@@ -415,7 +419,7 @@ static void load_leaf(const search *s, const node *n, item items[LEAF]) {
     for (size_t i = 0; i < n->count; ++i) {
         item *const it = &items[i];
         it->index = s->order[n->first + i];
-        s->triangles->corners(s->triangles->context, it->index, it->corners);
+        find_corners(s, it->index, it->corners);
         set_empty(it->lower, it->upper);
         include(s, (const double(*)[3])it->corners, it->lower, it->upper);
     }

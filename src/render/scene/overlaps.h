@@ -7,11 +7,11 @@
 #include "points/base/error.h"
 #include "points/base/internal.h"
 
-/* Triangle `index` of the `count` that `context` knows, in any coordinates. */
+/* The `count` triangles that `context` knows, in any coordinates: corners[some] of those from `first` on. */
 typedef struct aur_triangle_source {
     size_t count;
     const void *context;
-    void (*corners)(const void *context, size_t index, double corners[3][3]);
+    void (*corners)(const void *context, size_t first, size_t some, double (*corners)[3][3]);
     bool doubles; /* rays order them in doubles, which resolve any gap */
 } aur_triangle_source;
 

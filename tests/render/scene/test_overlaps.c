@@ -14,12 +14,13 @@ typedef struct mesh {
     double corners[MOST][3][3];
 } mesh;
 
-static void corners_of(const void *context, size_t index, double corners[3][3]) {
-    memcpy(corners, ((const mesh *)context)->corners[index], sizeof(double[3][3]));
+static void corners_of(const void *context, size_t first, size_t count, double (*corners)[3][3]) {
+    memcpy(corners, ((const mesh *)context)->corners[first], count * sizeof *corners);
 }
 
-static void picked_of(const void *context, size_t index, double corners[3][3]) {
-    corners_of(context, ((const mesh *)context)->picked[index], corners);
+static void picked_of(const void *context, size_t first, size_t count, double (*corners)[3][3]) {
+    for (size_t i = 0; i < count; ++i)
+        corners_of(context, ((const mesh *)context)->picked[first + i], 1, &corners[i]);
 }
 
 static double unit(uint64_t a, uint64_t b) {
@@ -112,13 +113,20 @@ static void make(mesh *m, int kind, uint64_t seed) {
     }
 }
 
+/* By a power of two. */
+static void scale(mesh *m, int exponent) {
+    for (size_t i = 0; i < 9 * m->count; ++i)
+        m->corners[i / 9][i / 3 % 3][i % 3] = ldexp(m->corners[i / 9][i / 3 % 3][i % 3], exponent);
+}
+
 static void overlaps_are_those_of_all_pairs(void **state) {
     (void)state;
     size_t found = 0;
     for (int kind = 0; kind < KINDS; ++kind)
-        for (uint64_t seed = 0; seed < 3; ++seed) {
+        for (uint64_t seed = 0; seed < 5; ++seed) {
             static mesh m;
             make(&m, kind, aur_hash2((uint64_t)kind, seed));
+            scale(&m, seed < 3 ? 0 : seed == 3 ? 40 : -40);
             const aur_triangle_source all = {m.count, &m, corners_of, false}, two = {2, &m, picked_of, false};
             aur_overlaps overlaps;
             assert_int_equal(aur_overlaps_find(&all, 2, &overlaps, NULL), AUR_OK);
