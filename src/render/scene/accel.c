@@ -197,11 +197,12 @@ static bool attach_all(aur_scene *scene) {
 
 /* Any number of threads builds the same tree: Embree sorts the primitives of each leaf again after it has
  * divided them in parallel, so which of two hits at one distance wins is settled
- * (tests/render/scene/test_accel.c). Small trees are not worth the threads. Embree obeys the limit of
- * AUREOLE_ISA too, so that a test on one machine meets the kernels that others have. */
+ * (tests/render/scene/test_accel.c). Small trees are not worth the threads, and few triangles not the time
+ * that asking the system for huge pages takes, as much as building a tree of 200 triangles. Embree obeys the
+ * limit of AUREOLE_ISA too, so that a test on one machine meets the kernels that others have. */
 void aur_embree_configuration(size_t primitives, size_t threads,
                               char text[AUR_EMBREE_CONFIGURATION_CAPACITY]) {
-    enum { MANY = 1 << 20 };
+    enum { FEW = 1 << 15, MANY = 1 << 20 };
     static const char *const isa[] = {
         [AUR_ISA_PORTABLE] = "isa=sse2", [AUR_ISA_AVX2] = "isa=avx2", [AUR_ISA_AVX512] = ""};
     const char *const kernels = isa[aur_isa_of_rays()];
@@ -209,8 +210,8 @@ void aur_embree_configuration(size_t primitives, size_t threads,
     if (workers == 0)
         snprintf(text, AUR_EMBREE_CONFIGURATION_CAPACITY, "%s", kernels);
     else
-        snprintf(text, AUR_EMBREE_CONFIGURATION_CAPACITY, "threads=%zu%s%s", workers,
-                 *kernels != '\0' ? "," : "", kernels);
+        snprintf(text, AUR_EMBREE_CONFIGURATION_CAPACITY, "threads=%zu%s%s%s", workers,
+                 primitives < FEW ? ",hugepages=0" : "", *kernels != '\0' ? "," : "", kernels);
 }
 
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error) {

@@ -251,7 +251,8 @@ void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upp
  * holds. */
 struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
 /* What Embree's devices are made with for so many primitives: one thread below a million, else as many as are
- * given, 0 for all that there are; and kernels for no wider instructions than aur_isa_of_rays(). */
+ * given, 0 for all that there are; no huge pages below 2^15; and kernels for no wider instructions than
+ * aur_isa_of_rays(). */
 enum { AUR_EMBREE_CONFIGURATION_CAPACITY = 48 };
 void aur_embree_configuration(size_t primitives, size_t threads,
                               char text[AUR_EMBREE_CONFIGURATION_CAPACITY]);

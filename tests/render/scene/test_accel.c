@@ -177,6 +177,9 @@ static void threads_are_bounded(void **state) {
     }
     aur_embree_configuration(1 << 20, 0, text);
     assert_null(strstr(text, "threads"));
+    assert_null(strstr(text, "hugepages"));
+    aur_embree_configuration(100, 0, text);
+    assert_non_null(strstr(text, "hugepages=0"));
 }
 
 int main(void) {
