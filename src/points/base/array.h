@@ -12,7 +12,14 @@
  *     if (!aur_array_reserve(&list->items, &list->capacity, list->count + 1, sizeof *list->items))
  *         return aur_fail_memory(error);
  */
-bool aur_array_reserve(void *array, size_t *capacity, size_t wanted, size_t size);
+static inline bool aur_array_reserve(void *array, size_t *capacity, size_t wanted, size_t size);
+
+/* The same where `wanted` is more than the capacity. */
+bool aur_array_grow(void *array, size_t *capacity, size_t wanted, size_t size);
+
+static inline bool aur_array_reserve(void *array, size_t *capacity, size_t wanted, size_t size) {
+    return wanted <= *capacity || aur_array_grow(array, capacity, wanted, size);
+}
 
 /* a * b into *product; false, and *product untouched, when a size_t cannot hold it. */
 bool aur_size_product(size_t a, size_t b, size_t *product);

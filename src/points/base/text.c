@@ -75,29 +75,39 @@ static const char *read_special(const char *text, bool negative, aur_number_clas
     return NULL;
 }
 
+/* Adds the digits at `text` to *digits, modulo 2^64; returns the first character after them. */
+static inline const char *take_digits(const char *text, uint64_t *digits) {
+    for (; aur_is_digit(*text); ++text)
+        *digits = 10 * *digits + (uint64_t)(*text - '0');
+    return text;
+}
+
+/* Digits of a text with one point at most, but for zeros before them. */
+static ptrdiff_t count_significant(const char *text, const char *end) {
+    ptrdiff_t count = 0;
+    for (; text < end; ++text)
+        count += aur_is_digit(*text) && (count > 0 || *text != '0');
+    return count;
+}
+
 const char *aur_read_double(const char *text, aur_number_class allowed, double *value) {
     /* 19 digits always fit 64 bits. */
     enum { MOST_DIGITS = 19, LARGEST_EXPONENT = 99999 };
     const bool negative = *text == '-';
-    const char *c = text + (*text == '-' || *text == '+');
+    const char *const start = text + (*text == '-' || *text == '+');
     uint64_t digits = 0;
-    int significant = 0, exponent = 0;
-    bool any = false;
-    for (bool fraction = false;; ++c) {
-        if (*c == '.' && !fraction) {
-            fraction = true;
-            continue;
-        }
-        if (!aur_is_digit(*c))
-            break;
-        any = true;
-        exponent -= fraction;
-        significant += significant > 0 || *c != '0';
-        if (significant <= MOST_DIGITS)
-            digits = 10 * digits + (uint64_t)(*c - '0');
+    int exponent = 0;
+    const char *c = take_digits(start, &digits);
+    bool any = c > start;
+    if (*c == '.') {
+        const char *const point = ++c;
+        c = take_digits(c, &digits);
+        any = any || c > point;
+        exponent = (int)(point - c);
     }
     if (!any)
         return read_special(c, negative, allowed, value);
+    const bool fits = c - start <= MOST_DIGITS || count_significant(start, c) <= MOST_DIGITS;
     if (*c == 'e' || *c == 'E') {
         const char *e = c + 1;
         const bool below = *e == '-';
@@ -110,9 +120,9 @@ const char *aur_read_double(const char *text, aur_number_class allowed, double *
             c = e;
         }
     }
-    double parsed = digits == 0 ? 0.0 : (double)NAN;
-    if (digits != 0 && significant <= MOST_DIGITS)
-        parsed = quick_double(digits, exponent);
+    double parsed = (double)NAN;
+    if (fits)
+        parsed = digits == 0 ? 0.0 : quick_double(digits, exponent);
     if (isnan(parsed))
         parsed = fabs(slow_double(text));
     if (isinf(parsed) && allowed == AUR_NUMBER_FINITE)

@@ -69,6 +69,12 @@ static void turn_winding(aur_mesh *mesh) {
 }
 
 void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local) {
+    static const double identity[12] = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0};
+    if (mesh->normals == NULL && memcmp(to_world->m, identity, sizeof identity) == 0) {
+        for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+            mesh->points[i] += 0.0; /* as the map does: -0 becomes 0 */
+        return;
+    }
     for (size_t i = 0; i < 3 * mesh->vertex_count; i += 3) {
         const double local[3] = {mesh->points[i], mesh->points[i + 1], mesh->points[i + 2]};
         aur_transform_point(to_world, local, &mesh->points[i]);
@@ -85,8 +91,17 @@ aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_p
     mesh->positions = malloc((3 * mesh->vertex_count + 1) * sizeof(float));
     if (mesh->positions == NULL)
         return aur_fail_memory_at(error, location);
-    for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
-        mesh->positions[i] = (float)(mesh->points[i] - origin[i % 3]);
+    /* Four vertices at a time have whole vectors of coordinates. */
+    enum { STEP = 12 };
+    double origins[STEP];
+    size_t i = 0;
+    for (size_t k = 0; k < STEP; ++k)
+        origins[k] = origin[k % 3];
+    for (; i + STEP <= 3 * mesh->vertex_count; i += STEP)
+        for (size_t k = 0; k < STEP; ++k)
+            mesh->positions[i + k] = (float)(mesh->points[i + k] - origins[k]);
+    for (size_t k = 0; i < 3 * mesh->vertex_count; ++i, ++k)
+        mesh->positions[i] = (float)(mesh->points[i] - origins[k]);
     mesh->positions[3 * mesh->vertex_count] = 0.0f;
     if (keep_points)
         return AUR_OK;
@@ -157,10 +172,17 @@ aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error
     if (mesh->triangle_count > UINT32_MAX - 1)
         return aur_fail_at(error, location, AUR_ERROR_FORMAT,
                            "%zu triangles are too many: the limit is 2^32 - 2", mesh->triangle_count);
+    uint64_t endless = 0;
+    uint32_t outside = 0;
+    const uint32_t count = mesh->vertex_count < UINT32_MAX ? (uint32_t)mesh->vertex_count : UINT32_MAX;
     for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+        endless |= !(fabs(mesh->points[i]) <= (double)FLT_MAX);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; ++i)
+        outside |= mesh->indices[i] >= count;
+    for (size_t i = 0; i < 3 * mesh->vertex_count && endless != 0; ++i)
         if (!(fabs(mesh->points[i]) <= (double)FLT_MAX))
             return aur_fail_at(error, location, AUR_ERROR_FORMAT, "vertex %zu is not finite", i / 3);
-    for (size_t i = 0; i < 3 * mesh->triangle_count; ++i)
+    for (size_t i = 0; i < 3 * mesh->triangle_count && outside != 0; ++i)
         if (mesh->indices[i] >= mesh->vertex_count)
             return aur_fail_at(error, location, AUR_ERROR_FORMAT,
                                "triangle %zu: index %u is beyond the %zu vertices", i / 3,

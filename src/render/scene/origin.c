@@ -33,8 +33,13 @@ static aur_patch_box box_of(const aur_shape *shape, size_t primitive) {
     const aur_mesh *const mesh = &shape->mesh;
     const aur_curves *const curves = &shape->curves;
     if (shape->curved == NULL) {
+        const double *corners[3];
         for (size_t i = 0; i < 3; ++i)
-            include(&box, &mesh->points[3 * (size_t)mesh->indices[3 * primitive + i]], 0.0);
+            corners[i] = &mesh->points[3 * (size_t)mesh->indices[3 * primitive + i]];
+        for (size_t i = 0; i < 3; ++i) {
+            box.lower[i] = smaller_of(corners[0][i], smaller_of(corners[1][i], corners[2][i]));
+            box.upper[i] = larger_of(corners[0][i], larger_of(corners[1][i], corners[2][i]));
+        }
     } else if (curves->segment_count > 0) {
         for (size_t i = 0; i < (curves->smooth ? 4u : 2u); ++i) {
             const size_t point = curves->firsts[primitive] + i;

@@ -52,24 +52,37 @@ static aur_result inflate_bytes(serialized *self, void *bytes, size_t size) {
     return AUR_OK;
 }
 
-/* `count` numbers of the file's precision into `doubles` or `values`; both may be NULL. */
-static aur_result read_numbers(serialized *self, size_t count, double *doubles, float *values) {
-    double wide[256];
-    float narrow[256];
+static double usable(double value) {
+    return fabs(value) <= 1e30 ? value : (double)NAN;
+}
+
+/* Of floats all bytes come at once into the last half, from which they are widened from the first one on:
+ * zlib is slower for many short pieces. */
+static aur_result read_points(serialized *self, size_t count, double *points) {
     const bool is_double = (self->flags & DOUBLE) != 0;
+    char *const bytes = (char *)points + (is_double ? 0 : count * sizeof(float));
+    const aur_result result =
+        inflate_bytes(self, bytes, count * (is_double ? sizeof(double) : sizeof(float)));
+    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
+        float narrow;
+        memcpy(&narrow, bytes + i * sizeof narrow, sizeof narrow);
+        points[i] = is_double ? usable(points[i]) : (double)narrow;
+    }
+    return result;
+}
+
+/* `values` may be NULL: the numbers are skipped. */
+static aur_result read_values(serialized *self, size_t count, float *values) {
+    const bool is_double = (self->flags & DOUBLE) != 0;
+    if (!is_double && values != NULL)
+        return inflate_bytes(self, values, count * sizeof *values);
+    double part[1024];
     aur_result result = AUR_OK;
-    for (size_t done = 0; done < count && result == AUR_OK; done += 256) {
-        const size_t part = count - done < 256 ? count - done : 256;
-        result = is_double ? inflate_bytes(self, wide, part * sizeof *wide)
-                           : inflate_bytes(self, narrow, part * sizeof *narrow);
-        for (size_t i = 0; result == AUR_OK && i < part; ++i) {
-            const double value = is_double ? wide[i] : (double)narrow[i];
-            const double kept = !is_double || fabs(value) <= 1e30 ? value : (double)NAN;
-            if (doubles != NULL)
-                doubles[done + i] = kept;
-            else if (values != NULL)
-                values[done + i] = (float)kept;
-        }
+    for (size_t done = 0, some; done < count && result == AUR_OK; done += some) {
+        some = count - done < 1024 ? count - done : 1024;
+        result = inflate_bytes(self, part, some * (is_double ? sizeof(double) : sizeof(float)));
+        for (size_t i = 0; result == AUR_OK && values != NULL && i < some; ++i)
+            values[done + i] = (float)usable(part[i]);
     }
     return result;
 }
@@ -98,13 +111,13 @@ static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) 
     result =
         aur_mesh_allocate(mesh, vertices, triangles, parts, (aur_location){.file = file->path}, file->error);
     if (result == AUR_OK)
-        result = read_numbers(self, 3 * vertices, mesh->points, NULL);
+        result = read_points(self, 3 * vertices, mesh->points);
     if (result == AUR_OK && (flags & HAS_NORMALS))
-        result = read_numbers(self, 3 * vertices, NULL, mesh->normals);
+        result = read_values(self, 3 * vertices, mesh->normals);
     if (result == AUR_OK && (flags & HAS_UVS))
-        result = read_numbers(self, 2 * vertices, NULL, mesh->uvs);
+        result = read_values(self, 2 * vertices, mesh->uvs);
     if (result == AUR_OK && (flags & HAS_COLORS))
-        result = read_numbers(self, 3 * vertices, NULL, NULL);
+        result = read_values(self, 3 * vertices, NULL);
     return result == AUR_OK ? inflate_bytes(self, mesh->indices, 3 * triangles * sizeof *mesh->indices)
                             : result;
 }

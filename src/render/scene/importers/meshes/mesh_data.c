@@ -58,10 +58,7 @@ static bool cut_face(cutter *self, size_t face, size_t first, size_t count) {
 /* Faces become triangles. Where all of them are, the corners are what is wanted. */
 static aur_result cut_faces(aur_mesh_reader *reader) {
     aur_mesh_data *const data = reader->data;
-    bool plain = true;
-    for (size_t i = 0; i < data->face_count && plain; ++i)
-        plain = reader->ends[i] == 3 * (i + 1);
-    if (plain) {
+    if (reader->end_count == 0) {
         data->indices = reader->corners;
         data->triangle_count = data->flaws.face_count = data->face_count;
         reader->corners = NULL;

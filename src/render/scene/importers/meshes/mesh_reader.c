@@ -57,14 +57,18 @@ aur_result aur_mesh_reader_end_face(aur_mesh_reader *reader, size_t line) {
     aur_mesh_data *const data = reader->data;
     if (data->face_count >= AUR_MESH_NO_INDEX - 1)
         return aur_mesh_reader_fail(reader, "more than 2^32 - 2 faces");
-    if (!aur_array_reserve(&reader->ends, &reader->end_capacity, data->face_count + 1,
-                           sizeof *reader->ends) ||
+    const bool triangles = reader->end_count == 0 && reader->corner_count == 3 * (data->face_count + 1);
+    if ((!triangles && !aur_array_reserve(&reader->ends, &reader->end_capacity, data->face_count + 1,
+                                          sizeof *reader->ends)) ||
         (line > 0 &&
          !aur_array_reserve(&data->lines, &reader->line_capacity, data->face_count + 1, sizeof *data->lines)))
         return aur_fail_memory(reader->error);
     if (line > 0)
         data->lines[data->face_count] = line < UINT32_MAX ? (uint32_t)line : UINT32_MAX;
-    reader->ends[data->face_count++] = reader->corner_count;
+    ++data->face_count;
+    for (; !triangles && reader->end_count < data->face_count; ++reader->end_count)
+        reader->ends[reader->end_count] =
+            reader->end_count + 1 < data->face_count ? 3 * (reader->end_count + 1) : reader->corner_count;
     return AUR_OK;
 }
 

@@ -14,8 +14,8 @@ typedef struct aur_mesh_reader {
     /* Faces as they are read: their corners one after the other, and where those of each end. */
     size_t corner_count, corner_capacity;
     uint32_t *corners;
-    size_t end_capacity, line_capacity;
-    size_t *ends;
+    size_t end_count, end_capacity, line_capacity;
+    size_t *ends; /* none as long as all faces are triangles */
 } aur_mesh_reader;
 
 aur_result aur_obj_read(aur_mesh_reader *reader);
@@ -34,10 +34,15 @@ static inline uint32_t aur_stl_count(const char *data) {
 aur_result aur_mesh_reader_fail(const aur_mesh_reader *reader, const char *format, ...) AUR_PRINTF(2, 3);
 
 aur_result aur_mesh_reader_add_vertex(aur_mesh_reader *reader, const double point[3]);
-/* A corner of the face that comes next, and its end. `line` is 0 in binary files. */
+/* Corners of the face that comes next, and its end. `line` is 0 in binary files. */
 aur_result aur_mesh_reader_add_corners(aur_mesh_reader *reader, size_t count, const uint32_t *vertices);
 aur_result aur_mesh_reader_add_corner(aur_mesh_reader *reader, uint32_t vertex);
 aur_result aur_mesh_reader_end_face(aur_mesh_reader *reader, size_t line);
+
+/* After how many corners a face ends. */
+static inline size_t aur_mesh_reader_end(const aur_mesh_reader *reader, size_t face) {
+    return reader->end_count > 0 ? reader->ends[face] : 3 * (face + 1);
+}
 
 /* Gives vertices that are the same the same number: key[i * width] ... of item i. *unique, of malloc, gets
  * the first item of each number and *numbers those of the items. */

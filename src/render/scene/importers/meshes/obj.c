@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "points/base/array.h"
+#include "points/base/text.h"
 #include "render/scene/importers/meshes/mesh_reader.h"
 
 typedef struct number_list {
@@ -21,6 +22,7 @@ typedef struct obj {
     aur_mesh_reader *reader;
     number_list lists[3]; /* that of vertices is in the mesh */
     number_list colors;   /* of vertices, 1 where a line has none; empty: no line has any */
+    /* Those of the reader, up to the last one that is more than a vertex. */
     size_t corner_count, corner_capacity;
     corner *corners;
     aur_mesh_span span; /* of the next face */
@@ -184,20 +186,64 @@ static aur_result begin_face(obj *self) {
     return AUR_OK;
 }
 
+/* Makes corners of the reader's vertices. */
+static aur_result fill_corners(obj *self) {
+    const aur_mesh_reader *const reader = self->reader;
+    if (!aur_array_reserve(&self->corners, &self->corner_capacity, reader->corner_count, sizeof(corner)))
+        return aur_fail_memory(reader->error);
+    for (; self->corner_count < reader->corner_count; ++self->corner_count)
+        self->corners[self->corner_count] =
+            (corner){{reader->corners[self->corner_count], AUR_MESH_NO_INDEX, AUR_MESH_NO_INDEX}};
+    return AUR_OK;
+}
+
+static aur_result add_corner(obj *self, const corner *c) {
+    aur_result result = aur_mesh_reader_add_corner(self->reader, c->index[VERTEX]);
+    if (result != AUR_OK || (c->index[TEXTURE] == AUR_MESH_NO_INDEX && c->index[NORMAL] == AUR_MESH_NO_INDEX))
+        return result;
+    result = fill_corners(self);
+    if (result == AUR_OK)
+        self->corners[self->corner_count - 1] = *c;
+    return result;
+}
+
+/* Reads numbers of vertices as long as nothing else is in the line. */
+static aur_result read_vertices(obj *self) {
+    enum { MOST = 8, MOST_DIGITS = 9 };
+    aur_scanner *const scanner = &self->reader->scanner;
+    uint32_t vertices[MOST];
+    size_t count = 0;
+    while (count < MOST) {
+        const char *c = scanner->at;
+        while (aur_is_blank(*c))
+            ++c;
+        const char *const start = c;
+        uint32_t number = 0;
+        for (; aur_is_digit(*c) && c - start < MOST_DIGITS; ++c)
+            number = 10 * number + (uint32_t)(*c - '0');
+        if (number == 0 || !(aur_is_blank(*c) || aur_is_line_end(*c)))
+            break;
+        if (number > self->largest[VERTEX]) {
+            self->largest[VERTEX] = number;
+            self->largest_line[VERTEX] = scanner->line;
+        }
+        vertices[count++] = number - 1;
+        scanner->at = c;
+    }
+    return count > 0 ? aur_mesh_reader_add_corners(self->reader, count, vertices) : AUR_OK;
+}
+
 static aur_result read_face(obj *self) {
     aur_mesh_reader *const reader = self->reader;
     const size_t line = reader->scanner.line;
     aur_result result = begin_face(self);
+    if (result == AUR_OK)
+        result = read_vertices(self);
     while (result == AUR_OK && !aur_scan_line_done(&reader->scanner)) {
         corner c;
         result = read_corner(self, &c);
-        if (result == AUR_OK &&
-            !aur_array_reserve(&self->corners, &self->corner_capacity, self->corner_count + 1, sizeof c))
-            result = aur_fail_memory(reader->error);
         if (result == AUR_OK)
-            result = aur_mesh_reader_add_corner(reader, c.index[VERTEX]);
-        if (result == AUR_OK)
-            self->corners[self->corner_count++] = c;
+            result = add_corner(self, &c);
     }
     return result == AUR_OK ? aur_mesh_reader_end_face(reader, line) : result;
 }
@@ -211,8 +257,19 @@ static const char *const keywords[] = {
     "hole", "scrv",       "sp",        "con",   "bmat",  "step", "mg",     "bevel",  "c_interp", "d_interp",
     "lod",  "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh"};
 
+/* Most lines are told by one letter. */
+static bool take_letter(aur_scanner *scanner, char letter) {
+    const bool is = scanner->at[0] == letter && aur_is_blank(scanner->at[1]);
+    scanner->at += is;
+    return is;
+}
+
 static aur_result read_line(obj *self) {
     const size_t count = sizeof keywords / sizeof keywords[0];
+    if (take_letter(&self->reader->scanner, 'v'))
+        return read_vertex(self);
+    if (take_letter(&self->reader->scanner, 'f'))
+        return read_face(self);
     switch (aur_word_find(aur_scan_word(&self->reader->scanner), count, keywords)) {
     case 0:
         return read_vertex(self);
@@ -284,8 +341,10 @@ static aur_result split_vertices(obj *self) {
     aur_mesh_data *const data = reader->data;
     uint32_t *numbers = NULL, *unique = NULL;
     size_t count = 0;
-    aur_result result = aur_mesh_reader_merge(reader, self->corner_count, sizeof(corner), self->corners,
-                                              &numbers, &unique, &count);
+    aur_result result = fill_corners(self);
+    if (result == AUR_OK)
+        result = aur_mesh_reader_merge(reader, self->corner_count, sizeof(corner), self->corners, &numbers,
+                                       &unique, &count);
     double *const points = malloc((3 * count + 1) * sizeof *points);
     float *const colors = malloc((3 * count + 1) * sizeof *colors);
     if (result == AUR_OK &&

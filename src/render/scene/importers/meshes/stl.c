@@ -100,8 +100,9 @@ static aur_result read_ascii(aur_mesh_reader *reader) {
         if (result != AUR_OK)
             return result;
     }
-    return reader->corner_count ==
-                   (reader->data->face_count > 0 ? reader->ends[reader->data->face_count - 1] : 0)
+    return reader->corner_count == (reader->data->face_count > 0
+                                        ? aur_mesh_reader_end(reader, reader->data->face_count - 1)
+                                        : 0)
                ? AUR_OK
                : aur_mesh_reader_fail(reader, "the file ends within a facet");
 }

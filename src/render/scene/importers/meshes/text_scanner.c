@@ -9,14 +9,12 @@ void aur_scan_line_end(aur_scanner *scanner) {
     ++scanner->line;
 }
 
-void aur_scan_blanks(aur_scanner *scanner) {
-    for (;;) {
-        while (aur_is_blank(*scanner->at))
-            ++scanner->at;
-        if (scanner->at[0] != '\\' || !aur_is_line_end(scanner->at[1]))
-            return;
+void aur_scan_hidden_ends(aur_scanner *scanner) {
+    while (scanner->at[0] == '\\' && aur_is_line_end(scanner->at[1])) {
         ++scanner->at;
         aur_scan_line_end(scanner);
+        while (aur_is_blank(*scanner->at))
+            ++scanner->at;
     }
 }
 
@@ -27,11 +25,6 @@ void aur_scan_next_line(aur_scanner *scanner) {
         aur_scan_line_end(scanner);
     else
         ++scanner->line;
-}
-
-bool aur_scan_line_done(aur_scanner *scanner) {
-    aur_scan_blanks(scanner);
-    return aur_is_line_end(*scanner->at) || *scanner->at == '\0' || *scanner->at == '#';
 }
 
 aur_word aur_scan_word(aur_scanner *scanner) {

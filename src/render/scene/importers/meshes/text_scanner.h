@@ -27,14 +27,24 @@ static inline bool aur_is_line_end(char c) {
     return c == '\n' || c == '\r';
 }
 
+/* Skips line ends that a backslash hides, and blanks after them. */
+void aur_scan_hidden_ends(aur_scanner *scanner);
 /* Skips blanks, and line ends that a backslash hides. */
-void aur_scan_blanks(aur_scanner *scanner);
+static inline void aur_scan_blanks(aur_scanner *scanner) {
+    while (aur_is_blank(*scanner->at))
+        ++scanner->at;
+    if (*scanner->at == '\\')
+        aur_scan_hidden_ends(scanner);
+}
 /* Skips the end of the line, at which the scanner is. */
 void aur_scan_line_end(aur_scanner *scanner);
 /* Skips the rest of the line and its end. */
 void aur_scan_next_line(aur_scanner *scanner);
 /* Whether nothing but a comment is left in the line. */
-bool aur_scan_line_done(aur_scanner *scanner);
+static inline bool aur_scan_line_done(aur_scanner *scanner) {
+    aur_scan_blanks(scanner);
+    return aur_is_line_end(*scanner->at) || *scanner->at == '\0' || *scanner->at == '#';
+}
 /* The next word of the line; its length is 0 at the end. */
 aur_word aur_scan_word(aur_scanner *scanner);
 /* A name to the end of the line; it may have blanks, and "#1" in it: a comment is a # with blanks around it.
