@@ -27,8 +27,8 @@ void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, c
     const size_t count = coefficients->patches->count * AUR_DAYLIGHT_LANES;
     memset(coefficients->all, 0, count * sizeof *coefficients->all);
     memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
-    group->from_sky = add_light;
-    group->from_sky_user = (void *)(uintptr_t)coefficients;
+    group->sensor.from_sky = add_light;
+    group->sensor.from_sky_user = (void *)(uintptr_t)coefficients;
     aur_sensor_look(group, rule, place, NULL, 0, look);
     const double scale = AUR_PI / (double)rule->count;
     for (size_t i = 0; i < count; ++i) {

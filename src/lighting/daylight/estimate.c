@@ -18,6 +18,7 @@ typedef struct work {
     const aur_sensors_view *sensors;
     const aur_weather_view *weather;
     aur_path path;
+    bool panes;
     aur_sampler *sampler;
     aur_sensor_rule rule;
     aur_sky_patches patches;
@@ -175,7 +176,7 @@ enum { BLOCK = 4 }; /* sensors of a piece of work */
 
 static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;
-    aur_path_group group = {0};
+    aur_path_group group = {.sensor.panes = w->panes};
     room r = {.memory = NULL};
     if (!make_room(w, &r))
         return AUR_ERROR_MEMORY;
@@ -293,8 +294,8 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
               .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
                                         ? (uint32_t)options.max_depth
                                         : UINT32_MAX,
-                       .rr_depth = 5,
-                       .panes = aur_panes_exist(scene)},
+                       .rr_depth = 5},
+              .panes = aur_panes_exist(scene),
               .results = results};
     result = prepare(&w, scene, error);
     if (result == AUR_OK) {

@@ -27,6 +27,7 @@ typedef struct work {
     const aur_irradiance_options *options;
     const aur_sensors_view *sensors;
     aur_path path;
+    bool panes;
     const aur_scene *scene;
     aur_sampler *sampler;
     aur_closed_lights lights;
@@ -165,7 +166,7 @@ static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sens
 
 static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;
-    aur_path_group group = {0};
+    aur_path_group group = {.sensor.panes = w->panes};
     float *const shares = malloc((w->lights.emitter_count + 1) * sizeof *shares);
     if (shares == NULL)
         return AUR_ERROR_MEMORY;
@@ -249,8 +250,8 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
               .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
                                         ? (uint32_t)options.max_depth
                                         : UINT32_MAX,
-                       .rr_depth = 5,
-                       .panes = aur_panes_exist(scene)},
+                       .rr_depth = 5},
+              .panes = aur_panes_exist(scene),
               .results = results};
     result = run(&w, error);
     for (size_t i = 0; i < w.level_count; ++i)

@@ -159,7 +159,7 @@ static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t inde
         g->lanes.pdf[k] = z / AUR_PI_F;
     }
     g->alive = UINT16_MAX;
-    g->straight = UINT16_MAX;
+    g->sensor.straight = UINT16_MAX;
     g->specular = 0;
 }
 
@@ -227,12 +227,12 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
         else
             for (size_t c = 0; c < 3; ++c)
                 look->sums[k][DIRECT][c] += brought[c];
-        if (g->from_sky == NULL || !aur_has_lane(sky, k))
+        if (g->sensor.from_sky == NULL || !aur_has_lane(sky, k))
             continue;
         const aur_vector told = {(float)(left[0] * light[k][0]), (float)(left[1] * light[k][1]),
                                  (float)(left[2] * light[k][2])};
-        g->from_sky(g->from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
-                    aur_vector_scale(told, 1.0f / AUR_PI_F), true);
+        g->sensor.from_sky(g->sensor.from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
+                           aur_vector_scale(told, 1.0f / AUR_PI_F), true);
     }
 }
 
@@ -269,7 +269,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, cons
     double seen[AUR_PACKET_SIZE][3] = {{0.0}};
     size_t parts[AUR_PACKET_SIZE], reflected[AUR_PACKET_SIZE];
     uint32_t straight = g->alive, pending = known != NULL ? g->alive : 0;
-    g->known = place->shares;
+    g->sensor.known = place->shares;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         reflected[k] = REFLECTED;
     for (uint32_t depth = 1;; ++depth) {
@@ -287,14 +287,14 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, cons
         if (g->alive == 0)
             break;
         aur_path_group_scatter(g, depth);
-        straight = g->straight & g->alive;
+        straight = g->sensor.straight & g->alive;
         if (straight == 0 && (pending & g->alive) == 0) {
             aur_path_group_trace(g, depth + 1);
             break;
         }
     }
     add_parts(g, reflected, seen, look);
-    g->known = NULL;
+    g->sensor.known = NULL;
 }
 
 void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_place *place,

@@ -35,6 +35,6 @@ typedef struct aur_look {
 } aur_look;
 
 /* Means over the directions of the rule. `known` may be NULL. `level` stands for independent numbers. What
- * group->from_sky is told of adds up to the irradiance of the sky times rule->count / pi. */
+ * group->sensor.from_sky is told of adds up to the irradiance of the sky times rule->count / pi. */
 void aur_sensor_look(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
                      const aur_known_light *known, uint32_t level, aur_look *look);

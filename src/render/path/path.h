@@ -17,8 +17,7 @@ typedef struct aur_path {
     uint32_t candidates; /* points on lights of which one gets the shadow ray; 0 is 1 */
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
-    bool panes;       /* rays to lights go straight through surfaces that let them; of aur_path_group alone */
-    double lamp_rays; /* rays for lamps alone that a sample has more, in the picture's mean */
+    double lamp_rays;    /* rays for lamps alone that a sample has more, in the picture's mean */
     const aur_path_kernels *kernels;
     aur_shape_class *classes;    /* one a shape */
     const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */

@@ -103,15 +103,16 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
         const aur_vector light = aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), sky);
         aur_lane_set(&g->lanes.sum, k,
                      aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight, light));
-        if (g->from_sky != NULL)
-            g->from_sky(g->from_sky_user, k, aur_lane_vector(&directions, k), aur_vector_scale(light, weight),
-                        aur_has_lane(g->straight, k));
+        if (g->sensor.from_sky != NULL)
+            g->sensor.from_sky(g->sensor.from_sky_user, k, aur_lane_vector(&directions, k),
+                               aur_vector_scale(light, weight), aur_has_lane(g->sensor.straight, k));
     }
 }
 
 static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface) {
     if (surface->emitter == AUR_NO_EMITTER ||
-        (g->known != NULL && aur_has_lane(g->straight, k) && g->known[surface->emitter] >= 0.0f))
+        (g->sensor.known != NULL && aur_has_lane(g->sensor.straight, k) &&
+         g->sensor.known[surface->emitter] >= 0.0f))
         return;
     aur_walk walk = walk_of(g, k);
     aur_walk_add_emission(g->scene, surface, &walk);
@@ -165,7 +166,7 @@ static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) 
 /* Straight on through a pane the ray is the same one, which rays to lights find as well. */
 static bool goes_through(const aur_path_group *g, const aur_surface *surface, const aur_walk *before,
                          const aur_walk *walk) {
-    return g->data->panes && surface->bsdf->passes && walk->bounce.specular_bounce &&
+    return g->sensor.panes && surface->bsdf->passes && walk->bounce.specular_bounce &&
            aur_vector_dot(walk->ray.direction, before->ray.direction) > 1.0f - 1e-6f;
 }
 
@@ -181,7 +182,7 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, boo
     if (goes_through(g, surface, before, &walk)) {
         walk.bounce = before->bounce;
         walk.ray = aur_surface_ray(surface, before->ray.direction);
-        g->straight |= (uint32_t)straight << k;
+        g->sensor.straight |= (uint32_t)straight << k;
     }
     aur_lane_set(&g->lanes.throughput, k, walk.beta);
     aur_lane_set(&g->lanes.from, k, walk.bounce.from.position);
@@ -243,13 +244,13 @@ static uint32_t trace(aur_path_group *g, bool coherent) {
 static void tell_of_sky(aur_path_group *g, uint32_t lit) {
     for (; lit != 0; lit &= lit - 1) {
         const size_t k = aur_first_lane(lit);
-        g->from_sky(g->from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
-                    aur_lane_vector(&g->lanes.shadow, k), false);
+        g->sensor.from_sky(g->sensor.from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
+                           aur_lane_vector(&g->lanes.shadow, k), false);
     }
 }
 
 aur_vector aur_path_group_passed(const aur_path_group *g, size_t lane, float farthest, uint32_t depth) {
-    if (!g->data->panes || depth + 1 >= g->data->max_depth)
+    if (!g->sensor.panes || depth + 1 >= g->data->max_depth)
         return (aur_vector){0};
     aur_ray ray = aur_packet_ray(&g->shadows, lane);
     ray.farthest = farthest;
@@ -260,7 +261,7 @@ aur_vector aur_path_group_passed(const aur_path_group *g, size_t lane, float far
 /* Of the lanes that something stops, those that get light through panes; their share of it is made less. */
 static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *farthest, uint32_t depth) {
     uint32_t through = 0;
-    for (uint32_t rest = g->data->panes ? stopped : 0; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = g->sensor.panes ? stopped : 0; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         const aur_vector left = aur_path_group_passed(g, k, farthest[k], depth);
         if (aur_vector_is_zero(left))
@@ -324,12 +325,12 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
         g->scene, g->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
     stopped &= ~pass_panes(g, stopped & lit, farthest, depth);
     g->data->kernels->add(lanes, lit & ~stopped);
-    if (g->from_sky != NULL)
+    if (g->sensor.from_sky != NULL)
         tell_of_sky(g, lit & ~stopped);
 }
 
 static void scatter(aur_path_group *g, bool roulette) {
-    const uint32_t plain = g->plain, others = g->alive & ~plain, straight = g->straight;
+    const uint32_t plain = g->plain, others = g->alive & ~plain, straight = g->sensor.straight;
     aur_walk before[AUR_PACKET_SIZE]; /* the kernels leave nothing of it */
     for (uint32_t rest = others; rest != 0; rest &= rest - 1)
         before[aur_first_lane(rest)] = walk_of(g, aur_first_lane(rest));
@@ -338,7 +339,7 @@ static void scatter(aur_path_group *g, bool roulette) {
         g->data->kernels->scatter(&g->lanes, roulette, &g->packet);
         alive = aur_lanes_set(g->lanes.alive) & plain;
     }
-    g->specular = g->straight = 0;
+    g->specular = g->sensor.straight = 0;
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         alive |= (uint32_t)scatter_one(g, k, &before[k], aur_has_lane(straight, k), roulette) << k;

@@ -10,6 +10,20 @@
 /* Is told of light that a lane finds in the sky: from where, how much, and whether it came straight. */
 typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight);
 
+/* What irradiance at a sensor has of its paths beside their sums; all 0 for paths of the camera. */
+typedef struct aur_path_sensor {
+    /* By emitter, those that are below 0 shine on straight lanes that meet them, as all do where this is
+     * NULL: the light of the others is known. */
+    const float *known;
+    /* Is told, beside the sums, of all that environments send, in scenes without another light; or NULL. */
+    aur_path_sky *from_sky;
+    void *from_sky_user;
+    bool panes; /* rays to lights go straight through surfaces that let them */
+    /* Lanes whose path nothing has scattered, but panes that it went straight through, where these count; who
+     * begins the paths sets it. */
+    uint32_t straight;
+} aur_path_sensor;
+
 typedef struct aur_path_group {
     aur_path_lanes lanes;
     aur_packet packet, shadows;
@@ -23,15 +37,7 @@ typedef struct aur_path_group {
     uint32_t specular;   /* lanes whose ray no light sample could have found */
     uint32_t plain;      /* lanes whose surface the kernels can do */
     uint32_t told;       /* lanes whose sums have the light already that their first rays meet */
-    /* By emitter, those that are below 0 shine on straight lanes that meet them, as all do where this is
-     * NULL: the light of the others is known. */
-    const float *known;
-    /* Is told, beside the sums, of all that environments send, in scenes without another light; or NULL. */
-    aur_path_sky *from_sky;
-    void *from_sky_user;
-    /* Lanes whose path nothing has scattered, but panes that it went straight through, where data->panes is
-     * set; who begins the paths sets it. */
-    uint32_t straight;
+    aur_path_sensor sensor;
     aur_stream shared; /* interleaved: of all lanes */
     float ahead[AUR_STREAM_BLOCK][2];
     const aur_sampler *sampler;
@@ -52,7 +58,7 @@ AUR_INTERNAL void aur_path_group_meet(aur_path_group *group, uint32_t depth);
 /* Adds direct light at the surfaces that aur_path_group_meet has found, and makes the next rays. */
 AUR_INTERNAL void aur_path_group_scatter(aur_path_group *group, uint32_t depth);
 /* What panes leave of the light along the shadow ray of a lane, which ended at `farthest` before something
- * was found on it: 0 unless data->panes is set and all that is there is panes, no more of them than paths
+ * was found on it: 0 unless sensor.panes is set and all that is there is panes, no more of them than paths
  * that have met `depth` surfaces may meet. */
 AUR_INTERNAL aur_vector aur_path_group_passed(const aur_path_group *group, size_t lane, float farthest,
                                               uint32_t depth);
