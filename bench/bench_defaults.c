@@ -9,6 +9,7 @@
 
 #include "bench.h"
 #include "error_pattern.h"
+#include "program/lab/gather.h"
 
 enum { SIDE = 96, QUICK_SIDE = 16, SAMPLES = 16, ERROR_PAIRS = 4 };
 
@@ -17,7 +18,7 @@ typedef struct default_row {
     bool errs_less;
 } default_row;
 
-#define GATHER "finalgather:photons=50000,diffuse_samples=64,glossy_samples=32"
+#define GATHER "finalgather-lab:photons=50000,diffuse_samples=64,glossy_samples=32"
 static const default_row rows[] = {
     {"path in packets, cornell-box", "cornell-box/cornell-box.xml", "path", "path:packets=false", false},
     {"path in packets, glossy", "cornell-box/glossy.xml", "path", "path:packets=false", false},
@@ -94,6 +95,7 @@ static bool compare(const bench_options *options, const default_row *row, aur_re
     const size_t side = options->quick ? QUICK_SIDE : SIDE;
     default_render usual = {.renderer = renderer,
                             .options = {.size = sizeof(aur_render_options),
+                                        .gather = &lab_finalgather,
                                         .integrator = row->usual,
                                         .threads = 1,
                                         .width = side,

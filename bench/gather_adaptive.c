@@ -2,6 +2,7 @@
  * laid through the logarithms of their errors and rays, and where it has the error of the adaptive picture
  * the rays are compared. Every seed of the patterns is one such comparison. */
 #include "gather_adaptive.h"
+#include "program/lab/gather.h"
 
 #include <aureole/render.h>
 #include <aureole/statistics.h>
@@ -37,7 +38,7 @@ static bool render(adaptive_context *context, const char *keys, size_t seed, aur
     char integrator[256];
     aur_render_statistics statistics = {.size = sizeof statistics};
     snprintf(integrator, sizeof integrator,
-             "finalgather:direct=none,edges=0,pixel=centre,photons=%d,pattern_seed=%zu,%s",
+             "finalgather-lab:direct=none,edges=0,pixel=centre,photons=%d,pattern_seed=%zu,%s",
              context->side == SIDE ? 200000 : 20000, seed, keys);
     context->options.integrator = integrator;
     if (aur_renderer_render(context->renderer, &context->options, image, &statistics, &context->error) !=
@@ -145,6 +146,7 @@ bool bench_gather_adaptive(const bench_options *options, bench_figures *figures)
                                 .reference_directions =
                                     options->quick ? QUICK_REFERENCE : REFERENCE_DIRECTIONS};
     context.options = (aur_render_options){.size = sizeof(aur_render_options),
+                                           .gather = &lab_finalgather,
                                            .sampler = "sobol",
                                            .filter = "box",
                                            .samples_per_pixel = 1,

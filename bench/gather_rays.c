@@ -8,6 +8,7 @@
 #include "child.h"
 #include "heavy_box.h"
 #include "packet_recorder.h"
+#include "program/lab/gather.h"
 #include "render/scene/scene.h"
 
 enum { SIDE = 256, QUICK_SIDE = 32, DIRECTIONS = 32, BUMPY_TRIANGLES = 500000, MANY_TRIANGLES = 1500000 };
@@ -58,7 +59,7 @@ static bool record(gather_context *context) {
 }
 
 /* Indirect light of diffuse surfaces only: one packet of primary rays for 32 of gather rays. */
-#define GATHER "finalgather:direct=none,edges=0,component=diffuse,photons=100000,diffuse_samples=32"
+#define GATHER "finalgather-lab:direct=none,edges=0,component=diffuse,photons=100000,diffuse_samples=32"
 
 static bool compare(const bench_options *options, gather_context *context, const char *name, bool flat,
                     bench_figures *figures) {
@@ -102,6 +103,7 @@ static bool run_scene(const bench_options *options, const char *path, const char
     const size_t side = options->quick ? QUICK_SIDE : SIDE;
     gather_context context = {.statistics = {.size = sizeof(aur_render_statistics)},
                               .options = {.size = sizeof(aur_render_options),
+                                          .gather = &lab_finalgather,
                                           .sampler = "sobol",
                                           .filter = "box",
                                           .samples_per_pixel = 1,

@@ -1,6 +1,7 @@
 /* Rendering is timed a tile at a time, each tile by the two ways in turns: what slows the machine for longer
  * than a few milliseconds then slows both. */
 #include "gather_weights.h"
+#include "program/lab/gather.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,9 +33,12 @@ static bool prepare(gather_context *context, const char *keys, gather_way *way) 
     const char *const sizes = context->width == WIDTH
                                   ? "photons=500000,diffuse_samples=64,glossy_samples=32"
                                   : "photons=2000,diffuse_samples=16,glossy_samples=8,rotations=2";
-    snprintf(text, sizeof text, "finalgather:%s,density=same,%s", sizes, keys);
-    const aur_integrator_context wanted = {
-        .scene = context->scene, .samples_per_pixel = 1, .threads = 1, .cache = context->cache};
+    snprintf(text, sizeof text, "finalgather-lab:%s,density=same,%s", sizes, keys);
+    const aur_integrator_context wanted = {.scene = context->scene,
+                                           .samples_per_pixel = 1,
+                                           .threads = 1,
+                                           .cache = context->cache,
+                                           .gather = &lab_finalgather};
     aur_parameters parameters;
     *way = (gather_way){.context = context};
     if (aur_parameters_parse(&parameters, "integrator", text, &context->error) != AUR_OK)

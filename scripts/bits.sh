@@ -29,15 +29,19 @@ picture() { # picture SCENE INTEGRATOR ARGUMENTS...
 pictures() {
   local gather box scene integrator keys sampler
   gather=finalgather:photons=20000,diffuse_samples=16,glossy_samples=8
+  study=finalgather-lab:${gather#*:}
   for scene in scenes/cornell-box/cornell-box.xml scenes/cornell-box/glossy.xml tests/render/driver/{furnace,sky,white_bodies,caustic}.xml; do
-    for integrator in path path:packets=false path:interleaved=true path:max_depth=2 direct "$gather" "$gather,packets=false"; do
+    for integrator in path path:packets=false path:interleaved=true path:max_depth=2 direct "$gather" "$study,packets=false"; do
       picture "$scene" "$integrator"
     done
   done
   box=scenes/cornell-box/glossy.xml
   for keys in weights=oswa weights=osw weights=mis weights=oswa-solve weights=equal adaptive=true adaptive=true,criterion=entropy \
-              share=true share=near pattern=sobol,rotations=0 decorrelation=random decorrelation=none direct=gather direct=none,component=glossy \
-              component=diffuse incident=emitters bright_samples=4 light_samples=4 clip=false max_depth=3; do
+              pattern=sobol,rotations=0 decorrelation=random decorrelation=none direct=none,component=glossy \
+              component=diffuse incident=emitters clip=false; do
+    picture "$box" "$study,$keys"
+  done
+  for keys in share=true share=near direct=gather bright_samples=4 light_samples=4 max_depth=3; do
     picture "$box" "$gather,$keys"
   done
   for scene in tests/render/driver/weights.xml tests/render/driver/furnace_faces.xml scenes/occlusion/occlusion.xml; do

@@ -18,7 +18,7 @@ median() { sort -g | sed -n "$(((runs + 1) / 2))p"; }
 echo '| scene, integrator | without | first run | later runs | entries |'
 echo '|---|---|---|---|---|'
 for scene in cornell-box/glossy.xml room/room.xml parade/parade.xml; do
-  for integrator in finalgather:photons={2000,20000,100000,500000} finalgather:photons=2000,weights=oswa; do
+  for integrator in finalgather:photons={2000,20000,100000,500000} finalgather-lab:photons=2000,weights=oswa; do
     for ((i = 0; i < runs; ++i)); do
       rm -rf cache
       render $scene $integrator a.exr --no-cache >>without

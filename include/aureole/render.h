@@ -6,6 +6,7 @@
 #define AUREOLE_RENDER_H
 
 #include <aureole/film.h>
+#include <aureole/gather.h>
 #include <aureole/image.h>
 #include <aureole/scene.h>
 #include <aureole/tables.h>
@@ -60,6 +61,8 @@ typedef struct aur_render_options {
     /* Photon maps and tables of weights are taken from the user's cache folder, and left there for later
      * runs: in AUREOLE_CACHE, aureole in XDG_CACHE_HOME, or .cache/aureole in HOME. No bit depends on it. */
     bool use_cache;
+    /* One more integrator, which `integrator` or the scene may name (gather.h); NULL: none. */
+    const aur_gather_integrator *gather;
 } aur_render_options;
 
 static inline aur_render_options aur_render_options_default(void) {
@@ -78,9 +81,12 @@ AUR_EXPERIMENTAL aur_result aur_renderer_create(const aur_scene *scene, aur_rend
                                                 aur_error *error) AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL void aur_renderer_destroy(aur_renderer *renderer); /* NULL is allowed */
 
-/* Whether the scene's own integrator is one, and its keys can be read: what a render asks first whose options
- * name no other. Errors: as those of aur_render_create, with their place in the scene file. */
-AUR_EXPERIMENTAL aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) AUR_NONNULL(1);
+/* Whether the scene's own integrator is one of the library or `gather` (NULL: none), and its keys can be
+ * read: what a render asks first whose options name no other. Errors: as those of aur_render_create, with
+ * their place in the scene file. */
+AUR_EXPERIMENTAL aur_result aur_render_check_scene(const aur_scene *scene,
+                                                   const aur_gather_integrator *gather, aur_error *error)
+    AUR_NONNULL(1);
 
 /* A new picture of channels R, G, B and those that the integrator adds, all samples in one step. `options`
  * may be NULL, `statistics` too. When the progress callback stops the work, the result is CANCELLED and

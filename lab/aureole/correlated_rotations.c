@@ -73,7 +73,7 @@ static aur_result render(const study *s, const char *set, size_t directions, con
                          size_t seed, aur_image **image, aur_error *error) {
     char integrator[320];
     snprintf(integrator, sizeof integrator,
-             "finalgather:direct=none,pixel=centre,edges=0,short_rays=0,density=same,photons=%zu,"
+             "finalgather-lab:direct=none,pixel=centre,edges=0,short_rays=0,density=same,photons=%zu,"
              "photons_per_texel=64,pattern=%.80s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu,%s",
              s->photons, set, directions, directions, seed, rotations);
     const lab_rendering how = {

@@ -45,12 +45,13 @@ static aur_result render(const gather_study *study, const char *integrator, size
 static aur_result render_component(const gather_study *study, const char *component, const char *set,
                                    size_t directions, size_t scramble, aur_image **image, aur_error *error) {
     char integrator[320];
-    snprintf(integrator, sizeof integrator,
-             "finalgather:component=%s,direct=none,pixel=centre,edges=0,short_rays=0,density=same,rotations="
-             "0,photons=%zu,"
-             "photons_per_texel=64,pattern=%s,"
-             "diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
-             component, study->photons, set, directions, directions, scramble);
+    snprintf(
+        integrator, sizeof integrator,
+        "finalgather-lab:component=%s,direct=none,pixel=centre,edges=0,short_rays=0,density=same,rotations="
+        "0,photons=%zu,"
+        "photons_per_texel=64,pattern=%s,"
+        "diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
+        component, study->photons, set, directions, directions, scramble);
     return render(study, integrator, 1, 0, image, error);
 }
 

@@ -12,7 +12,7 @@ aur_result marques_gather(const lab_run *run, aur_renderer *renderer, const marq
                           aur_image **image, aur_error *error) {
     char integrator[400];
     snprintf(integrator, sizeof integrator,
-             "finalgather:%s,pixel=centre,density=same,rotations=0,edges=0,short_rays=0,photons=%zu,"
+             "finalgather-lab:%s,pixel=centre,density=same,rotations=0,edges=0,short_rays=0,photons=%zu,"
              "photons_per_texel=64,pattern=%.80s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,"
              "pattern_seed=%zu",
              what->light, what->photons, what->pattern->set, aur_map_name(what->pattern->map), what->diffuse,

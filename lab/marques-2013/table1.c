@@ -70,12 +70,13 @@ typedef struct table_study {
 static aur_result render(const table_study *study, const char *set, const char *map, size_t directions,
                          size_t scramble, aur_image **image, aur_error *error) {
     char integrator[320];
-    snprintf(integrator, sizeof integrator,
-             "finalgather:component=%s,direct=none,pixel=centre,density=same,rotations=0,edges=0,short_rays="
-             "0,photons=%zu,"
-             "photons_per_texel=64,"
-             "pattern=%s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
-             study->component, study->photons, set, map, directions, directions, scramble);
+    snprintf(
+        integrator, sizeof integrator,
+        "finalgather-lab:component=%s,direct=none,pixel=centre,density=same,rotations=0,edges=0,short_rays="
+        "0,photons=%zu,"
+        "photons_per_texel=64,"
+        "pattern=%s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
+        study->component, study->photons, set, map, directions, directions, scramble);
     const lab_rendering how = {.renderer = study->stage.renderer,
                                .integrator = integrator,
                                .width = study->quick ? 20 : study->scene->width,

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "program/lab/gather.h"
 #include "program/lab/lab.h"
 
 enum { MOST_SEEDS = 32, WIDTH = 48, HEIGHT = 32 };
@@ -71,7 +72,8 @@ static aur_result render(const metal_study *study, const char *integrator, size_
                                         .height = HEIGHT,
                                         .threads = lab->threads,
                                         .progress = lab->progress,
-                                        .warnings = lab->warnings};
+                                        .warnings = lab->warnings,
+                                        .gather = &lab_finalgather};
     return aur_renderer_render(study->renderer, &options, image, NULL, error);
 }
 
@@ -79,7 +81,7 @@ static aur_result gather(const metal_study *study, const char *light, const char
                          size_t directions, size_t seed, aur_image **image, aur_error *error) {
     char integrator[300];
     snprintf(integrator, sizeof integrator,
-             "finalgather:component=glossy,%s,pixel=centre,edges=0,decorrelation=random,photons=200000,"
+             "finalgather-lab:component=glossy,%s,pixel=centre,edges=0,decorrelation=random,photons=200000,"
              "photons_per_texel=64,short_rays=0,pattern=%s,weights=%s,rotations=4,glossy_samples=%zu,pattern_"
              "seed=%zu",
              light, set, how, directions, seed);
@@ -145,7 +147,7 @@ static double mean_of(const aur_image *image) {
 /* The mean of the picture against path tracing, as many seeds of both. */
 static aur_result against_path(const metal_study *study, aur_error *error) {
     static const char *const integrators[] = {
-        "path", "finalgather:weights=osw,debias=true,rotations=4,glossy_samples=16,diffuse_samples=16,"
+        "path", "finalgather-lab:weights=osw,debias=true,rotations=4,glossy_samples=16,diffuse_samples=16,"
                 "photons=100000"};
     double means[2][MOST_SEEDS], mean[2], half[2];
     for (size_t k = 0; k < 2; ++k) {

@@ -18,11 +18,12 @@ void lab_gather_close(lab_gather *gather) {
 aur_result lab_gather_render(lab_gather *gather, const char *set, const char *keys,
                              const size_t directions[2], size_t seed, aur_image **image, aur_error *error) {
     char integrator[400];
-    snprintf(integrator, sizeof integrator,
-             "finalgather:%s,pixel=centre,edges=0,short_rays=0,decorrelation=random,photons=%zu,pattern=%s,"
-             "diffuse_samples=%zu,"
-             "glossy_samples=%zu,pattern_seed=%zu,%s",
-             gather->light, gather->photons, set, directions[0], directions[1], seed, keys);
+    snprintf(
+        integrator, sizeof integrator,
+        "finalgather-lab:%s,pixel=centre,edges=0,short_rays=0,decorrelation=random,photons=%zu,pattern=%s,"
+        "diffuse_samples=%zu,"
+        "glossy_samples=%zu,pattern_seed=%zu,%s",
+        gather->light, gather->photons, set, directions[0], directions[1], seed, keys);
     const lab_rendering how = {.renderer = gather->stage.renderer,
                                .integrator = integrator,
                                .width = gather->side,

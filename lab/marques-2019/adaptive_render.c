@@ -15,11 +15,12 @@ aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way,
                  way->criterion, way->threshold, way->factor, way->levels);
     else
         snprintf(how, sizeof how, "pattern=%s", way->pattern != NULL ? way->pattern : "spherical-fibonacci");
-    snprintf(integrator, sizeof integrator,
-             "finalgather:component=%s,direct=none,pixel=centre,edges=0,short_rays=0,density=same,weights="
-             "equal,rotations="
-             "0,photons=%zu,photons_per_texel=64,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu,%s",
-             study->lobe->name, study->photons, first, first, seed, how);
+    snprintf(
+        integrator, sizeof integrator,
+        "finalgather-lab:component=%s,direct=none,pixel=centre,edges=0,short_rays=0,density=same,weights="
+        "equal,rotations="
+        "0,photons=%zu,photons_per_texel=64,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu,%s",
+        study->lobe->name, study->photons, first, first, seed, how);
     const size_t side = picture ? study->picture_side : study->side;
     return lab_render(
         study->run,

@@ -35,7 +35,7 @@ static aur_result render(const statue_study *study, const char *set, size_t diff
                          size_t seed, bool picture, aur_image **image, aur_error *error) {
     char integrator[400];
     snprintf(integrator, sizeof integrator,
-             "finalgather:%s,component=%s,pixel=centre,edges=0,short_rays=0,density=same,weights=equal,"
+             "finalgather-lab:%s,component=%s,pixel=centre,edges=0,short_rays=0,density=same,weights=equal,"
              "rotations=0,"
              "pattern=(%.160s),diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
              study->light, study->lobes, set, diffuse, glossy, seed);

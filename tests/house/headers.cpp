@@ -3,6 +3,7 @@
 #include <aureole/estimate.h>
 #include <aureole/exact.h>
 #include <aureole/film.h>
+#include <aureole/gather.h>
 #include <aureole/image.h>
 #include <aureole/integrate.h>
 #include <aureole/irradiance.h>

@@ -27,6 +27,10 @@ awk '
     keys = split(cell[2], key, ","); values = split(cell[3], value, ",")
     for (i = 1; i <= keys; ++i) print section, clean(key[i]), clean(value[keys == 1 || values == 1 ? 1 : i])
   }' "$source_tree/docs/rendering.md" >told
+grep '^### Keys\|^## Keys$\|^|' "$source_tree/docs/papers/gathering.md" |
+  awk '/^## Keys/ { on = 1 } on && /^\| `/ { split($0, cell, "|"); gsub(/[`, ]+/, "\n", cell[2]); print cell[2] }' | grep . | sort >told_lab
+"$program" help lab-integrator finalgather-lab --format csv | tail -n +2 | cut -d, -f1 | sort | diff - told_lab >difference ||
+  { echo "docs/papers/gathering.md: other keys than finalgather-lab has:"; cat difference; status=1; }
 for integrator in finalgather radiosity ao; do
   "$program" help integrator "$integrator" --format csv | tail -n +2 | awk -F, '{ split($3, word, " "); print $1, word[1] }' >known
   awk -v integrator="$integrator" '

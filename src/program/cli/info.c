@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include "program/cli/point_source.h"
+#include "program/lab/gather.h"
 
 enum { START_CAPACITY = 4096 };
 
@@ -42,7 +43,7 @@ static int describe_scene(const info_input *input, const info_options *options) 
             : aur_scene_load(input->path, &scene_options, &scene, &error);
     if (loaded != AUR_OK)
         return cli_fail(&error);
-    if (aur_render_check_scene(scene, &error) != AUR_OK) {
+    if (aur_render_check_scene(scene, &lab_finalgather, &error) != AUR_OK) {
         aur_scene_destroy(scene);
         return cli_fail(&error);
     }

@@ -13,6 +13,7 @@
 #include "program/cli/errors.h"
 #include "program/cli/options.h"
 #include "program/cli/render_result.h"
+#include "program/lab/gather.h"
 
 typedef struct render_command {
     const char *output;
@@ -359,6 +360,7 @@ static int run(const cli_call *call) {
     command->options.resumable = command->checkpoint.path != NULL || command->options.shard_count > 0;
     command->options.warnings = cli_warnings(command->common.quiet);
     command->options.use_cache = true;
+    command->options.gather = &lab_finalgather;
     if (command->reference == NULL)
         return render(scene, command, NULL);
     cli_errors *const errors = cli_errors_create(command->reference);

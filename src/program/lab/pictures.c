@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "program/lab/gather.h"
 #include "program/lab/run.h"
 
 #ifndef AUR_SCENES_FOLDER
@@ -65,7 +66,8 @@ aur_result lab_render(const lab_run *run, const lab_rendering *how, aur_image **
                                         .crop_y1 = how->crop[3],
                                         .threads = run->options.threads,
                                         .progress = run->options.progress,
-                                        .warnings = run->options.warnings};
+                                        .warnings = run->options.warnings,
+                                        .gather = &lab_finalgather};
     return aur_renderer_render(how->renderer, &options, image, NULL, error);
 }
 

@@ -155,8 +155,7 @@ char *aur_ask_gather_pilot(const char *path, uint64_t seed, aur_pilot_kind kind)
 
 char *aur_ask_gather_difference(const char *path, size_t photons, uint64_t seed) {
     char more[96]; /* a number and the keys */
-    snprintf(more, sizeof more, ",short_rays=%d,pixel=centre,debias=true,continued=1,incident=correction",
-             SHORT_RAYS);
+    snprintf(more, sizeof more, ",short_rays=%d,pixel=centre,debias=only,continued=1", SHORT_RAYS);
     const aur_gather_size size = {photons, seed, DIFFERENCE_DIRECTIONS, PATTERN_SAMPLES, 0};
     return gather_instead(path, PATTERN_SAMPLES, size, more);
 }

@@ -64,11 +64,12 @@ void aur_renderer_destroy(aur_renderer *renderer) {
     free(renderer);
 }
 
-aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) {
+aur_result aur_render_check_scene(const aur_scene *scene, const aur_gather_integrator *gather,
+                                  aur_error *error) {
     aur_parameters parameters;
     aur_result result = aur_parameters_copy(aur_scene_integrator(scene), &parameters, error);
     if (result == AUR_OK)
-        result = aur_integrator_check(&parameters, error);
+        result = aur_integrator_check(&parameters, gather, error);
     aur_parameters_release(&parameters);
     return result;
 }
@@ -92,7 +93,8 @@ static aur_integrator_context context_of(const aur_render *render) {
                                     .cache = render->renderer->cache,
                                     .use_cache = s->use_cache,
                                     .progress = s->progress,
-                                    .warnings = s->warnings};
+                                    .warnings = s->warnings,
+                                    .gather = s->gather};
 }
 
 /* The integrator that the options or the scene name. */

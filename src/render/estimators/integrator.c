@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "points/base/error.h"
+
 #define INTEGRATORS(ROW)                                                                                     \
     ROW(path)                                                                                                \
     ROW(volpath)                                                                                             \
@@ -27,14 +29,47 @@ const aur_table aur_integrator_table = {
     AUR_TABLE_ROWS(rows),
 };
 
+/* The row that the parameters name, of the table or the caller's. */
+static aur_result find(const aur_parameters *parameters, const aur_gather_integrator *gather,
+                       const aur_row **row, aur_error *error) {
+    enum { COUNT = sizeof rows / sizeof rows[0] };
+    const aur_row *all[COUNT + 1] = {[COUNT] = gather != NULL ? &gather->row : NULL};
+    memcpy(all, rows, sizeof rows);
+    const aur_table table = {
+        .kind = aur_integrator_table.kind, .count = gather != NULL ? COUNT + 1 : COUNT, .rows = all};
+    for (size_t i = 0; gather != NULL && i < gather->row.key_count; ++i)
+        if (gather->row.keys[i].offset + gather->row.keys[i].size > sizeof(aur_gather_options))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "integrator '%s': '%s' is no field of aur_gather_options", gather->row.name,
+                            gather->row.keys[i].name);
+    return aur_table_find(&table, parameters, row, error);
+}
+
+static aur_result refuse_moved(const aur_moved_key *moved, const aur_parameters *parameters,
+                               aur_error *error) {
+    for (; moved != NULL && moved->name != NULL; ++moved)
+        for (size_t i = 0; i < parameters->count; ++i)
+            if (strcmp(parameters->items[i].name, moved->name) == 0)
+                return aur_fail_at(error, parameters->items[i].location, AUR_ERROR_NAME,
+                                   "integrator '%s' has no '%s' any more: %s", parameters->plugin,
+                                   moved->name, moved->where);
+    return AUR_OK;
+}
+
 /* An integrator whose keys have been read. */
-static aur_result begin(aur_parameters *parameters, aur_integrator **out, aur_error *error) {
+static aur_result begin(aur_parameters *parameters, const aur_gather_integrator *gather, aur_integrator **out,
+                        aur_error *error) {
     *out = NULL;
     const aur_row *row;
-    aur_result result = aur_table_find(&aur_integrator_table, parameters, &row, error);
+    aur_result result = find(parameters, gather, &row, error);
     if (result != AUR_OK)
         return result;
-    const aur_integrator_descriptor *const descriptor = (const aur_integrator_descriptor *)row;
+    const bool is_callers = gather != NULL && row == &gather->row;
+    const aur_integrator_descriptor *const descriptor =
+        is_callers ? &aur_integrator_final_gather : (const aur_integrator_descriptor *)row;
+    result = is_callers ? AUR_OK : refuse_moved(descriptor->moved, parameters, error);
+    if (result != AUR_OK)
+        return result;
     aur_integrator *const integrator = calloc(1, sizeof *integrator);
     if (integrator == NULL)
         return aur_fail_memory(error);
@@ -42,8 +77,12 @@ static aur_result begin(aur_parameters *parameters, aur_integrator **out, aur_er
     integrator->data = calloc(1, descriptor->size + 1);
     if (integrator->data != NULL && descriptor->initial != NULL)
         memcpy(integrator->data, descriptor->initial, descriptor->size);
-    result = integrator->data != NULL ? aur_row_read(row, parameters, integrator->data, error)
-                                      : aur_fail_memory(error);
+    result = integrator->data != NULL ? AUR_OK : aur_fail_memory(error);
+    if (result == AUR_OK && is_callers)
+        result = aur_keys_read(descriptor->row.key_count, descriptor->row.keys, parameters, integrator->data,
+                               error);
+    if (result == AUR_OK)
+        result = aur_row_read(row, parameters, integrator->data, error);
     if (result == AUR_OK)
         *out = integrator;
     else
@@ -53,7 +92,7 @@ static aur_result begin(aur_parameters *parameters, aur_integrator **out, aur_er
 
 aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrator_context *context,
                                  aur_integrator **out, aur_error *error) {
-    aur_result result = begin(parameters, out, error);
+    aur_result result = begin(parameters, context->gather, out, error);
     if (result != AUR_OK)
         return result;
     (*out)->scene = context->scene;
@@ -68,9 +107,10 @@ aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrato
     return result;
 }
 
-aur_result aur_integrator_check(aur_parameters *parameters, aur_error *error) {
+aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
+                                aur_error *error) {
     aur_integrator *integrator;
-    const aur_result result = begin(parameters, &integrator, error);
+    const aur_result result = begin(parameters, gather, &integrator, error);
     aur_integrator_destroy(integrator);
     return result;
 }

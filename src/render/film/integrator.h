@@ -2,6 +2,7 @@
  * integrator.c. */
 #pragma once
 
+#include <aureole/gather.h>
 #include <aureole/render.h>
 
 #include <stdlib.h>
@@ -28,9 +29,15 @@ struct aur_integrator_context {
     bool use_cache; /* ... and what later runs may take from files of the cache (points/base/cache_file.h) */
     aur_progress progress;
     aur_warnings warnings;
+    const aur_gather_integrator *gather; /* the caller's own; or NULL */
     /* For integrators that hold another one; set by aur_integrator_create. */
     aur_integrator_factory *create;
 };
+
+/* A key that an integrator no longer has, and where it is now: "it is a key of ...". */
+typedef struct aur_moved_key {
+    const char *name, *where;
+} aur_moved_key;
 
 typedef struct aur_integrator_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor */
@@ -38,6 +45,7 @@ typedef struct aur_integrator_descriptor {
      * Freed in the end. */
     size_t size;
     const void *initial;
+    const aur_moved_key *moved; /* NULL: none; its last row is empty */
     /* Prepares what all rays share (a photon map, say), on several threads; NULL: nothing. Texts among the
      * keys are the caller's and are gone afterwards. */
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
@@ -107,9 +115,10 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
 }
 
 aur_integrator_factory aur_integrator_create;
-/* Whether the parameters name an integrator and its keys can be read: what aur_integrator_create asks first.
- */
-aur_result aur_integrator_check(aur_parameters *parameters, aur_error *error);
+/* Whether the parameters name an integrator of the library or `gather` (or NULL), and its keys can be read:
+ * what aur_integrator_create asks first. */
+aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
+                                aur_error *error);
 
 static inline void aur_integrator_destroy(aur_integrator *integrator) {
     if (integrator == NULL)

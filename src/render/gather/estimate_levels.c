@@ -92,7 +92,7 @@ static void finish_lane(const aur_gather_places *places, const aur_gather_sweep 
 
 void aur_gather_by_levels(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
                           uint32_t lanes, aur_gather_sums *sums) {
-    const aur_gather_policy *const policy = &places->plan->policy;
+    const aur_gather_options *const policy = &places->plan->policy;
     aur_gather_sweep sweep;
     aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
     adaptive_state state = {.values = sums->numbers};

@@ -81,22 +81,22 @@ static aur_result find_or_trace(const aur_integrator_context *context,
 }
 
 /* A photon map, shared by all renders that ask for the same one. */
-static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_context *context,
+static aur_result find_map(const aur_gather_options *p, const aur_integrator_context *context,
                            aur_photon_options photons, const aur_irradiance_map **found, aur_error *error) {
     aur_sampler *sampler;
-    aur_result result = aur_sampler_create(p->photon_set, photons.count, NULL, &sampler, error);
+    aur_result result = aur_sampler_create(p->photon_pattern, photons.count, NULL, &sampler, error);
     if (result != AUR_OK)
         return result;
     char key[256]; /* six numbers and their names */
     snprintf(key, sizeof key,
              "irradiance kind=%d photons=%zu texel=%.17g edges=%zu seed=%" PRIu64 " numbers=%" PRIu64,
-             (int)photons.kind, photons.count, p->photons_a_texel, photons.max_edges, photons.seed,
+             (int)photons.kind, photons.count, p->photons_per_texel, photons.max_edges, photons.seed,
              digest(sampler));
     *found = aur_cache_find(context->cache, key);
     if (*found == NULL) {
         photons.sampler = sampler;
         aur_irradiance_map *made;
-        result = find_or_trace(context, &(aur_irradiance_map_options){photons, p->photons_a_texel}, key,
+        result = find_or_trace(context, &(aur_irradiance_map_options){photons, p->photons_per_texel}, key,
                                &made, error);
         if (result == AUR_OK && aur_cache_store(context->cache, key, made, made->rays, destroy_map) != AUR_OK)
             result = aur_fail_memory(error);
@@ -106,15 +106,14 @@ static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_
     return result;
 }
 
-static aur_result find_maps(const aur_gather_parameters *p, const aur_integrator_context *context,
+static aur_result find_maps(const aur_gather_options *p, const aur_integrator_context *context,
                             aur_gather_light *light, aur_error *error) {
     const bool apart = p->caustic_photons > 0;
     const uint64_t own_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
     aur_photon_options photons = {.count = p->photons,
                                   /* What the eye sees at one gather ray's end is two edges on; caustics are
                                    * seen without a gather ray. */
-                                  .max_edges =
-                                      p->policy.max_depth == UINT32_MAX ? SIZE_MAX : p->policy.max_depth - 2,
+                                  .max_edges = p->max_depth == UINT32_MAX ? SIZE_MAX : p->max_depth - 2,
                                   .kind = apart ? AUR_PHOTONS_OTHER : AUR_PHOTONS_ALL,
                                   .seed = p->photon_seed > 0 ? own_seed : context->seed,
                                   .threads = context->threads,
@@ -159,16 +158,15 @@ static aur_result find_bright(const aur_integrator_context *context, const aur_i
     return result;
 }
 
-static aur_result find_light(const aur_gather_parameters *p, const aur_integrator_context *context,
+static aur_result find_light(const aur_gather_options *p, const aur_integrator_context *context,
                              aur_gather_plan *plan, aur_error *error) {
     aur_gather_light *const light = &plan->light;
     light->draws = p->light_samples;
     /* Where gather rays go on from every surface, there is no use for photons. */
-    const bool wants_photons = p->incident != AUR_INCIDENT_EMITTERS && p->policy.max_depth >= 3 &&
+    const bool wants_photons = p->incident != AUR_INCIDENT_EMITTERS && p->max_depth >= 3 &&
                                (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
     aur_result result = wants_photons ? find_maps(p, context, light, error) : AUR_OK;
-    if (result != AUR_OK || p->bright_samples == 0 || light->map == NULL ||
-        p->policy.component != AUR_COMPONENT_ALL)
+    if (result != AUR_OK || p->bright_samples == 0 || light->map == NULL || p->component != AUR_COMPONENT_ALL)
         return result;
     const size_t samples = context->samples_per_pixel;
     result = find_bright(context, light->map, plan->classes, &light->bright, error);
@@ -179,9 +177,9 @@ static aur_result find_light(const aur_gather_parameters *p, const aur_integrato
 
 /* --- the plan */
 
-static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
+static aur_result compile(aur_gather_plan *plan, const aur_gather_options *p,
                           const aur_integrator_context *context, aur_error *error) {
-    const aur_gather_policy *const policy = &plan->policy;
+    const aur_gather_options *const policy = &plan->policy;
     aur_result result = aur_gather_rules_create(p, context, &plan->rules, error);
     if (result == AUR_OK)
         result = aur_shape_classes_create(context->scene, &plan->classes, error);
@@ -193,16 +191,16 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
                                 .map = plan->light.map,
                                 .caustics = plan->light.caustics,
                                 .max_depth = policy->max_depth,
-                                .share = p->debias ? (float)p->continued : 0.0f,
+                                .share = p->debias != AUR_DEBIAS_NONE ? (float)p->continued : 0.0f,
                                 .reach = (float)p->short_rays,
-                                .lone = p->incident == AUR_INCIDENT_CORRECTION,
+                                .lone = p->debias == AUR_DEBIAS_ONLY,
                                 .packets = policy->packets};
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));
     return result;
 }
 
-aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+aur_result aur_gather_plan_create(const aur_gather_options *p, const aur_integrator_context *context,
                                   aur_gather_plan **plan, aur_error *error) {
     *plan = calloc(1, sizeof **plan);
     if (*plan == NULL)
@@ -211,11 +209,11 @@ aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_inte
     if (p->split > 0)
         own.samples_per_pixel = p->split;
     (*plan)->scene = context->scene;
-    (*plan)->policy = p->policy;
+    (*plan)->policy = *p;
     (*plan)->samples_per_pattern = own.samples_per_pixel;
     (*plan)->part_stride = aur_gather_part_stride(own.samples_per_pixel);
     (*plan)->renews = p->split > 0;
-    (*plan)->seed = p->rule.seed;
+    (*plan)->seed = aur_hash2(context->seed, p->pattern_seed);
     const aur_result result = compile(*plan, p, &own, error);
     if (result != AUR_OK) {
         aur_gather_plan_destroy(*plan);

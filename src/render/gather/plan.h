@@ -36,7 +36,7 @@ typedef struct aur_gather_light {
 
 typedef struct aur_gather_plan {
     const aur_scene *scene;
-    aur_gather_policy policy;
+    aur_gather_options policy;  /* whose texts are gone */
     size_t samples_per_pattern; /* among which the directions of a pattern are shared out in as many parts */
     size_t part_stride;         /* from the part of one sample to that of the next one, modulo that number */
     bool renews;                /* samples after those have other patterns, else the same again */
@@ -55,7 +55,7 @@ typedef struct aur_gather_plan {
 
 /* The maps of photons come from the context's cache, which outlives the plan. Errors: MEMORY, those of
  * aur_irradiance_map_create, and what the patterns and weights say. */
-aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+aur_result aur_gather_plan_create(const aur_gather_options *p, const aur_integrator_context *context,
                                   aur_gather_plan **plan, aur_error *error);
 void aur_gather_plan_destroy(aur_gather_plan *plan); /* NULL is allowed */
 

@@ -4,7 +4,8 @@
 #pragma once
 
 #include "points/quadrature/tables/weight_table.h"
-#include "render/gather/parameters.h"
+#include "render/gather/options.h"
+#include "render/sampling/rule.h"
 
 typedef struct aur_ggx_rule_options {
     aur_gather_rule_options pattern; /* at least one rotation */

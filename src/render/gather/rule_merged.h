@@ -9,7 +9,8 @@
 
 #include <aureole/quadrature.h>
 
-#include "render/gather/parameters.h"
+#include "render/gather/options.h"
+#include "render/sampling/rule.h"
 
 typedef struct aur_merged_rule_options {
     /* Both patterns; its count is the diffuse one's. At least one rotation is prepared. The set is scrambled

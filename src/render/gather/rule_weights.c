@@ -65,7 +65,7 @@ aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, do
 
 /* --- levels */
 
-aur_result aur_gather_levels_set(const aur_gather_parameters *p, size_t base, size_t capacity, char *set,
+aur_result aur_gather_levels_set(const aur_gather_options *p, size_t base, size_t capacity, char *set,
                                  size_t *count, aur_error *error) {
     /* Beyond it a system for optimal weights takes longer than a picture. */
     enum { MOST_DIRECTIONS = 1 << 24, MOST_OPTIMAL = 4096 };
@@ -90,10 +90,10 @@ aur_result aur_gather_levels_set(const aur_gather_parameters *p, size_t base, si
 
 /* The weights and the error of a level that ends after `count` directions. `numbers` has room for two each.
  */
-static aur_result make_level(const aur_gather_parameters *p, const aur_gather_rule *rule,
+static aur_result make_level(const aur_gather_options *p, const aur_gather_rule *rule,
                              const aur_potential *potential, size_t count, const double *xyz, double *numbers,
                              float **weights, float *worst, aur_error *error) {
-    const double smoothness = p->rule.smoothness, mass = aur_potential_mass(potential);
+    const double smoothness = p->smoothness, mass = aur_potential_mass(potential);
     double *const normalised = numbers + count;
     *weights = malloc(count * sizeof **weights);
     if (*weights == NULL)
@@ -117,12 +117,12 @@ static aur_result make_level(const aur_gather_parameters *p, const aur_gather_ru
     return result;
 }
 
-aur_result aur_gather_levels_create(const aur_gather_parameters *p, size_t base, const aur_gather_rule *rule,
+aur_result aur_gather_levels_create(const aur_gather_options *p, size_t base, const aur_gather_rule *rule,
                                     aur_gather_levels *levels, aur_error *error) {
     *levels = (aur_gather_levels){.count = p->levels + 1};
     aur_potential *potential;
     double *xyz;
-    aur_result result = begin(rule, rule->count, p->rule.smoothness, &xyz, &potential, error);
+    aur_result result = begin(rule, rule->count, p->smoothness, &xyz, &potential, error);
     if (result == AUR_OK)
         widen(rule, 0, rule->count, xyz);
     size_t end = base;

@@ -3,7 +3,8 @@
  * below the surface. */
 #pragma once
 
-#include "render/gather/parameters.h"
+#include "render/gather/options.h"
+#include "render/sampling/rule.h"
 
 /* Replaces the weights of a rule whose directions are prepared by the optimal ones for its lobe, their sum
  * held. Rotating a pattern about its axis changes none. Errors: UNSUPPORTED for directions that are made at
@@ -30,11 +31,11 @@ typedef struct aur_gather_levels {
 
 /* The SET of a grid whose first level has `base` directions, and how many they are in all. Errors: ARGUMENT
  * for too many. */
-aur_result aur_gather_levels_set(const aur_gather_parameters *p, size_t base, size_t capacity, char *set,
+aur_result aur_gather_levels_set(const aur_gather_options *p, size_t base, size_t capacity, char *set,
                                  size_t *count, aur_error *error);
 
 /* `rule` has been made from that set. */
-aur_result aur_gather_levels_create(const aur_gather_parameters *p, size_t base, const aur_gather_rule *rule,
+aur_result aur_gather_levels_create(const aur_gather_options *p, size_t base, const aur_gather_rule *rule,
                                     aur_gather_levels *levels, aur_error *error);
 void aur_gather_levels_release(aur_gather_levels *levels);
 

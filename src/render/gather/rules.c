@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "points/base/error.h"
+#include "points/base/random.h"
 #include "render/scene/packet.h"
 
 size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
@@ -11,7 +12,7 @@ size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
 
 /* What rules of one kind, diffuse or glossy, have in common. */
 typedef struct rule_maker {
-    const aur_gather_parameters *p;
+    const aur_gather_options *p;
     const aur_integrator_context *context;
     aur_gather_rule_options pattern;
     size_t base;   /* directions that are asked for: of the first level, when adaptive */
@@ -19,32 +20,44 @@ typedef struct rule_maker {
     char set[80];  /* of adaptive rules: extensible grids in place of the pattern */
 } rule_maker;
 
+/* The pattern of all rules, but for its count. */
+static aur_result name_pattern(rule_maker *maker, aur_error *error) {
+    const aur_gather_options *const p = maker->p;
+    maker->pattern = (aur_gather_rule_options){.set = p->pattern,
+                                               .optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL,
+                                               .smoothness = p->smoothness,
+                                               .rotations = p->rotations,
+                                               .seed = aur_hash2(maker->context->seed, p->pattern_seed),
+                                               .warnings = maker->context->warnings};
+    return aur_gather_rule_options_name(&maker->pattern, "finalgather", p->map, p->scramble, error);
+}
+
 static aur_result prepare(rule_maker *maker, size_t base, aur_error *error) {
     maker->base = base;
     maker->pattern.count = maker->pixels * aur_gather_split_count(base, maker->context->samples_per_pixel);
-    if (!maker->p->policy.adaptive)
+    if (!maker->p->adaptive)
         return AUR_OK;
     maker->pattern.set = maker->set;
     return aur_gather_levels_set(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
 }
 
-static bool is_optimal(const aur_gather_parameters *p) {
+static bool is_optimal(const aur_gather_options *p) {
     return p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
 }
 
 /* A rule with its levels, or with its weights. */
 static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe_rule *lobe,
                        aur_error *error) {
-    const aur_gather_parameters *const p = maker->p;
+    const aur_gather_options *const p = maker->p;
     const aur_result result = aur_gather_rule_create(&maker->pattern, exponent, &lobe->rule, error);
     if (result != AUR_OK)
         return result;
-    if (p->policy.adaptive) {
+    if (p->adaptive) {
         lobe->directions = (float)maker->base;
         return aur_gather_levels_create(p, maker->base, &lobe->rule, &lobe->levels, error);
     }
     lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
-    return is_optimal(p) ? aur_gather_rule_optimise(&lobe->rule, p->rule.smoothness, p->regularization, error)
+    return is_optimal(p) ? aur_gather_rule_optimise(&lobe->rule, p->smoothness, p->regularization, error)
                          : AUR_OK;
 }
 
@@ -76,7 +89,7 @@ static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wan
         return AUR_OK;
     ++rules->count;
     const aur_result result = make(maker, wanted->exponent, lobe, error);
-    lobe->clipped = maker->p->clip && !maker->p->policy.adaptive;
+    lobe->clipped = maker->p->clip && !maker->p->adaptive;
     if (lobe->clipped)
         aur_gather_horizon_fill(wanted->exponent, &lobe->horizon);
     return result == AUR_OK && aur_merges_samples(maker->p->weights)
@@ -101,7 +114,7 @@ static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules,
 /* Never adaptive, and weighed by the draws themselves. */
 static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sampled, aur_error *error) {
     aur_gather_rule_options options = maker->pattern;
-    options.set = maker->p->rule.set;
+    options.set = maker->p->pattern;
     options.count = aur_gather_split_count(maker->p->glossy_samples, maker->context->samples_per_pixel);
     sampled->directions = (float)(options.count / maker->context->samples_per_pixel);
     return aur_gather_rule_create(&options, 0.0, &sampled->rule, error);
@@ -122,7 +135,7 @@ static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, au
                                     .regularization = maker->p->regularization,
                                     .threads = maker->context->threads,
                                     .progress = maker->context->progress};
-    options.pattern.set = maker->p->rule.set;
+    options.pattern.set = maker->p->pattern;
     options.pattern.count = rules->sampled.rule.count;
     aur_result result = AUR_OK;
     for (uint32_t shape = 0; shape < aur_scene_shape_count(scene) && result == AUR_OK; ++shape) {
@@ -139,7 +152,7 @@ static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, au
     return result;
 }
 
-aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+aur_result aur_gather_rules_create(const aur_gather_options *p, const aur_integrator_context *context,
                                    aur_gather_rules *rules, aur_error *error) {
     *rules = (aur_gather_rules){0};
     const size_t shapes = aur_scene_shape_count(context->scene);
@@ -152,13 +165,13 @@ aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_int
     rules->ggx_of_shape = calloc(shapes + 1, sizeof *rules->ggx_of_shape);
     if (rules->lobes == NULL || rules->of_shape == NULL || rules->ggx == NULL || rules->ggx_of_shape == NULL)
         return aur_fail_memory(error);
-    rule_maker maker = {.p = p,
-                        .context = context,
-                        .pattern = p->rule,
-                        .pixels = p->policy.share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
+    rule_maker maker = {
+        .p = p, .context = context, .pixels = p->share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
     rules->count = 1;
-    maker.pattern.nested = p->policy.share == AUR_SHARE_NEAR;
-    aur_result result = prepare(&maker, p->diffuse_samples, error);
+    aur_result result = name_pattern(&maker, error);
+    maker.pattern.nested = p->share == AUR_SHARE_NEAR;
+    if (result == AUR_OK)
+        result = prepare(&maker, p->diffuse_samples, error);
     if (result == AUR_OK)
         result = make(&maker, 1.0, &rules->lobes[0], error);
     maker.pixels = 1;
@@ -171,7 +184,7 @@ aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_int
     if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0)
         result = make_sampled(&maker, &rules->sampled, error);
     if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0 && is_optimal(p) &&
-        p->rule.rotations > 0)
+        p->rotations > 0)
         result = serve_ggx(&maker, rules, error);
     rules->merged = rules->count > 1 ? rules->lobes[1].merged : NULL;
     return result;

@@ -36,7 +36,7 @@ typedef struct aur_gather_rules {
 } aur_gather_rules;
 
 /* Errors: MEMORY, and what the patterns and weights say. The rules are to be released in every case. */
-aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+aur_result aur_gather_rules_create(const aur_gather_options *p, const aur_integrator_context *context,
                                    aur_gather_rules *rules, aur_error *error);
 void aur_gather_rules_release(aur_gather_rules *rules);
 

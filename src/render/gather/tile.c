@@ -248,7 +248,7 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
 }
 
 static void add_means(const gather_tile *work, aur_tile *tile) {
-    const aur_gather_policy *const policy = &work->places.plan->policy;
+    const aur_gather_options *const policy = &work->places.plan->policy;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
             const aur_pixel_strata *const pixel =

@@ -31,7 +31,7 @@ offers --metric=energy,star measure --metric=energy,s
 offers spherical-fibonacci points spher
 offers :file measure ''
 offers sobol measure ''
-offers finalgather:photons=4,weights=oswa render a.xml --integrator finalgather:photons=4,weights=
+offers finalgather:photons=4,debias=only render a.xml --integrator finalgather:photons=4,debias=
 offers path:strict_normals=true render --integrator path:strict_normals=
 offers phong: points --lobe p
 offers :folder lab run -o ''
@@ -75,8 +75,8 @@ completes 'aureole lab run -o fol' folder
 completes 'aureole points --density ' same optimal
 completes 'aureole points --density = ' same optimal
 completes 'aureole points --density =' same optimal
-completes 'aureole render --integrator finalgather : photons = 4,wei' 4,weights=
-completes 'aureole render --integrator finalgather : photons = 4,weights = osw' osw oswa oswa-solve
+completes 'aureole render --integrator finalgather : photons = 4,deb' 4,debias=
+completes 'aureole render --integrator finalgather : photons = 4,direct = n' nee none
 COMP_WORDBREAKS=$' \t\n"\'><;|&('
 completes 'aureole points --density=o' --density=optimal
 

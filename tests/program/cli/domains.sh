@@ -116,7 +116,7 @@ tail -n +2 directions.csv | awk -F, 'BEGIN { print "x,y,z,w# domain: hemisphere"
 tail -n +2 directions.csv | awk 'BEGIN { print "x,y,z,w# domain: hemisphere" } { print $0 ",.0625" }' >equal-directions.csv
 for command in "measure file:%-square.csv -m star --format csv" "render scene.xml -q --spp 16 -o - --sampler file:%-square.csv" \
   "render scene.xml -q --spp 1 -o - --integrator finalgather:pattern=(file:%-square.csv),diffuse_samples=16,glossy_samples=16,photons=100" \
-  "render scene.xml -q --spp 1 -o - --integrator finalgather:pattern=(file:%-directions.csv),scramble=rotate,diffuse_samples=16,glossy_samples=16,photons=100" \
+  "render scene.xml -q --spp 1 -o - --integrator finalgather-lab:pattern=(file:%-directions.csv),scramble=rotate,diffuse_samples=16,glossy_samples=16,photons=100" \
   "render scene.xml -q --spp 1 -o - --integrator ao:pattern=(file:%-directions.csv),scramble=rotate,samples=16" \
   "irradiance scene.xml --sensors sensors.pts -n 256 --set file:%-directions.csv"; do
   says 2 "weights" ${command/\%/weighted}
@@ -127,7 +127,7 @@ for command in "measure file:%-square.csv -m star --format csv" "render scene.xm
   cmp equal.out plain.out || fail "$equal is not $plain"
 done
 # The polar map makes weights, which patterns do not use.
-for integrator in "ao:pattern=sobol,map=polar" "ao:pattern=sobol,map=polar,scramble=rotate" "finalgather:pattern=sobol,map=polar"; do
+for integrator in "ao:pattern=sobol,map=polar" "ao:pattern=sobol,map=polar,scramble=rotate" "finalgather-lab:pattern=sobol,map=polar"; do
   says 2 "weights" render scene.xml --spp 1 --integrator "$integrator"
 done
 

@@ -59,9 +59,9 @@ cat >metal.xml <<'SCENE'
 </scene>
 SCENE
 metal=(render metal.xml --width 12 --height 10 --spp 1 -q
-       --integrator finalgather:photons=20000,diffuse_samples=8,glossy_samples=8,weights=oswa)
+       --integrator finalgather-lab:photons=20000,diffuse_samples=8,glossy_samples=8,weights=oswa)
 rough=(render "$scene" --width 12 --height 10 --spp 1 -q
-       --integrator finalgather:weights=oswa,photons=100,diffuse_samples=4,glossy_samples=4,rotations=1)
+       --integrator finalgather-lab:weights=oswa,photons=100,diffuse_samples=4,glossy_samples=4,rotations=1)
 for work in metal rough; do
   declare -n options=$work
   rm -rf cache-of-one cache-of-many one.exr many.exr

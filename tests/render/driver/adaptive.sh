@@ -7,7 +7,7 @@ base=photons=20000,edges=0,pixel=centre,direct=none
 
 # gather NAME KEYS: renders, and sets rays to what it took.
 gather() {
-  "$aureole" render "$scene" -q --stats --width 40 --height 32 --spp 1 -o "$1.exr" --integrator "finalgather:$base,$2" \
+  "$aureole" render "$scene" -q --stats --width 40 --height 32 --spp 1 -o "$1.exr" --integrator "finalgather-lab:$base,$2" \
     2>"$1.log" || fail "$1: render"
   rays=$(grep -oE '[0-9]+ rays' "$1.log" | grep -oE '[0-9]+')
 }
@@ -31,13 +31,13 @@ judge -v some="$(figure rmse reference.exr some.exr)" -v optimal="$(figure rmse 
 "$aureole" info some.exr --format csv | grep -q directions || fail "the picture has no sampling map"
 
 "$aureole" render "$source/tests/render/driver/furnace.xml" -q --stats --width 16 --height 16 --spp 1 -o furnace.exr --integrator \
-  finalgather:direct=gather,incident=emitters,density=same,adaptive=true 2>furnace.log || fail "furnace: render"
+  finalgather-lab:direct=gather,incident=emitters,density=same,adaptive=true 2>furnace.log || fail "furnace: render"
 grep -q 'ended at level 1' furnace.log || fail "furnace: nothing ended at level 1"
 grep -q 'ended at level 2' furnace.log && fail "constant light went on to level 2"
 
 # refuses KEYS WORDS: fails with status 2 and a line that has the words.
 refuses() {
-  "$aureole" render "$scene" -q --width 16 --height 16 -o refused.exr --integrator "finalgather:adaptive=true,$1" 2>refused.log
+  "$aureole" render "$scene" -q --width 16 --height 16 -o refused.exr --integrator "finalgather-lab:adaptive=true,$1" 2>refused.log
   [ $? -eq 2 ] || fail "$1: the status is not 2"
   grep -q "$2" refused.log || fail "$1: '$(cat refused.log)' does not say '$2'"
 }

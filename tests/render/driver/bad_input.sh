@@ -53,12 +53,18 @@ cp meshes/good.obj meshes/tall-block.obj
 
 expect 2 "unknown integrator 'pth'; did you mean 'path'" box.xml --integrator pth
 expect 2 "has no 'photon'; did you mean 'photons'" box.xml --integrator finalgather:photon=9
+# Keys that have moved: from the command, and from a scene with their place in it.
+for key in map=lambert weights=oswa adaptive=true packets=false; do
+  expect 2 "integrator 'finalgather' has no '${key%=*}' any more: it is a key of 'finalgather-lab'" box.xml --integrator "finalgather:$key"
+done
+edit 's/<integrator type="[^"]*">/<integrator type="finalgather"><string name="weights" value="osw"\/>/'
+expect 2 "bad.xml:[0-9]+:[0-9]+: .*has no 'weights' any more: it is a key of 'finalgather-lab'" bad.xml
 expect 2 "diffuse_samples.*at least 1|diffuse_samples.*between 1" box.xml --integrator finalgather:diffuse_samples=0
-expect 2 "component.*one of all, diffuse, glossy" box.xml --integrator finalgather:component=shiny
+expect 2 "component.*one of all, diffuse, glossy" box.xml --integrator finalgather-lab:component=shiny
 expect 2 "spherical-fibonaci.*spherical-fibonacci" box.xml --integrator finalgather:pattern=spherical-fibonaci
-expect 2 "map|lambert" box.xml --integrator finalgather:map=mercator
+expect 2 "map|lambert" box.xml --integrator finalgather-lab:map=mercator
 expect 2 "interleaved.*packets=false" box.xml --integrator path:interleaved=true,packets=false
-expect 2 "rotate3d" box.xml --integrator finalgather:scramble=rotate3d
+expect 2 "rotate3d" box.xml --integrator finalgather-lab:scramble=rotate3d
 expect 2 "sobl.*sobol" box.xml --sampler sobl
 expect 2 "unknown filter 'bx'" box.xml --filter bx
 expect 2 "crop" box.xml --crop 4,2,0,8

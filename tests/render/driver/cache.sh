@@ -5,7 +5,7 @@ rm -rf cache scene other-scene
 cp -r "$source/scenes/cornell-box" scene
 export AUREOLE_CACHE=$PWD/cache
 photons=finalgather:photons=20000,diffuse_samples=8,glossy_samples=8
-weights=finalgather:weights=oswa,photons=100,diffuse_samples=4,glossy_samples=4,rotations=1
+weights=finalgather-lab:weights=oswa,photons=100,diffuse_samples=4,glossy_samples=4,rotations=1
 make() { # make INTEGRATOR OUT OPTION...
   "$aureole" render scene/glossy.xml -q --integrator "$1" --width 16 --height 16 --spp 1 -o "$2" "${@:3}" || fail "render $*"
 }

@@ -29,10 +29,10 @@ check path-random 1 0 --sampler random
 check path-bright 5 0 -D albedo=0.9
 # L = E + a E where only two edges are allowed, and the same by gathering from the lights alone: exact but for rounding.
 check path-two 0.75 0 --integrator path:max_depth=2
-check gather-two 0.75 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
+check gather-two 0.75 0 --integrator finalgather-lab:direct=gather,incident=emitters,density=same --spp 4
 # Patterns that are only turned have an error of quadrature that turning does not average out: 0.2 %.
 check gather-adaptive-two 0.75 0 --spp 4 \
-  --integrator finalgather:direct=gather,incident=emitters,density=same,adaptive=true,diffuse_samples=8
+  --integrator finalgather-lab:direct=gather,incident=emitters,density=same,adaptive=true,diffuse_samples=8
 check gather 1 0.002 --integrator finalgather:photons=50000,diffuse_samples=64 --spp 4
 check gather-bright 5 0.004 -D albedo=0.9 --integrator finalgather:photons=50000 --spp 4
 check gather-sobol 1 0.002 --integrator finalgather:photons=50000,pattern=sobol --spp 4
@@ -40,5 +40,5 @@ scene=sky
 check sky-path 0.8 0
 check sky-interleaved 0.8 0 --integrator path:interleaved=true
 check sky-gather 0.8 0.002 --integrator finalgather:photons=20000
-check sky-gather-all 0.8 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
+check sky-gather-all 0.8 0 --integrator finalgather-lab:direct=gather,incident=emitters,density=same --spp 4
 exit $((failures > 0))

@@ -15,8 +15,8 @@ if [ -n "$full" ]; then
   quantile=5.5
   samplers+=(lcg icg jittered hammersley faure niederreiter rank1 golden-set)
 fi
-integrators=(path finalgather:direct=gather,incident=emitters aov:aovs=v:variance direct ao:samples=16
-  finalgather:direct=gather,incident=emitters,pattern=sobol,rotations=0)
+integrators=(path finalgather-lab:direct=gather,incident=emitters aov:aovs=v:variance direct ao:samples=16
+  finalgather-lab:direct=gather,incident=emitters,pattern=sobol,rotations=0)
 
 { printf 'PF\n16 16\n-1.0\n'; for _ in {1..256}; do printf '\0\0\200\077\0\0\200\077\0\0\200\077'; done; } >one.pfm
 

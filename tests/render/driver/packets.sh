@@ -19,7 +19,7 @@ for isa in portable avx2 avx512; do
   for scene in "$source/scenes/cornell-box/glossy.xml" "$source/tests/render/driver/furnace.xml"; do
     for options in decorrelation=blue decorrelation=random pattern=sobol,rotations=0 \
                    direct=none,component=glossy,edges=0 direct=none,component=diffuse,edges=0; do
-      same_alone "finalgather:photons=20000,diffuse_samples=16,glossy_samples=16,$options" --width 48 --height 40 --spp 4
+      same_alone "finalgather-lab:photons=20000,diffuse_samples=16,glossy_samples=16,$options" --width 48 --height 40 --spp 4
     done
   done
 done

@@ -73,7 +73,7 @@ cat >tilted.xml <<'XML'
     <bsdf type="diffuse"><rgb name="reflectance" value="1"/></bsdf></shape></scene>
 XML
 for integrator in path path:packets=false volpath direct finalgather:photons=1000,diffuse_samples=16 \
-                  finalgather:photons=1000,diffuse_samples=16,packets=false; do
+                  finalgather-lab:photons=1000,diffuse_samples=16,packets=false; do
   for ground in "rectangle 1" "rectangle 1e4" "disk 1e4"; do
     read -r shape size <<<"$ground"
     render_seeds tilted tilted.xml -D size=$size -D shape=$shape --integrator $integrator |

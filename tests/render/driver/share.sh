@@ -19,12 +19,12 @@ awk -v alone="$(figure rmse reference.exr alone.exr)" -v near="$(figure rmse ref
 
 for share in true near; do
   "$aureole" render "$source/tests/render/driver/furnace.xml" -q --width 16 --height 16 --spp 4 -o furnace.exr --integrator \
-    finalgather:direct=gather,incident=emitters,density=same,share=$share || fail "furnace, share=$share: render"
+    finalgather-lab:direct=gather,incident=emitters,density=same,share=$share || fail "furnace, share=$share: render"
   awk -v mean="$(mean furnace.exr furnace.exr)" 'BEGIN { exit !(mean > 0.749999 && mean < 0.750001) }' ||
     fail "share=$share: constant light is not exact: $(mean furnace.exr furnace.exr)"
 done
 
-"$aureole" render "$scene" -q --width 16 --height 16 -o refused.exr --integrator finalgather:share=true,adaptive=true 2>refused.log
+"$aureole" render "$scene" -q --width 16 --height 16 -o refused.exr --integrator finalgather-lab:share=true,adaptive=true 2>refused.log
 [ $? -eq 2 ] || fail "share with adaptive: the status is not 2"
-grep -q 'patterns of several pixels' refused.log || fail "share with adaptive: $(cat refused.log)"
+grep -q 'share does not go with adaptive=true' refused.log || fail "share with adaptive: $(cat refused.log)"
 exit $((failures > 0))

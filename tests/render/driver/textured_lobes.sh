@@ -46,7 +46,7 @@ agree() {
 
 for material in wall masked; do
   agree "$material-two" 0.002 path:max_depth=2 \
-    finalgather:direct=gather,incident=emitters,max_depth=2,density=same,decorrelation=random -D material=$material
-  agree "$material" 0.005 path finalgather:photons=100000,glossy_samples=128,decorrelation=random -D material=$material
+    finalgather-lab:direct=gather,incident=emitters,max_depth=2,density=same,decorrelation=random -D material=$material
+  agree "$material" 0.005 path finalgather-lab:photons=100000,glossy_samples=128,decorrelation=random -D material=$material
 done
 exit $((failures > 0))

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/common.sh.inc"
 scene=$source/scenes/cornell-box/glossy.xml
 for integrator in path:interleaved=true path finalgather:photons=20000,diffuse_samples=16,glossy_samples=16 \
-                  finalgather:photons=20000,pattern=sobol,rotations=0; do
+                  finalgather-lab:photons=20000,pattern=sobol,rotations=0; do
   name=${integrator%%[:,]*}
   for threads in 1 2 3; do
     "$aureole" render "$scene" -q -t $threads --integrator "$integrator" --width 48 --height 40 --spp 4 \

@@ -9,7 +9,7 @@ fixed=direct=gather,incident=emitters,pixel=centre,edges=0
 render() {
   local name=$1 keys=$2
   shift 2
-  "$aureole" render "$scene" -q --spp 1 -o "$name.exr" --integrator "finalgather:$fixed,$keys" "$@" || fail "$name: render"
+  "$aureole" render "$scene" -q --spp 1 -o "$name.exr" --integrator "finalgather-lab:$fixed,$keys" "$@" || fail "$name: render"
 }
 
 # The lobe's visible part by very many directions, whose error is 2e-4 at most.
@@ -46,11 +46,11 @@ box=$source/scenes/cornell-box/glossy.xml
 for weights in oswa mis osw; do
   for threads in 1 3; do
     "$aureole" render "$box" -q --width 40 --height 24 --spp 2 -t $threads -o t$threads.exr --integrator \
-      "finalgather:photons=20000,diffuse_samples=20,glossy_samples=10,weights=$weights" || fail "$weights: $threads threads"
+      "finalgather-lab:photons=20000,diffuse_samples=20,glossy_samples=10,weights=$weights" || fail "$weights: $threads threads"
   done
   cmp t1.exr t3.exr || fail "$weights: threads change the picture"
   "$aureole" render "$box" -q --width 40 --height 24 --spp 2 -o lone.exr --integrator \
-    "finalgather:photons=20000,diffuse_samples=20,glossy_samples=10,weights=$weights,packets=false" || fail "$weights: lone"
+    "finalgather-lab:photons=20000,diffuse_samples=20,glossy_samples=10,weights=$weights,packets=false" || fail "$weights: lone"
   cmp t1.exr lone.exr || fail "$weights: lone rays change the picture"
 done
 
@@ -59,7 +59,7 @@ done
 # (without paths, whose chance differs).
 for weights in osw oswa; do
   "$aureole" render "$box" -q --width 48 --height 48 --crop 0,8,16,32 --spp 2 -o wall-$weights.exr --integrator \
-    "finalgather:photons=20000,diffuse_samples=32,glossy_samples=16,weights=$weights,density=same,edges=0,short_rays=0" \
+    "finalgather-lab:photons=20000,diffuse_samples=32,glossy_samples=16,weights=$weights,density=same,edges=0,short_rays=0" \
     || fail "wall: $weights"
 done
 off=$(figure relative_rmse wall-osw.exr wall-oswa.exr)
@@ -68,7 +68,7 @@ awk -v off="$off" 'BEGIN { exit !(off < 1e-5) }' || fail "diffuse places among g
 # Lights that gather rays meet are weighed against their own sampling: the mean stays that of plain weights.
 for weights in ratio oswa mis; do
   "$aureole" render "$box" -q --width 32 --height 32 --spp "$(either 1 64)" -o mean-$weights.exr --integrator \
-    "finalgather:photons=50000,diffuse_samples=128,glossy_samples=64,weights=$weights,max_depth=2" || fail "mean: $weights"
+    "finalgather-lab:photons=50000,diffuse_samples=128,glossy_samples=64,weights=$weights,max_depth=2" || fail "mean: $weights"
 done
 for weights in oswa mis; do
   judge -v a="$(mean mean-ratio.exr mean-ratio.exr)" -v b="$(mean mean-ratio.exr mean-$weights.exr)" \
@@ -76,7 +76,7 @@ for weights in oswa mis; do
 done
 
 refused() { # PATTERN KEYS
-  "$aureole" render "$scene" -q --spp 1 -o refused.exr --integrator "finalgather:$2" 2>message
+  "$aureole" render "$scene" -q --spp 1 -o refused.exr --integrator "finalgather-lab:$2" 2>message
   [ $? -eq 2 ] || fail "$2: not refused"
   grep -q -- "$1" message || fail "$2: $(cat message)"
 }

@@ -6,6 +6,7 @@
 #include <aureole/render.h>
 
 #include "points/base/random.h"
+#include "program/lab/gather.h"
 #include "render/film/film.h"
 #include "render/image/image.h"
 
@@ -14,6 +15,7 @@ enum { WIDTH = 37, HEIGHT = 21, PIXELS = WIDTH * HEIGHT, MOST = 6 };
 static aur_render *start(aur_renderer *renderer, const char *integrator, size_t threads) {
     const aur_render_options options = {.size = sizeof options,
                                         .integrator = integrator,
+                                        .gather = &lab_finalgather,
                                         .samples_per_pixel = MOST,
                                         .width = WIDTH,
                                         .height = HEIGHT,
@@ -71,7 +73,7 @@ static void pixels_have_the_bits_of_even_pictures(void **state) {
                 {"direct", true},
                 {"aov:aovs=(n:sample_count,d:depth)", true},
                 {"ao:samples=8", true},
-                {"finalgather:photons=5000,diffuse_samples=8,split=8,edges=0,packets=false", false}};
+                {"finalgather-lab:photons=5000,diffuse_samples=8,split=8,edges=0,packets=false", false}};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),

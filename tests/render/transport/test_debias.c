@@ -6,6 +6,7 @@
 #include <aureole/render.h>
 #include <aureole/statistics.h>
 
+#include "program/lab/gather.h"
 #include "short.h"
 
 enum { SIDE = 8, BLOCKS = 16, SEEDS = 32 };
@@ -40,6 +41,7 @@ static void render_seeds(const aur_scene *scene, const char *integrator, size_t 
     for (size_t s = 0; s < SEEDS; ++s) {
         aur_render_options options = aur_render_options_default();
         options.integrator = integrator;
+        options.gather = &lab_finalgather;
         options.sampler = "sobol";
         options.filter = "box";
         options.samples_per_pixel = samples;
@@ -104,7 +106,7 @@ static void agrees_with_paths(void **state) {
             if (check_short() && k % 3 != i) /* each form in one scene */
                 continue;
             char integrator[256];
-            snprintf(integrator, sizeof integrator, "finalgather:photons=300,debias=true%s", forms[k]);
+            snprintf(integrator, sizeof integrator, "finalgather-lab:photons=300,debias=true%s", forms[k]);
             render_seeds(scene, integrator, 4, 1, gathered);
             const double t = largest_difference(gathered, paths);
             if (t > most)
@@ -124,9 +126,10 @@ enum { PICTURE = 24 };
 
 static aur_image *render_picture(aur_renderer *renderer, const char *form, const char *keys) {
     char integrator[512];
-    snprintf(integrator, sizeof integrator, "finalgather:photons=300%s%s", form, keys);
+    snprintf(integrator, sizeof integrator, "finalgather-lab:photons=300%s%s", form, keys);
     aur_render_options options = aur_render_options_default();
     options.integrator = integrator;
+    options.gather = &lab_finalgather;
     options.width = options.height = PICTURE;
     options.samples_per_pixel = 4;
     options.seed = 5;
@@ -152,7 +155,7 @@ static void correction_is_the_difference(void **state) {
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         char whole_keys[64], lone_keys[128];
         snprintf(whole_keys, sizeof whole_keys, "%s,debias=true", cases[k].share);
-        snprintf(lone_keys, sizeof lone_keys, "%s,incident=correction", whole_keys);
+        snprintf(lone_keys, sizeof lone_keys, "%s,debias=only", cases[k].share);
         aur_image *const plain = render_picture(renderer, cases[k].form, "");
         aur_image *const whole = render_picture(renderer, cases[k].form, whole_keys);
         aur_image *const lone = render_picture(renderer, cases[k].form, lone_keys);
@@ -180,9 +183,10 @@ static void refuses_other_bias(void **state) {
     aur_scene *scene = must_load_body(ROOM);
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         char integrator[128];
-        snprintf(integrator, sizeof integrator, "finalgather:debias=true,%s", keys[i]);
+        snprintf(integrator, sizeof integrator, "finalgather-lab:debias=true,%s", keys[i]);
         aur_render_options options = aur_render_options_default();
         options.integrator = integrator;
+        options.gather = &lab_finalgather;
         options.width = options.height = 2;
         aur_renderer *renderer;
         aur_image *image = NULL;
@@ -230,14 +234,15 @@ static void idle_keys_are_told(void **state) {
     static const struct {
         const char *integrator;
         size_t warnings;
-    } cases[] = {{"finalgather:photons=100,pattern=esfg:base=8,levels=2", 1},
+    } cases[] = {{"finalgather-lab:photons=100,pattern=esfg:base=8,levels=2", 1},
                  {"finalgather:photons=100,pattern=(esfg:base=8,levels=2)", 0},
-                 {"finalgather:photons=100,adaptive=true,levels=2", 0}};
+                 {"finalgather-lab:photons=100,adaptive=true,levels=2", 0}};
     aur_scene *scene = must_load_body(ROOM);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         size_t count = 0;
         aur_render_options options = aur_render_options_default();
         options.integrator = cases[i].integrator;
+        options.gather = &lab_finalgather;
         options.width = options.height = 2;
         options.warnings = (aur_warnings){count_warning, &count};
         aur_renderer *renderer;

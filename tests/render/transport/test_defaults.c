@@ -1,6 +1,7 @@
 /* What is on by default because it is faster traces no more rays than the plain form that it replaces. By
  * time the same rows stand in `aureole-bench defaults`. */
 #include "check.h"
+#include "program/lab/gather.h"
 
 #include <aureole/render.h>
 #include <stdio.h>
@@ -15,12 +16,12 @@ static const default_row rows[] = {
     {"cornell-box/glossy.xml", "path", "path:packets=false", true},
     {"keller/cube.xml", "path", "path:packets=false", true},
     {"cornell-box/cornell-box.xml", "finalgather:photons=5000,diffuse_samples=16",
-     "finalgather:photons=5000,diffuse_samples=16,packets=false", true},
+     "finalgather-lab:photons=5000,diffuse_samples=16,packets=false", true},
     {"cornell-box/glossy.xml", "finalgather:photons=5000,diffuse_samples=16,glossy_samples=8",
-     "finalgather:photons=5000,diffuse_samples=16,glossy_samples=8,packets=false", true},
+     "finalgather-lab:photons=5000,diffuse_samples=16,glossy_samples=8,packets=false", true},
     /* Other rotations find other short rays. */
     {"cornell-box/glossy.xml", "finalgather:photons=5000,diffuse_samples=16,glossy_samples=8,short_rays=0",
-     "finalgather:photons=5000,diffuse_samples=16,glossy_samples=8,short_rays=0,rotations=0", true},
+     "finalgather-lab:photons=5000,diffuse_samples=16,glossy_samples=8,short_rays=0,rotations=0", true},
     {"cornell-box/glossy.xml", "ao:samples=16", "ao:samples=16,rotations=0", true},
     {"keller/living-room.xml", "radiosity:gather_samples=4", "radiosity:gather_samples=4,light_sampling=all",
      false},
@@ -30,8 +31,12 @@ static const default_row rows[] = {
 static uint64_t rays_of(const aur_scene *scene, const char *integrator) {
     aur_renderer *renderer;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    const aur_render_options options = {
-        .size = sizeof options, .integrator = integrator, .width = 24, .height = 24, .samples_per_pixel = 4};
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
+                                        .gather = &lab_finalgather,
+                                        .width = 24,
+                                        .height = 24,
+                                        .samples_per_pixel = 4};
     aur_render_statistics statistics = {.size = sizeof statistics};
     aur_image *image;
     assert_int_equal(aur_renderer_render(renderer, &options, &image, &statistics, NULL), AUR_OK);

@@ -2,6 +2,7 @@
  * pixel's few samples meet by chance. */
 #include "render/scene/scene_text.h"
 
+#include "program/lab/gather.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
@@ -31,7 +32,8 @@ static void keeps_the_mean_of_a_small_lamp(void **state) {
     double mean = 0.0;
     for (size_t s = 0; s < SEEDS; ++s) {
         aur_render_options options = aur_render_options_default();
-        options.integrator = "finalgather:incident=emitters";
+        options.integrator = "finalgather-lab:incident=emitters";
+        options.gather = &lab_finalgather;
         options.sampler = "random";
         options.filter = "box";
         options.samples_per_pixel = SAMPLES;
@@ -73,7 +75,8 @@ static void finds_edges_where_only_some_pixels_go_on(void **state) {
     double squares = 0.0;
     for (size_t s = 0; s < RUNS; ++s) {
         aur_render_options options = aur_render_options_default();
-        options.integrator = "finalgather:incident=emitters,edges=64,split=4";
+        options.integrator = "finalgather-lab:incident=emitters,edges=64,split=4";
+        options.gather = &lab_finalgather;
         options.sampler = "random";
         options.samples_per_pixel = 2 * STEP;
         options.seed = s;
@@ -127,7 +130,8 @@ static void finds_edges_that_a_wide_filter_sees(void **state) {
     double squares = 0.0, mean = 0.0;
     for (size_t s = 0; s < RUNS; ++s) {
         aur_render_options options = aur_render_options_default();
-        options.integrator = "finalgather:incident=emitters,edges=64,split=4";
+        options.integrator = "finalgather-lab:incident=emitters,edges=64,split=4";
+        options.gather = &lab_finalgather;
         options.sampler = "random";
         options.filter = "gaussian";
         options.samples_per_pixel = SAMPLES_HERE;

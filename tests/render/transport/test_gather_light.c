@@ -22,14 +22,10 @@ static void write_points(const char *path, unsigned factor) {
 static const aur_irradiance_map *map_of(const aur_integrator_context *context, const char *path) {
     char set[1024];
     snprintf(set, sizeof set, "file:%s", path);
-    const aur_gather_parameters p = {.policy = {.max_depth = UINT32_MAX},
-                                     .rule = {.set = "spherical-fibonacci", .smoothness = 1.5},
-                                     .diffuse_samples = 4,
-                                     .glossy_samples = 4,
-                                     .photons = PHOTONS,
-                                     .photons_a_texel = 16.0,
-                                     .light_samples = 1,
-                                     .photon_set = set};
+    aur_gather_options p = AUR_GATHER_OPTIONS_INITIAL;
+    p.diffuse_samples = p.glossy_samples = 4;
+    p.photons = PHOTONS;
+    p.photon_pattern = set;
     aur_gather_plan *plan;
     aur_error error = {0};
     if (aur_gather_plan_create(&p, context, &plan, &error) != AUR_OK)

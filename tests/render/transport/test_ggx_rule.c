@@ -6,6 +6,7 @@
 
 #include "check.h"
 
+#include "program/lab/gather.h"
 #include "render/gather/rule_ggx.h"
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/scene.h"
@@ -124,6 +125,7 @@ static double render(aur_renderer *renderer, const char *integrator, size_t samp
                      float values[VALUES]) {
     const aur_render_options options = {.size = sizeof options,
                                         .integrator = integrator,
+                                        .gather = &lab_finalgather,
                                         .sampler = "sobol",
                                         .filter = "box",
                                         .samples_per_pixel = samples,
@@ -159,13 +161,14 @@ static void test_pictures(void **state) {
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     static float values[VALUES], again[VALUES];
     const double path = render(renderer, "path", 256, 2, values);
-    render(renderer, "finalgather:rotations=2,glossy_samples=64", 4, 2, values);
-    const double alone = render(renderer, "finalgather:direct=gather,incident=emitters," METAL, 4, 2, again);
+    render(renderer, "finalgather-lab:rotations=2,glossy_samples=64", 4, 2, values);
+    const double alone =
+        render(renderer, "finalgather-lab:direct=gather,incident=emitters," METAL, 4, 2, again);
     assert_memory_not_equal(values, again, sizeof values);
-    const double optimal = render(renderer, "finalgather:" METAL, 4, 1, values);
+    const double optimal = render(renderer, "finalgather-lab:" METAL, 4, 1, values);
     assert_relative(alone, path, 0.002);
     assert_relative(optimal, path, 0.002);
-    render(renderer, "finalgather:" METAL, 4, 3, again);
+    render(renderer, "finalgather-lab:" METAL, 4, 3, again);
     assert_memory_equal(values, again, sizeof values);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);

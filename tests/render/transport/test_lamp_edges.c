@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "program/lab/gather.h"
 #include "render/driver/renderer.h"
 #include "render/film/integrator.h"
 #include "render/scene/scene_text.h"
@@ -27,6 +28,7 @@ static aur_render_options options_of(const char *integrator, const char *filter,
     aur_render_options options = aur_render_options_default();
     options.width = options.height = SIDE;
     options.integrator = integrator;
+    options.gather = &lab_finalgather;
     options.filter = filter;
     options.sampler = "random";
     options.samples_per_pixel = SAMPLES;
@@ -49,7 +51,7 @@ static void meets_the_lamp_by_all_rays(void **state) {
         double sum = 0.0, squares = 0.0;
         for (size_t s = 0; s < RUNS; ++s) {
             const aur_render_options options =
-                options_of("finalgather:incident=emitters,edges=64", filters[f], s);
+                options_of("finalgather-lab:incident=emitters,edges=64", filters[f], s);
             aur_image *image = NULL;
             assert_int_equal(aur_renderer_render(renderer, &options, &image, NULL, NULL), AUR_OK);
             double value = 0.0;
@@ -77,10 +79,10 @@ static void marks_what_the_filter_reaches(void **state) {
     static const struct {
         const char *integrator, *filter;
         size_t side; /* of the square that is marked */
-    } cases[] = {{"finalgather:incident=emitters", "box", 1},
-                 {"finalgather:incident=emitters", "gaussian", 5},
-                 {"finalgather:incident=emitters,edges=0", "box", 0},
-                 {"finalgather:incident=emitters,pixel=centre", "box", 0}};
+    } cases[] = {{"finalgather-lab:incident=emitters", "box", 1},
+                 {"finalgather-lab:incident=emitters", "gaussian", 5},
+                 {"finalgather-lab:incident=emitters,edges=0", "box", 0},
+                 {"finalgather-lab:incident=emitters,pixel=centre", "box", 0}};
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);

@@ -1,0 +1,128 @@
+/* Integrators of the caller's that gather light as `finalgather` does, with more keys. `finalgather` has the
+ * keys that images need; what reproduces papers on gathering (Marques 2013, 2018, 2019) is an integrator of
+ * the caller's, whose further keys are fields of the struct below:
+ *
+ *     static const aur_key keys[] = {
+ *         {.name = "rotations", .type = AUR_KEY_INTEGER, .help = "randomisations made beforehand",
+ *          .default_text = "16", .maximum = 65536,
+ *          .offset = offsetof(aur_gather_options, rotations), .size = sizeof(size_t)},
+ *     };
+ *     static const aur_gather_integrator study = {
+ *         .size = sizeof study, .row = {.name = "study", .key_count = 1, .keys = keys}};
+ *     options.integrator = "study:rotations=0,diffuse_samples=16";
+ *     options.gather = &study;
+ *
+ * Experimental: all of this header may change in any version. */
+#ifndef AUREOLE_GATHER_H
+#define AUREOLE_GATHER_H
+
+#include <aureole/sphere.h>
+#include <aureole/tables.h>
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The words of a CHOICE key stand in the order of the enum that its field has. */
+
+/* Which lobes are gathered. */
+typedef enum aur_gather_component {
+    AUR_COMPONENT_ALL,
+    AUR_COMPONENT_DIFFUSE,
+    AUR_COMPONENT_GLOSSY
+} aur_gather_component;
+/* Light straight from lights: by points drawn on them, by gather rays that meet them, or left out. */
+typedef enum aur_gather_direct { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE } aur_gather_direct;
+/* What gather rays bring: light by photons and from emitters, or from emitters only. */
+typedef enum aur_gather_incident { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS } aur_gather_incident;
+/* Whether paths correct what the photon map is wrong by; or the image has that correction alone. */
+typedef enum aur_gather_debias { AUR_DEBIAS_NONE, AUR_DEBIAS_ALL, AUR_DEBIAS_ONLY } aur_gather_debias;
+/* How the rotations of neighbouring pixels differ: dithered over blocks of 4 x 4, at random, not at all. */
+typedef enum aur_gather_decorrelation {
+    AUR_DECORRELATION_BLUE,
+    AUR_DECORRELATION_RANDOM,
+    AUR_DECORRELATION_NONE
+} aur_gather_decorrelation;
+/* Of samples: p/q or 1; optimal for one lobe; and for two lobes merged: optimal (OSWA), by the balance
+ * heuristic, optimal as published with a system solved at every shading point. */
+typedef enum aur_gather_weights {
+    AUR_WEIGHTS_RATIO,
+    AUR_WEIGHTS_EQUAL,
+    AUR_WEIGHTS_OSW,
+    AUR_WEIGHTS_OSWA,
+    AUR_WEIGHTS_MIS,
+    AUR_WEIGHTS_SOLVE
+} aur_gather_weights;
+/* How the contrast of samples is measured that decides on the next level. */
+typedef enum aur_gather_criterion { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE } aur_gather_criterion;
+/* The density of directions: the lobe's, or its power 2/(s+1); DEFAULT is the first with equal weights, else
+ * the second. */
+typedef enum aur_gather_density {
+    AUR_GATHER_DENSITY_SAME,
+    AUR_GATHER_DENSITY_OPTIMAL,
+    AUR_GATHER_DENSITY_DEFAULT
+} aur_gather_density;
+/* Diffuse light that pixels have in common with their neighbours: none; one pattern is split among the pixels
+ * of 4 x 4, which pool what they find; patterns complete each other, and pixels pool with the nearest. */
+typedef enum aur_gather_share { AUR_SHARE_NONE, AUR_SHARE_BLOCKS, AUR_SHARE_NEAR } aur_gather_share;
+/* Camera rays over the pixel, or through its centre. */
+typedef enum aur_gather_pixel { AUR_PIXEL_FILTER, AUR_PIXEL_CENTRE } aur_gather_pixel;
+
+/* What gathering can be asked for. The library makes the struct, with the defaults in brackets; then keys
+ * fill it. Texts are read only while the integrator is made. */
+typedef struct aur_gather_options {
+    /* Directions and their weights. */
+    size_t diffuse_samples, glossy_samples; /* directions per pixel of each lobe [64] */
+    size_t split;                           /* samples that share a pattern; 0: all of a pixel [0] */
+    const char *pattern;                    /* SET of the directions [spherical-fibonacci] */
+    const char *map;                        /* of a square set to the hemisphere [lambert] */
+    const char *scramble;                   /* of the pattern [NULL: digit for nets, else rotate] */
+    size_t rotations;                       /* randomisations made beforehand; 0: one per pixel [16] */
+    uint64_t pattern_seed;                  /* another randomisation under the same seed [0] */
+    aur_gather_decorrelation decorrelation; /* [BLUE] */
+    aur_gather_share share;                 /* [NONE] */
+    aur_gather_density density;             /* [DEFAULT] */
+    aur_gather_weights weights;             /* [RATIO] */
+    double smoothness;                      /* s of the optimal weights and density, in (1, 2) [1.5] */
+    /* Of optimal weights; below 0: 0.5 for SOLVE, else 1e-6 [-1]. */
+    double regularization;
+    bool clip; /* glossy lobes end at the surface's horizon [true] */
+    /* Adaptive gathering: where a lobe's samples differ more than `threshold` by the criterion, the next of
+     * `levels` extensions of the pattern is gathered, `level_factor` (2 or 4) times as many directions. */
+    bool adaptive;                  /* [false] */
+    aur_gather_criterion criterion; /* [VARIANCE] */
+    float threshold;                /* below 0: 0.3 for ENTROPY, else 0.03 [-1] */
+    size_t levels, level_factor;    /* 1 .. 7 [2], 2 or 4 [4] */
+    /* Light. */
+    size_t photons, caustic_photons; /* of the map [500000], and of one of caustics alone [0: none] */
+    uint64_t photon_seed;            /* the same photons under all seeds; 0: by the image's seed [0] */
+    const char *photon_pattern;      /* SET of the photons' numbers [sobol] */
+    double photons_per_texel;        /* that a texel of irradiance is the mean of [16] */
+    aur_gather_debias debias;        /* [NONE] */
+    double continued;                /* share of the gather rays that go on as paths, of debias [0.25] */
+    double short_rays;            /* gather rays shorter than so many widths of a texel go on as paths [2] */
+    uint32_t light_samples;       /* points on lights that each sample's shadow rays aim at [1] */
+    size_t bright_samples;        /* rays per pixel to brightly lit texels, drawn as lights are [0] */
+    aur_gather_direct direct;     /* [NEE] */
+    aur_gather_incident incident; /* [PHOTONS] */
+    aur_gather_component component; /* [ALL] */
+    uint32_t max_depth;             /* edges of a light path; UINT32_MAX: no limit [that] */
+    /* Camera rays. */
+    aur_gather_pixel pixel; /* [FILTER] */
+    uint32_t edge_samples;  /* camera rays more where a pixel sees several things [128] */
+    bool packets;           /* sixteen rays at a time, else one: the same image to rounding [true] */
+} aur_gather_options;
+
+/* An integrator of the caller's, beside those of the library. Its keys are fields of aur_gather_options; it
+ * takes those of `finalgather` too. It must outlive the render. */
+typedef struct aur_gather_integrator {
+    size_t size; /* of the caller's struct */
+    aur_row row; /* its name is none of the library's integrators */
+} aur_gather_integrator;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

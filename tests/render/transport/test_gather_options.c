@@ -1,0 +1,212 @@
+/* What final gathering may be asked for, and integrators of the caller's. */
+#include "check.h"
+#include "render/scene/scene_text.h"
+
+#include <aureole/render.h>
+#include <string.h>
+
+#include "program/lab/gather.h"
+#include "render/gather/options.h"
+
+#define INITIAL AUR_GATHER_OPTIONS_INITIAL
+
+static aur_result complete(aur_gather_options options, char message[AUR_ERROR_MESSAGE_CAPACITY]) {
+    aur_error error = {0};
+    const aur_result result = aur_gather_options_complete(&options, &error);
+    strcpy(message, error.message);
+    return result;
+}
+
+/* Defaults that follow from other options, and those that are given. */
+static void defaults_follow(void **state) {
+    (void)state;
+    aur_gather_options o = INITIAL;
+    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    assert_int_equal(o.density, AUR_GATHER_DENSITY_OPTIMAL);
+    assert_true(o.regularization == 1e-6 && o.threshold == 0.03f && o.direct == AUR_DIRECT_NEE);
+    o = (aur_gather_options)INITIAL;
+    o.weights = AUR_WEIGHTS_EQUAL;
+    o.criterion = AUR_CRITERION_ENTROPY;
+    o.debias = AUR_DEBIAS_ONLY;
+    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    assert_int_equal(o.density, AUR_GATHER_DENSITY_SAME);
+    assert_true(o.threshold == 0.3f && o.direct == AUR_DIRECT_NONE);
+    o = (aur_gather_options)INITIAL;
+    o.weights = AUR_WEIGHTS_SOLVE;
+    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    assert_true(o.regularization == 0.5);
+    o = (aur_gather_options)INITIAL;
+    o.regularization = 0.25;
+    o.threshold = 0.0f;
+    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    assert_true(o.regularization == 0.25 && o.threshold == 0.0f);
+}
+
+/* Every single change of the defaults, by the bits of `change`. */
+enum { CHANGES = 16 };
+static aur_gather_options changed(unsigned change) {
+    aur_gather_options o = INITIAL;
+    const aur_gather_weights weights[] = {AUR_WEIGHTS_EQUAL, AUR_WEIGHTS_OSW, AUR_WEIGHTS_OSWA,
+                                          AUR_WEIGHTS_MIS, AUR_WEIGHTS_SOLVE};
+    for (size_t i = 0; i < 5; ++i)
+        o.weights = (change >> i & 1u) != 0 ? weights[i] : o.weights;
+    o.density = (change >> 5 & 1u) != 0 ? AUR_GATHER_DENSITY_OPTIMAL : o.density;
+    o.share = (change >> 6 & 1u) != 0 ? AUR_SHARE_BLOCKS : (change >> 7 & 1u) != 0 ? AUR_SHARE_NEAR : o.share;
+    o.adaptive = (change >> 8 & 1u) != 0;
+    o.debias = (change >> 9 & 1u) != 0 ? AUR_DEBIAS_ALL : o.debias;
+    o.caustic_photons = (change >> 10 & 1u) != 0 ? 9 : 0;
+    o.rotations = (change >> 11 & 1u) != 0 ? 0 : o.rotations;
+    o.decorrelation = (change >> 12 & 1u) != 0 ? AUR_DECORRELATION_RANDOM : o.decorrelation;
+    o.pattern = (change >> 13 & 1u) != 0 ? "sobol" : o.pattern;
+    o.scramble = (change >> 14 & 1u) != 0 ? "shift" : NULL;
+    o.level_factor = (change >> 15 & 1u) != 0 ? 3 : o.level_factor;
+    return o;
+}
+
+/* What is refused, as conditions on the fields. */
+static bool is_refused(const aur_gather_options *o) {
+    const bool merged = o->weights >= AUR_WEIGHTS_OSWA, share = o->share != AUR_SHARE_NONE;
+    const bool other_set = strcmp(o->pattern, "sobol") == 0 || o->scramble != NULL;
+    return (o->weights == AUR_WEIGHTS_EQUAL && o->density == AUR_GATHER_DENSITY_OPTIMAL) ||
+           (merged && (o->rotations == 0 || share || o->adaptive)) ||
+           (share && (o->adaptive || o->decorrelation != AUR_DECORRELATION_BLUE)) ||
+           (o->share == AUR_SHARE_NEAR && other_set) ||
+           (o->debias != AUR_DEBIAS_NONE && (share || o->adaptive || o->caustic_photons > 0)) ||
+           (o->adaptive && (other_set || o->level_factor == 3));
+}
+
+static void exclusions_are_those_of_pairs(void **state) {
+    (void)state;
+    size_t refused = 0;
+    for (unsigned change = 0; change < 1u << CHANGES; ++change) {
+        const aur_gather_options o = changed(change);
+        char message[AUR_ERROR_MESSAGE_CAPACITY];
+        const bool fails = complete(o, message) != AUR_OK;
+        if (fails != is_refused(&o))
+            fail_msg("%x: '%s'", change, message);
+        refused += fails;
+    }
+    assert_true(refused > 0 && refused < 1u << CHANGES);
+}
+
+/* Each message names what excludes what. */
+static void messages_name_both(void **state) {
+    (void)state;
+    static const struct {
+        unsigned change;
+        aur_result result;
+        const char *one, *other;
+    } cases[] = {
+        {1u << 0 | 1u << 5, AUR_ERROR_ARGUMENT, "equal weights", "density=optimal"},
+        {1u << 3 | 1u << 11, AUR_ERROR_ARGUMENT, "merged samples", "rotations=0"},
+        {1u << 6 | 1u << 8, AUR_ERROR_UNSUPPORTED, "share", "adaptive=true"},
+        {1u << 6 | 1u << 12, AUR_ERROR_UNSUPPORTED, "share", "decorrelation=blue"},
+        {1u << 7 | 1u << 2, AUR_ERROR_UNSUPPORTED, "share", "weights=ratio, equal or osw"},
+        {1u << 7 | 1u << 14, AUR_ERROR_UNSUPPORTED, "share=near", "'scramble'"},
+        {1u << 9 | 1u << 7, AUR_ERROR_UNSUPPORTED, "debias", "share"},
+        {1u << 9 | 1u << 8, AUR_ERROR_UNSUPPORTED, "debias", "adaptive=true"},
+        {1u << 9 | 1u << 10, AUR_ERROR_UNSUPPORTED, "debias", "caustic_photons"},
+        {1u << 8 | 1u << 4, AUR_ERROR_UNSUPPORTED, "adaptive", "take osw"},
+        {1u << 8 | 1u << 13, AUR_ERROR_UNSUPPORTED, "adaptive", "'pattern'"},
+        {1u << 8 | 1u << 15, AUR_ERROR_ARGUMENT, "level_factor", "2 or 4"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char message[AUR_ERROR_MESSAGE_CAPACITY];
+        assert_int_equal(complete(changed(cases[i].change), message), cases[i].result);
+        if (strstr(message, cases[i].one) == NULL || strstr(message, cases[i].other) == NULL)
+            fail_msg("case %zu: '%s'", i, message);
+    }
+}
+
+/* --- integrators of the caller's */
+
+static aur_result render(const char *integrator, const aur_gather_integrator *gather, aur_image **image,
+                         aur_error *error) {
+    aur_scene *const scene =
+        must_load_body("<emitter type='constant'/><shape type='sphere'><point name='center' z='4'/></shape>"
+                       "<shape type='sphere'><point name='center' x='1.5' z='4'/></shape>");
+    aur_renderer *renderer;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
+                                        .width = 8,
+                                        .height = 8,
+                                        .samples_per_pixel = 2,
+                                        .gather = gather};
+    const aur_result result = aur_renderer_render(renderer, &options, image, NULL, error);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+    return result;
+}
+
+static const aur_key one_key[] = {{.name = "turns",
+                                   .type = AUR_KEY_INTEGER,
+                                   .help = "rotations",
+                                   .default_text = "16",
+                                   .maximum = 65536,
+                                   .offset = offsetof(aur_gather_options, rotations),
+                                   .size = sizeof(size_t)}};
+static const aur_key stray_key[] = {{.name = "stray",
+                                     .type = AUR_KEY_INTEGER,
+                                     .default_text = "1",
+                                     .maximum = 9,
+                                     .offset = sizeof(aur_gather_options) - 4,
+                                     .size = sizeof(uint64_t)}};
+#define STUDY(keys_)                                                                                         \
+    {                                                                                                        \
+        .size = sizeof(aur_gather_integrator), .row = {.name = "study", .key_count = 1, .keys = (keys_) }    \
+    }
+
+/* The same bits as finalgather where nothing else is asked for; its keys, and one of its own. */
+static void caller_has_integrators(void **state) {
+    (void)state;
+    static const aur_gather_integrator study = STUDY(one_key);
+    static const char *const texts[] = {"finalgather:photons=50,diffuse_samples=4",
+                                        "study:photons=50,diffuse_samples=4",
+                                        "study:photons=50,diffuse_samples=4,turns=0",
+                                        "finalgather-lab:photons=50,diffuse_samples=4,rotations=0"};
+    aur_image *images[4];
+    for (size_t i = 0; i < 4; ++i)
+        assert_int_equal(render(texts[i], i == 3 ? &lab_finalgather : &study, &images[i], NULL), AUR_OK);
+    const size_t bytes = 3 * 8 * 8 * sizeof(float);
+    assert_memory_equal(aur_image_data(images[0]), aur_image_data(images[1]), bytes);
+    assert_memory_not_equal(aur_image_data(images[1]), aur_image_data(images[2]), bytes);
+    assert_memory_equal(aur_image_data(images[2]), aur_image_data(images[3]), bytes);
+    for (size_t i = 0; i < 4; ++i)
+        aur_image_destroy(images[i]);
+}
+
+static void caller_errors(void **state) {
+    (void)state;
+    static const aur_gather_integrator study = STUDY(one_key), stray = STUDY(stray_key);
+    static const struct {
+        const char *integrator;
+        const aur_gather_integrator *gather;
+        aur_result result;
+        const char *message;
+    } cases[] = {
+        {"study", NULL, AUR_ERROR_NAME, "study"},
+        {"studi", &study, AUR_ERROR_NAME, "did you mean 'study'"},
+        {"study:turn=1", &study, AUR_ERROR_NAME, "did you mean 'turns'"},
+        {"study:stray=1", &stray, AUR_ERROR_ARGUMENT, "no field of aur_gather_options"},
+        {"study:debias=true,share=true", &study, AUR_ERROR_UNSUPPORTED, "share"},
+        {"finalgather:rotations=0", &lab_finalgather, AUR_ERROR_NAME, "key of 'finalgather-lab'"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        aur_image *image = NULL;
+        aur_error error = {0};
+        assert_int_equal(render(cases[i].integrator, cases[i].gather, &image, &error), cases[i].result);
+        assert_null(image);
+        if (strstr(error.message, cases[i].message) == NULL)
+            fail_msg("%s: '%s'", cases[i].integrator, error.message);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(defaults_follow),    cmocka_unit_test(exclusions_are_those_of_pairs),
+        cmocka_unit_test(messages_name_both), cmocka_unit_test(caller_has_integrators),
+        cmocka_unit_test(caller_errors),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
