@@ -12,7 +12,7 @@ aureole=build/release/aureole
 out=out/gallery pictures=docs/gallery page=docs/gallery.md
 mkdir -p "$out" "$pictures"
 
-radiosity="--integrator radiosity:epsilon=1e-4,sequence=halton,directions=uniform_angle,emission=area"
+radiosity="--integrator radiosity:epsilon=1e-4,sequence=halton,walk=paper"
 # name | scene | how it is asked for | exposure | tone | title
 gallery() {
   cat <<ROWS

@@ -58,11 +58,10 @@ static aur_result render_scene(lab_run *run, size_t index, const lab_stage *stag
     if (!lab_recall(run, name, VALUES, values)) {
         aur_radiosity_description found = {.size = sizeof found};
         aur_image *images[1 + SEEDS] = {NULL};
-        snprintf(
-            integrator, sizeof integrator,
-            "radiosity:sequence=halton,directions=uniform_angle,emission=area,epsilon=%g,gather_samples=%d,"
-            "share_neighbours=true",
-            epsilon, quick ? 8 : 32);
+        snprintf(integrator, sizeof integrator,
+                 "radiosity:sequence=halton,walk=paper,epsilon=%g,gather_samples=%d,"
+                 "share_neighbours=true",
+                 epsilon, quick ? 8 : 32);
         aur_result result = solve(run, stage->scene, epsilon, &found, error);
         if (result == AUR_OK)
             result = picture(run, stage, integrator, width, quick ? 4 : 16, 0, &images[0], &values[RADIOSITY],

@@ -11,17 +11,13 @@ typedef struct radiosity_data {
     aur_radiosity_image image; /* first: what aur_radiosity_tile reads */
     /* the solution */
     uint64_t paths; /* 0: not given */
-    uint64_t bounces, interval, window, randomizations, variant;
+    uint64_t bounces, randomizations;
     double epsilon, ply_exposure;
-    const char *sequence, *scramble, *save, *load, *ply; /* NULL: not given */
-    aur_radiosity_directions directions;
-    aur_radiosity_emission emission;
+    const char *sequence, *save, *load, *ply; /* NULL: not given */
+    enum { WALK_POWER, WALK_PAPER } walk;
     /* the picture */
     uint64_t gather_samples;
-    double smoothness;
-    const char *pattern, *map, *pattern_scramble;
-    enum { WEIGHTS_EQUAL, WEIGHTS_OPTIMAL } weights;
-    enum { DENSITY_SAME, DENSITY_OPTIMAL } density;
+    const char *pattern;
     enum { LIGHTS_PERMUTED, LIGHTS_ALL } light_sampling;
 } radiosity_data;
 
@@ -33,26 +29,17 @@ static const aur_key keys[] = {
      .computed = true},
     {AUR_KEY_OF_TEXT(radiosity_data, "sequence", sequence, "sobol", "SET of the walk's numbers"),
      .computed = true},
-    {AUR_KEY_OF_TEXT(radiosity_data, "scramble", scramble, "none", "of the sequence"), .computed = true},
-    {AUR_KEY_OF_CHOICE(radiosity_data, "directions", directions, "cosine",
-                       "how two numbers become a direction (uniform_angle: the paper's eq. 15)", "cosine",
-                       "uniform_angle")},
-    {AUR_KEY_OF_CHOICE(radiosity_data, "emission", emission, "power",
-                       "where paths begin: on lights by their power, or by area (the paper)", "power",
-                       "area")},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "walk", walk, "power",
+                       "paths begin on lights by their power, with directions by the cosine; paper: by area, "
+                       "and its eq. 15",
+                       "power", "paper")},
     {AUR_KEY_OF_INTEGER(radiosity_data, "bounces", bounces, 1, AUR_RADIOSITY_MOST_BOUNCES, "6",
                         "the paper's M: paths have M + 1 flights")},
     {AUR_KEY_OF_REAL(radiosity_data, "epsilon", epsilon, 0.0, 1.0, "0",
                      "walk on until the solution changes by less; 0 is a fixed number of paths")},
-    {AUR_KEY_OF_INTEGER(radiosity_data, "interval", interval, 1, MOST, "1000",
-                        "paths between two looks at the change")},
-    {AUR_KEY_OF_INTEGER(radiosity_data, "window", window, 1, MOST, "2",
-                        "looks in a row that must be below epsilon")},
     {AUR_KEY_OF_INTEGER(radiosity_data, "randomizations", randomizations, 1,
                         AUR_RADIOSITY_MOST_RANDOMIZATIONS, "1",
-                        "randomisations of the sequence; from 2 on there are standard errors")},
-    {AUR_KEY_OF_INTEGER(radiosity_data, "variant", variant, 0, INFINITY, "0",
-                        "another order of the lights and another turn of the triangles' frames; 0 is none")},
+                        "Owen scramblings of the sequence; from 2 on there are standard errors")},
     {AUR_KEY_OF_TEXT(radiosity_data, "save", save, NULL, "file to which the solution is written")},
     {AUR_KEY_OF_TEXT(radiosity_data, "load", load, NULL, "file of a solution to go on from")},
     {AUR_KEY_OF_TEXT(radiosity_data, "ply", ply, NULL, "file for the scene as coloured triangles")},
@@ -61,17 +48,6 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(radiosity_data, "gather_samples", gather_samples, 1, 1 << 20, "16",
                         "directions at every point that the eye sees")},
     {AUR_KEY_OF_TEXT(radiosity_data, "pattern", pattern, "spherical-fibonacci", "SET of these directions")},
-    {AUR_KEY_OF_TEXT(radiosity_data, "map", map, "lambert",
-                     "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
-    {AUR_KEY_OF_TEXT(radiosity_data, "pattern_scramble", pattern_scramble, "none",
-                     "how the pattern is randomised: none, digit, owen, shift or rotate")},
-    {AUR_KEY_OF_CHOICE(radiosity_data, "weights", weights, "equal",
-                       "of the directions; osw are optimal (Marques 2018)", "equal", "osw")},
-    {AUR_KEY_OF_CHOICE(radiosity_data, "density", density, "same",
-                       "directions follow the cosine, or its power 2/(s+1)", "same", "optimal")},
-    {AUR_KEY_OF_REAL(radiosity_data, "smoothness", smoothness, 1.0, 2.0, "1.5",
-                     "s of the optimal weights and density"),
-     .minimum_open = true, .maximum_open = true},
     {AUR_KEY_OF_CHOICE(radiosity_data, "light_sampling", light_sampling, "permuted",
                        "each light at one of four points, or all lights at each", "permuted", "all")},
     {AUR_KEY_OF_BOOLEAN(radiosity_data, "share_neighbours", image.share_neighbours, "false",
@@ -83,6 +59,27 @@ static const aur_key keys[] = {
                      "change at which adaptive oversampling ends")},
     {AUR_KEY_OF_CHOICE(radiosity_data, "component", image.component, "all", "the part of the light to show",
                        "all", "emission", "direct", "indirect")},
+};
+
+/* What the public interface has, and what is studied elsewhere. */
+#define OF_WALK "'walk=paper' has the paper's; aur_radiosity_options has each (aureole/radiosity.h)"
+#define OF_END "aur_radiosity_terminate has it (aureole/radiosity.h)"
+#define OF_PATTERN "gather rays have equal weights; 'finalgather-lab' has it"
+static const aur_moved_key moved[] = {
+    {"scramble",
+     "with 'randomizations' above 1 the sequence is Owen-scrambled; aur_radiosity_options has others "
+     "(aureole/radiosity.h)"},
+    {"directions", OF_WALK},
+    {"emission", OF_WALK},
+    {"interval", OF_END},
+    {"window", OF_END},
+    {"variant", "aur_radiosity_options has it (aureole/radiosity.h)"},
+    {"map", OF_PATTERN},
+    {"pattern_scramble", "gather rays have equal weights; 'finalgather-lab' has it as 'scramble'"},
+    {"weights", OF_PATTERN},
+    {"density", OF_PATTERN},
+    {"smoothness", OF_PATTERN},
+    {NULL, NULL},
 };
 
 /* Whoever renders a scene of unknown origin must not have a file overwritten or read: such names come from
@@ -104,23 +101,21 @@ static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *
 
 static aur_result start(const radiosity_data *p, const aur_integrator_context *context,
                         aur_radiosity **radiosity, aur_error *error) {
-    aur_radiosity_options options = {.size = sizeof options,
-                                     .sequence = p->sequence,
-                                     .seed = context->seed,
-                                     .directions = p->directions,
-                                     .emission = p->emission,
-                                     .bounces = (size_t)p->bounces,
-                                     .randomizations = (size_t)p->randomizations,
-                                     .variant = p->variant,
-                                     .threads = context->threads,
-                                     .progress = context->progress,
-                                     .warnings = context->warnings};
+    aur_radiosity_options options = {
+        .size = sizeof options,
+        .sequence = p->sequence,
+        .seed = context->seed,
+        .scramble = p->randomizations > 1 ? AUR_SCRAMBLE_OWEN : AUR_SCRAMBLE_NONE,
+        .directions = p->walk == WALK_PAPER ? AUR_RADIOSITY_UNIFORM_ANGLE : AUR_RADIOSITY_COSINE,
+        .emission = p->walk == WALK_PAPER ? AUR_RADIOSITY_BY_AREA : AUR_RADIOSITY_BY_POWER,
+        .bounces = (size_t)p->bounces,
+        .randomizations = (size_t)p->randomizations,
+        .threads = context->threads,
+        .progress = context->progress,
+        .warnings = context->warnings};
     if (p->load != NULL)
         return aur_radiosity_load(context->scene, p->load, &options, radiosity, error);
-    aur_result result = AUR_OK;
-    if (p->scramble != NULL)
-        result = aur_scramble_from_name(p->scramble, &options.scramble, error);
-    return result == AUR_OK ? aur_radiosity_create(context->scene, &options, radiosity, error) : result;
+    return aur_radiosity_create(context->scene, &options, radiosity, error);
 }
 
 static aur_result go_on(const radiosity_data *p, const aur_integrator_context *context,
@@ -134,8 +129,8 @@ static aur_result go_on(const radiosity_data *p, const aur_integrator_context *c
     }
     const aur_radiosity_termination rule = {.size = sizeof rule,
                                             .epsilon = p->epsilon,
-                                            .interval = p->interval,
-                                            .window = p->window,
+                                            .interval = 1000,
+                                            .window = 2,
                                             .limit = p->paths == 0 ? USUAL_LIMIT : p->paths};
     bool converged = false;
     const aur_result result = aur_radiosity_terminate(radiosity, &rule, &converged, error);
@@ -178,12 +173,9 @@ static aur_result solve(const radiosity_data *p, const aur_integrator_context *c
                         aur_radiosity_image *image, aur_error *error) {
     char key[1024];
     const int length =
-        snprintf(key, sizeof key,
-                 "radiosity %" PRIu64 " %s %s %u %u %" PRIu64 " %a %" PRIu64 " %" PRIu64 " %" PRIu64
-                 " %" PRIu64 " %s %" PRIu64,
-                 p->paths, p->sequence != NULL ? p->sequence : "", p->scramble != NULL ? p->scramble : "",
-                 p->directions, p->emission, p->bounces, p->epsilon, p->interval, p->window,
-                 p->randomizations, p->variant, p->load != NULL ? p->load : "", context->seed);
+        snprintf(key, sizeof key, "radiosity %" PRIu64 " %s %d %" PRIu64 " %a %" PRIu64 " %s %" PRIu64,
+                 p->paths, p->sequence != NULL ? p->sequence : "", (int)p->walk, p->bounces, p->epsilon,
+                 p->randomizations, p->load != NULL ? p->load : "", context->seed);
     const bool has_key = length > 0 && (size_t)length < sizeof key;
     aur_radiosity *radiosity = has_key ? aur_cache_find(context->cache, key) : NULL;
     aur_result result = AUR_OK;
@@ -211,22 +203,14 @@ static aur_result solve(const radiosity_data *p, const aur_integrator_context *c
 
 static aur_result prepare_gather(const radiosity_data *p, const aur_integrator_context *context,
                                  aur_radiosity_image *image, aur_error *error) {
-    aur_directions_options points = {.size = sizeof points,
-                                     .count = p->gather_samples,
-                                     .domain = AUR_DOMAIN_HEMISPHERE,
-                                     .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
-                                     .optimal_density = p->density == DENSITY_OPTIMAL,
-                                     .smoothness = p->smoothness,
-                                     .seed = context->seed,
-                                     .warnings = context->warnings};
-    const aur_rule_options rule = {
-        .size = sizeof rule, .set = p->pattern, .points = &points, .optimal = p->weights == WEIGHTS_OPTIMAL};
-    aur_result result = aur_map_from_name(p->map, &points.map, error);
-    if (result == AUR_OK)
-        result = aur_scramble_from_name(p->pattern_scramble, &points.scramble, error);
-    if (result == AUR_OK)
-        result = aur_radiosity_image_prepare(&rule, image, error);
-    return result;
+    const aur_directions_options points = {.size = sizeof points,
+                                           .count = p->gather_samples,
+                                           .domain = AUR_DOMAIN_HEMISPHERE,
+                                           .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
+                                           .seed = context->seed,
+                                           .warnings = context->warnings};
+    const aur_rule_options rule = {.size = sizeof rule, .set = p->pattern, .points = &points};
+    return aur_radiosity_image_prepare(&rule, image, error);
 }
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
@@ -253,6 +237,7 @@ const aur_integrator_descriptor aur_integrator_radiosity = {
             .source = "Keller 1994",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(radiosity_data),
+    .moved = moved,
     .create = create,
     .release = release,
     .tile = aur_radiosity_tile,

@@ -27,7 +27,7 @@ integrators=$("$program" help integrator | sed -n 's/^  \([a-z]\{2,\}\) .*/\1/p'
 for integrator in $integrators \
   path:lamp_rays=0 path:candidates=2 path:hide_emitters=true,lamp_rays=4 \
   finalgather:photons=3000,caustic_photons=200 finalgather:photons=3000,share=near finalgather:photons=3000,bright_samples=2 \
-  radiosity:paths=20000,randomizations=2,scramble=owen radiosity:share_neighbours=true radiosity:light_sampling=all; do
+  radiosity:paths=20000,randomizations=2 radiosity:share_neighbours=true radiosity:light_sampling=all; do
   case $integrator in
     finalgather) integrator=finalgather:photons=3000 ;;
     aov) integrator=aov:aovs=d:depth ;;

@@ -25,7 +25,7 @@ done
 
 office=$scenes/office.xml
 for threads in 1 2 3; do
-  render -q "$office" --integrator radiosity:paths=5000,randomizations=4,scramble=owen,share_neighbours=true,save=s$threads -t $threads \
+  render -q "$office" --integrator radiosity:paths=5000,randomizations=4,share_neighbours=true,save=s$threads -t $threads \
     -o t$threads.exr 2>message.txt || fail "threads: $(cat message.txt)"
   cmp s1 s$threads || fail "1 and $threads threads: the solutions differ"
   cmp t1.exr t$threads.exr || fail "1 and $threads threads: the pictures differ"
@@ -33,7 +33,7 @@ done
 # A solution is seen again without a walk; continued it is what one walk makes.
 render -q "$office" --integrator radiosity:load=s1,share_neighbours=true -o loaded.exr || fail "load"
 cmp t1.exr loaded.exr || fail "a loaded solution looks different"
-render -q "$office" --integrator radiosity:paths=12345,randomizations=4,scramble=owen,save=whole -o whole.exr || fail "whole"
+render -q "$office" --integrator radiosity:paths=12345,randomizations=4,save=whole -o whole.exr || fail "whole"
 render -q "$office" --integrator radiosity:load=s1,paths=12345,save=continued,ply=office.ply -o continued.exr || fail "continue"
 cmp whole continued || fail "a continued solution differs"
 cmp whole.exr continued.exr || fail "a continued solution looks different"
@@ -59,7 +59,10 @@ expect 2 "bounces" "$office" radiosity:bounces=0
 expect 2 "has 2 dimensions, not 16" "$office" radiosity:sequence=jittered
 expect 2 "at most|no more than" "$office" radiosity:sequence=lcg,paths=999999999999
 expect 2 "sobbol.*sobol" "$office" radiosity:sequence=sobbol
-expect 2 "need a scrambling" "$office" radiosity:randomizations=2
+expect 2 "no digits to scramble" "$office" radiosity:sequence=r2,randomizations=2
+for key in scramble=owen interval=9; do expect 2 "has no '${key%=*}' any more: .*aureole/radiosity.h" "$office" "radiosity:$key"; done
+for key in emission=area directions=cosine; do expect 2 "has no '${key%=*}' any more: 'walk=paper'" "$office" "radiosity:$key"; done
+expect 2 "has no 'weights' any more: .*finalgather-lab" "$office" radiosity:weights=osw
 expect 2 "cannot be continued" "$office" radiosity:sequence=hammersley,epsilon=1e-3
 expect 2 "nowhere" "$office" radiosity:load=nowhere
 expect 2 "not a radiosity solution" "$office" radiosity:load=t1.exr

@@ -147,9 +147,7 @@ static void components_are_what_they_should_be(void **state) {
     expect_mean(scene, "radiosity:bounces=29,component=direct", 4, 0.125);
     expect_mean(scene, "radiosity:bounces=29,component=direct,light_sampling=all", 1, 0.125);
     expect_mean(scene, "radiosity:bounces=29,component=indirect", 4, 0.125);
-    expect_mean(scene, "radiosity:bounces=29,component=indirect,weights=osw,density=optimal", 4, 0.125);
-    expect_mean(scene, "radiosity:bounces=29,component=indirect,pattern=sobol,directions=uniform_angle", 4,
-                0.125);
+    expect_mean(scene, "radiosity:bounces=29,component=indirect,pattern=sobol,walk=paper", 4, 0.125);
     expect_mean(scene, "radiosity:bounces=29", 4, 0.5);
     expect_mean(scene, "radiosity:bounces=29,oversampling=sampler,share_neighbours=true", 4, 0.5);
     /* Adaptive pixels stop when their mean looks steady, which favours none here: all are 1/2. */
