@@ -5,17 +5,9 @@
 #include <stdlib.h>
 
 #include "limits_kernels.h"
-#include "points/base/simd.h"
 
 static const bench_kernels *kernels(void) {
-    switch (aur_isa_available()) {
-    case AUR_ISA_AVX512:
-        return &bench_kernels_avx512;
-    case AUR_ISA_AVX2:
-        return &bench_kernels_avx2;
-    default:
-        return &bench_kernels_portable;
-    }
+    return &AUR_KERNEL_HERE(bench_kernels);
 }
 
 bool bench_limit_open(const bench_limit *limit, const bench_options *options, bench_work *work) {

@@ -1,8 +1,10 @@
-/* The arithmetic and memory loops of limits.c, once for each instruction set (limits_portable.c,
- * limits_avx2.c, limits_avx512.c). */
+/* The arithmetic and memory loops of limits.c: limits_kernel.c, which CMake compiles once for each
+ * instruction set. */
 #pragma once
 
 #include <stddef.h>
+
+#include "points/base/simd.h"
 
 /* `count` is a multiple of 256 and every array is aligned to 64 bytes. */
 typedef struct bench_kernels {
@@ -20,8 +22,6 @@ typedef struct bench_kernels {
     size_t bytes; /* the width of a register */
 } bench_kernels;
 
-extern const bench_kernels bench_kernels_portable;
-extern const bench_kernels bench_kernels_avx2;
-extern const bench_kernels bench_kernels_avx512;
+AUR_KERNELS(const bench_kernels, bench_kernels);
 
 enum { BENCH_FMA_ACCUMULATORS = 12 };

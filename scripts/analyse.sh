@@ -53,7 +53,7 @@ case $verb in
   memory)
     sanitize=(-O1 -g -fsanitize=memory -ffp-contract=off -DAUR_PORTABLE -Ifuzz)
     harnesses=(points matrices weather)
-    files=(src/points/base/*.c $(find src/points/pointset -name '*.c' ! -name '*avx*') src/lighting/daylight/weather.c src/render/scene/lights/sun_position.c)
+    files=(src/points/base/*.c $(find src/points/pointset -name '*.c') src/lighting/daylight/weather.c src/render/scene/lights/sun_position.c)
     # clang's sanitizer does not know that these functions of new C libraries write.
     for name in fstat64 stat64 lstat64; do
       of='const char *' && [ $name != fstat64 ] || of='int '
@@ -127,7 +127,7 @@ C
     tell
     flags+=(-O1 -fanalyzer -Wno-analyzer-use-of-uninitialized-value
             -Wno-analyzer-shift-count-overflow -c -o /dev/null $(pkg-config --cflags expat stb mpi assimp OpenEXR))
-    [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
+    [ $# -gt 0 ] || set -- $(find src -name '*.c' | sort)
     for file in "$@"; do
       told=(-include "$folder/told.h")
       [ "$file" != src/points/base/error.c ] || told=()
@@ -142,7 +142,7 @@ C
     echo "$# files, $(wc -l <"$folder/said") warnings, $(grep -c '^src' scripts/analyzer.txt) explained in scripts/analyzer.txt" ;;
   tidy)
     # What it says of sound places stands in tidy.txt: file, check, and why it is no mistake.
-    [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
+    [ $# -gt 0 ] || set -- $(find src -name '*.c' | sort)
     tell
     clang-tidy --version | sed -n 's/.*LLVM version/clang-tidy/p'
     export told=$folder/told.h

@@ -8,13 +8,14 @@ source_tree=$2
 # Objects of files that are no longer in the tree stay in a build folder. Each program of the tests and fuzz harnesses is one file.
 objects=$(find "$build"/CMakeFiles/*.dir -name '*.c.o' | while read -r object; do
   source=${object#*.dir/}
+  [ "$source" = "${source#kernels/}" ] || source=${source#kernels/} source=${source%_avx*}.c.o
   [ ! -e "$source_tree/${source%.o}" ] || echo "$object"
 done)
 [ -n "$objects" ] || { echo "no object files below $build"; exit 1; }
 
 # One line an arrow: FILE NEEDED SYMBOL. Two programs may have a function of one name: a target has its own, or its libraries'.
 # shellcheck disable=SC2086
-nm -A $objects | sed -E 's|^.*CMakeFiles/([^/]*)\.dir/([^:]*)\.o:|\1 \2 |' |
+nm -A $objects | sed -E 's|^.*CMakeFiles/([^/]*)\.dir/([^:]*)\.o:|\1 \2 |; s|^([^ ]*) kernels/([^ ]*)_avx[0-9]+\.c |\1 \2.c |' |
   awk '$(NF - 1) == "U" { needs[++count] = $1 " " $2 " " $NF; next }
        $(NF - 1) ~ /^[A-Z]$/ { within[$1, $NF] = $2
                                if ($1 ~ /^aureole_/) shared[$NF] = $2 }

@@ -125,8 +125,8 @@ static bool make_room(const work *w, room *r) {
 /* The illuminances of all hours. */
 static void multiply(const work *w, const room *r) {
     const aur_coefficients *const c = &r->coefficients;
-    aur_daylight_product_here()(aur_daylight_blocks(w->lit.count), w->patches.count, w->lit.radiance, c->all,
-                                r->all);
+    AUR_KERNEL_HERE(aur_daylight_product)
+    (aur_daylight_blocks(w->lit.count), w->patches.count, w->lit.radiance, c->all, r->all);
     for (size_t i = 0; i < w->lit.count; ++i) {
         const aur_lit_hour *const hour = &w->lit.hours[i];
         const double angle = aur_sky_patch_angle(&w->patches, hour->patch);

@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#include "points/base/simd.h"
+
 enum { AUR_DAYLIGHT_LANES = 16, AUR_DAYLIGHT_BLOCK = 4 };
 
 /* values[hours][16] = radiance . coefficients[patches][16]. Radiances lie in blocks of AUR_DAYLIGHT_BLOCK
@@ -22,7 +24,4 @@ static inline size_t aur_daylight_blocks(size_t hours) {
     return (hours + AUR_DAYLIGHT_BLOCK - 1) / AUR_DAYLIGHT_BLOCK * AUR_DAYLIGHT_BLOCK;
 }
 
-/* By this processor's instructions. */
-aur_daylight_product *aur_daylight_product_here(void);
-extern aur_daylight_product aur_daylight_product_portable, aur_daylight_product_avx2,
-    aur_daylight_product_avx512;
+AUR_KERNELS(aur_daylight_product, aur_daylight_product);

@@ -282,7 +282,7 @@ aur_result aur_sky_slices_measure(const aur_sky_slices *slices, const aur_parall
                                   double *sky, aur_error *error) {
     const size_t patches = slices->facets->patch_count;
     memset(sky, 0, patches * slices->randomizations * sizeof *sky);
-    measuring work = {slices, aur_slice_kernel_here(), sky};
+    measuring work = {slices, AUR_KERNEL_HERE(aur_slice_kernel), sky};
     aur_parallel_options options = *parallel;
     options.what = "measuring the sky";
     options.flush_denormals = true;

@@ -4,6 +4,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "points/base/simd.h"
+
 enum {
     AUR_SLICE_LANES = 16,
     AUR_SLICE_WORDS = 4,
@@ -60,5 +62,4 @@ typedef struct aur_slice_parts {
 typedef void aur_slice_kernel(const aur_slice_tree *tree, const aur_slice_view *view,
                               const aur_slices *slices, aur_slice_parts *parts);
 
-aur_slice_kernel *aur_slice_kernel_here(void);
-extern aur_slice_kernel aur_slice_kernel_portable, aur_slice_kernel_avx2, aur_slice_kernel_avx512;
+AUR_KERNELS(aur_slice_kernel, aur_slice_kernel);

@@ -1,7 +1,7 @@
-/* The one place that asks which instructions the processor has. A SIMD routine is one body (*_body.h, on
- * points/base/simd_lanes.h or in loops without branches) that is compiled in a file for each instruction set
- * (*_avx2.c,
- * *_avx512.c, and a portable one), and its room chooses between them by AUR_KERNEL_HERE. */
+/* The one place that asks which instructions the processor has. A SIMD routine is one file (*_kernel.c, on
+ * points/base/simd_lanes.h or in loops without branches) that CMake compiles once for every processor, once
+ * for AVX2 and once for AVX-512. It defines AUR_KERNEL(name), AUR_KERNELS declares the three, and
+ * AUR_KERNEL_HERE chooses between them. */
 #pragma once
 
 #include "points/base/error.h"
@@ -26,9 +26,21 @@ const char *aur_isa_name(aur_isa isa);
  * set is called so, with the nearest; UNSUPPORTED where the processor is without it. */
 aur_result aur_isa_check(const char *name, aur_error *error);
 
-/* Of kernel_portable, kernel_avx2 and kernel_avx512, functions or tables of functions which one body makes in
- * files that are compiled for these instruction sets, the one to use here. Builds for other processors than
- * x86-64 (and with AUREOLE_PORTABLE) have the first one only. */
+/* The instruction set that a file *_kernel.c is compiled for, and whether its registers are wider than those
+ * of every processor. */
+#if !defined(AUR_KERNEL_ISA)
+#define AUR_KERNEL_ISA portable
+#define AUR_KERNEL_WIDE 0
+#endif
+
+/* name_portable, name_avx2 or name_avx512: the function or table of functions that this compilation makes. */
+#define AUR_KERNEL_OF(name, isa) name##_##isa
+#define AUR_KERNEL_OF_ISA(name, isa) AUR_KERNEL_OF(name, isa)
+#define AUR_KERNEL(name) AUR_KERNEL_OF_ISA(name, AUR_KERNEL_ISA)
+#define AUR_KERNELS(type, name) extern type name##_portable, name##_avx2, name##_avx512
+
+/* Of the three, the one to use here. Builds for other processors than x86-64 (and with AUREOLE_PORTABLE) have
+ * the first one only. */
 #if !defined(AUR_PORTABLE)
 #define AUR_KERNEL_HERE(kernel)                                                                              \
     (*(aur_isa_available() == AUR_ISA_AVX512 ? &kernel##_avx512                                              \

@@ -1,5 +1,5 @@
-/* Runs of one coordinate, and two of them side by side: a plain form (runs.c) and one for wide registers
- * (runs_body.h), which write the same bits. */
+/* Runs of one coordinate, and two of them side by side: a plain form and one for wide registers,
+ * which write the same bits. */
 #pragma once
 
 #include <stdbool.h>
@@ -58,11 +58,7 @@ typedef struct aur_run_kernels {
     void (*end_stream)(void);
 } aur_run_kernels;
 
-/* What a file with one form has. */
-#define AUR_RUN_KERNELS                                                                                      \
-    { multiples, fractions, hashes, ascent, quotients, pairs, end_stream }
-
-extern const aur_run_kernels aur_runs_portable, aur_runs_avx2, aur_runs_avx512;
+AUR_KERNELS(const aur_run_kernels, aur_runs);
 
 /* The kernels for runs that have `count` values in all. */
 static inline const aur_run_kernels *aur_runs(size_t count) {

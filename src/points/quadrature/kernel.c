@@ -4,10 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "points/base/simd.h"
 #include "points/quadrature/check.h"
-#define ROW aur_kernel_row_portable
-#include "points/quadrature/kernel_body.h"
 
 /* c_l of |u-v|^{2a} = (2(1-x))^a: I_l is the integral of (1-x)^a P_l(x). */
 static void chord_coefficients(double smoothness, size_t count, double *coefficients) {

@@ -5,7 +5,7 @@
  * (-1)^{L+1} |u-v|^{2s-2} and a polynomial of degree L. */
 #pragma once
 
-#include "points/base/error.h"
+#include "points/base/simd.h"
 
 /* Directions as three arrays, so that a row of the kernel is one vector loop. */
 typedef struct aur_columns {
@@ -13,6 +13,10 @@ typedef struct aur_columns {
 } aur_columns;
 
 enum { AUR_KERNEL_DEGREE_MAX = 4 };
+
+/* The row for smoothness 3/2. */
+typedef void aur_kernel_row_function(double top, const double point[3], size_t count, aur_columns columns,
+                                     double *row);
 
 /* K = polynomial(q) + sign q^power in q, the squared chord. */
 typedef struct aur_kernel_rule {
@@ -22,8 +26,7 @@ typedef struct aur_kernel_rule {
     double sign;
     size_t degree;                                /* of the polynomial, L; 0 for s < 2 */
     double polynomial[AUR_KERNEL_DEGREE_MAX + 1]; /* [0] is top */
-    /* The row for s = 3/2 on this machine. */
-    void (*row)(double top, const double point[3], size_t count, aur_columns columns, double *row);
+    aur_kernel_row_function *row;                 /* for s = 3/2 on this machine */
 } aur_kernel_rule;
 
 /* `smoothness` must be in the range of aur_check_smoothness. */
@@ -43,8 +46,5 @@ void aur_kernel_coefficients(double smoothness, size_t count, double *coefficien
 /* Splits count x,y,z triples into x[count], y[count], z[count] at `storage` (3 * count). */
 aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
 
-/* The row for smoothness 3/2, once for each instruction set: entered through aur_kernel_row only. */
-void aur_kernel_row_portable(double top, const double point[3], size_t count, aur_columns columns,
-                             double *row);
-void aur_kernel_row_avx2(double top, const double point[3], size_t count, aur_columns columns, double *row);
-void aur_kernel_row_avx512(double top, const double point[3], size_t count, aur_columns columns, double *row);
+/* Entered through aur_kernel_row only. */
+AUR_KERNELS(aur_kernel_row_function, aur_kernel_row);

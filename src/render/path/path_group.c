@@ -10,7 +10,7 @@
 enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
-    data->kernels = aur_path_kernels_here();
+    data->kernels = &AUR_KERNEL_HERE(aur_path_kernels);
     return aur_shape_classes_create(scene, &data->classes, error);
 }
 

@@ -1,6 +1,7 @@
 /* Sixteen light paths on plain surfaces: the arithmetic of one bounce, an array a number. */
 #pragma once
 
+#include "points/base/simd.h"
 #include "render/scene/packet.h"
 
 typedef struct aur_path_lanes {
@@ -57,5 +58,4 @@ typedef struct aur_path_kernels {
     void (*scatter)(aur_path_lanes *lanes, bool roulette, aur_packet *packet);
 } aur_path_kernels;
 
-/* By this processor's instructions. */
-const aur_path_kernels *aur_path_kernels_here(void);
+AUR_KERNELS(const aur_path_kernels, aur_path_kernels);

@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "points/base/simd.h"
-#include "points/pointset/net_2d.h"
-#include "render/sampling/stream_body.h"
+#include "render/sampling/stream_kernels.h"
 
 static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
                              aur_error *error) {
@@ -33,12 +31,6 @@ static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_wa
     return result;
 }
 
-const aur_stream_kernel_sets aur_stream_kernels_portable = AUR_STREAM_KERNELS;
-
-static const aur_stream_kernel_sets *kernels_here(void) {
-    return &AUR_KERNEL_HERE(aur_stream_kernels);
-}
-
 aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings, aur_sampler **out,
                               aur_error *error) {
     *out = NULL;
@@ -51,10 +43,10 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
     aur_result result = AUR_OK;
     if (strcmp(set, "random") == 0) {
         sampler->kind = AUR_SAMPLER_RANDOM;
-        sampler->kernels = &kernels_here()->random;
+        sampler->kernels = &AUR_KERNEL_HERE(aur_stream_kernels).random;
     } else if (strcmp(set, "sobol") == 0) {
         sampler->kind = AUR_SAMPLER_SOBOL;
-        sampler->kernels = &kernels_here()->sobol;
+        sampler->kernels = &AUR_KERNEL_HERE(aur_stream_kernels).sobol;
     } else {
         const aur_set_description *const row = aur_set_find(set);
         sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
@@ -129,7 +121,7 @@ static void one_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
         aur_sobol_pair(aur_reverse_bits(stream->index), hash, &u[0], &u[1]);
         return;
     case AUR_SAMPLER_RANDOM:
-        random_pair(stream->index, hash, &u[0], &u[1]);
+        aur_random_pair(stream->index, hash, &u[0], &u[1]);
         return;
     default:
         table_words(stream, hash, words);

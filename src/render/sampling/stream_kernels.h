@@ -1,6 +1,8 @@
 /* The inner loops of the samplers that need no table, for each instruction set; all give the same bits. */
 #pragma once
 
+#include "points/base/simd.h"
+#include "points/pointset/net_2d.h"
 #include "render/sampling/stream.h"
 
 struct aur_stream_kernels {
@@ -14,7 +16,21 @@ typedef struct aur_stream_kernel_sets {
     aur_stream_kernels sobol, random;
 } aur_stream_kernel_sets;
 
-/* In plain C; in stream.c. */
-extern const aur_stream_kernel_sets aur_stream_kernels_portable;
-extern const aur_stream_kernel_sets aur_stream_kernels_avx2;
-extern const aur_stream_kernel_sets aur_stream_kernels_avx512;
+AUR_KERNELS(const aur_stream_kernel_sets, aur_stream_kernels);
+
+/* The pair of floats in [0,1) of a sample, from its index with reversed bits and a hash of all else. An index
+ * is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is a net
+ * (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
+static inline void aur_sobol_pair(uint32_t reversed_index, uint64_t hash, float *u, float *v) {
+    const uint32_t index = aur_reverse_bits(aur_nested_hash(reversed_index, (uint32_t)aur_mix64(hash + 1)));
+    const uint32_t x = aur_nested_hash(index, (uint32_t)hash);
+    const uint32_t y = aur_nested_hash(aur_sobol_second_reversed(index), (uint32_t)(hash >> 32));
+    *u = aur_unit_float(aur_reverse_bits(x));
+    *v = aur_unit_float(aur_reverse_bits(y));
+}
+
+static inline void aur_random_pair(uint32_t index, uint64_t hash, float *u, float *v) {
+    const uint64_t number = aur_hash2(hash, index);
+    *u = aur_unit_float((uint32_t)number);
+    *v = aur_unit_float((uint32_t)(number >> 32));
+}

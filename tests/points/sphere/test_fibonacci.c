@@ -191,7 +191,7 @@ static void kernels_agree_bit_for_bit(void **state) {
 #if defined(AUR_PORTABLE)
     skip();
 #else
-    static const aur_fibonacci_kernel kernels[] = {aur_fibonacci_points_avx2, aur_fibonacci_points_avx512};
+    static aur_fibonacci_kernel *const kernels[] = {aur_fibonacci_points_avx2, aur_fibonacci_points_avx512};
     static const aur_isa needs[] = {AUR_ISA_AVX2, AUR_ISA_AVX512};
     enum { MOST = 1100 };
     double *const expected = malloc((3 * MOST + 8) * sizeof *expected);

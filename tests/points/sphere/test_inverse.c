@@ -114,8 +114,8 @@ static void kernels_agree(void **state) {
     skip();
 #else
     enum { COUNT = 4003 };
-    static const aur_sphere_lattice_kernel kernels[] = {aur_sphere_lattice_nearest_avx2,
-                                                        aur_sphere_lattice_nearest_avx512};
+    static aur_sphere_lattice_kernel *const kernels[] = {aur_sphere_lattice_nearest_avx2,
+                                                         aur_sphere_lattice_nearest_avx512};
     static const aur_isa needs[] = {AUR_ISA_AVX2, AUR_ISA_AVX512};
     static double xyz[3 * COUNT], expected[COUNT], actual[COUNT];
     for (size_t s = 0; s < 30; ++s) {

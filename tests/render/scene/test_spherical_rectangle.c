@@ -203,7 +203,7 @@ static void lanes_are_the_single_samples(void **state) {
     }
     aur_light_lanes drawn;
     const aur_light_references references = {&position, &normal};
-    aur_rectangle_kernels_here()->lanes(&light, &references, u, v, &drawn);
+    AUR_KERNEL_HERE(aur_rectangle_kernels).lanes(&light, &references, u, v, &drawn);
     size_t solid = 0, flat = 0;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const aur_light_reference from = {aur_lane_vector(&position, k), aur_lane_vector(&normal, k)};

@@ -3,16 +3,12 @@
 #include <stdlib.h>
 
 #include "points/base/simd.h"
-#include "points/pointset/digits/digital_body.h"
+#include "points/pointset/digits/digital_kernels.h"
 
 enum {
     SHORT_RUN = 16, /* shorter ones are computed one index at a time */
     WIDE_RUN = 48   /* shorter ones are not worth preparing wide registers for */
 };
-
-void aur_digital_run_portable(aur_digital_run *run, size_t count, bool stream, double *out) {
-    run_kernel(run, count, stream, out);
-}
 
 /* The first `count` points of coordinate `d` of a run. */
 static void fill_plainly(const aur_digital_run *run, size_t d, size_t count, double *out) {
@@ -37,7 +33,7 @@ static void fill_plainly(const aur_digital_run *run, size_t d, size_t count, dou
 }
 
 static void fill_run(aur_digital_run *run, double *out) {
-    const aur_digital_kernel kernel = AUR_KERNEL_HERE(aur_digital_run);
+    aur_digital_kernel *const kernel = AUR_KERNEL_HERE(aur_digital_run);
     const size_t count = (size_t)(run->last - run->first);
     const size_t start = run->dimension_count == 2 ? aur_output_stream_start(count, out) : SIZE_MAX;
     if (start == SIZE_MAX && count >= WIDE_RUN) {

@@ -2,6 +2,7 @@
  * plain loop: words are exclusive sums, and their conversion is exact. */
 #pragma once
 
+#include "points/base/simd.h"
 #include "points/pointset/digits/digital.h"
 
 enum { AUR_DIGITAL_SLOTS = 64 }; /* coordinates of the largest group */
@@ -36,10 +37,8 @@ typedef struct aur_digital_run {
 
 /* The next `count` points: a multiple of AUR_DIGITAL_SLOTS where there are more to come. `stream` goes past
  * the caches: `out` is a multiple of 64 bytes. */
-typedef void (*aur_digital_kernel)(aur_digital_run *run, size_t count, bool stream, double *out);
-void aur_digital_run_portable(aur_digital_run *run, size_t count, bool stream, double *out);
-void aur_digital_run_avx2(aur_digital_run *run, size_t count, bool stream, double *out);
-void aur_digital_run_avx512(aur_digital_run *run, size_t count, bool stream, double *out);
+typedef void aur_digital_kernel(aur_digital_run *run, size_t count, bool stream, double *out);
+AUR_KERNELS(aur_digital_kernel, aur_digital_run);
 
 /* Makes run->group ready. `slots` is a power of two and more than two. */
 void aur_digital_run_start(aur_digital_run *run, size_t slots);

@@ -196,7 +196,7 @@ aur_result aur_exact_direct(const aur_exact_system *system, size_t degree, bool 
     if (result != AUR_OK)
         return result;
     factor f = {.system = system,
-                .kernel = aur_transform_kernel_best(),
+                .kernel = &AUR_KERNEL_HERE(aur_transform_kernel),
                 .basis = &basis,
                 .count = system->points.count,
                 .capacity = system->places};

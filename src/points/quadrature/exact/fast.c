@@ -74,7 +74,7 @@ static void fill_rings(aur_fast_transform *f) {
         for (size_t m = 0; m <= f->basis->degree; ++m) {
             if (m > 0)
                 start *= f->basis->start[m] * sine;
-            start = start < 1e-280 ? 0.0 : start; /* as in transform_body.h */
+            start = start < 1e-280 ? 0.0 : start; /* as in transform_kernel.c */
             f->start[m * f->rings + j] = start;
         }
     }
@@ -297,7 +297,7 @@ static aur_result analyse_column(void *context, size_t m) {
     const aur_transform_order order = order_of(f, m, a, b);
     double *const sums = f->to + 2 * aur_basis_at(f->basis->degree, m);
     memset(sums, 0, 2 * order.degrees * sizeof *sums);
-    aur_transform_kernel_best()->analyse_order(&order, sums, b + f->rings);
+    AUR_KERNEL_HERE(aur_transform_kernel).analyse_order(&order, sums, b + f->rings);
     free(work);
     return AUR_OK;
 }
@@ -311,7 +311,8 @@ static aur_result synthesise_column(void *context, size_t m) {
     double *const re = f->re + m * n, *const im = f->im + m * n, *const a = work + 2 * n;
     double *const b = a + f->rings;
     const aur_transform_order order = order_of(f, m, a, b);
-    aur_transform_kernel_best()->synthesise_order(&order, f->from + 2 * aur_basis_at(f->basis->degree, m));
+    AUR_KERNEL_HERE(aur_transform_kernel)
+        .synthesise_order(&order, f->from + 2 * aur_basis_at(f->basis->degree, m));
     const double sign = m % 2 == 0 ? 1.0 : -1.0;
     for (size_t j = 0; j <= half; ++j) {
         re[j] = a[j];

@@ -172,7 +172,8 @@ static aur_result open_measured(const aur_exact_system *system, const double *xy
                                 const aur_exact_nodes *nodes, size_t degree, measured *m, aur_error *error) {
     const size_t count = system->points.count, all = count + nodes->count,
                  row_count = (degree + 1) * (degree + 1);
-    *m = (measured){.kernel = aur_transform_kernel_best(), .nodes = nodes, .progress = system->progress};
+    *m = (measured){
+        .kernel = &AUR_KERNEL_HERE(aur_transform_kernel), .nodes = nodes, .progress = system->progress};
     m->storage = malloc((4 * count + 3 * all + 3 * row_count) * sizeof(double) + count * sizeof(size_t));
     m->rows = calloc(degree + 1, sizeof *m->rows);
     if (m->storage == NULL || m->rows == NULL)

@@ -1,13 +1,9 @@
+#include "points/quadrature/exact/transform.h"
+
+#include <math.h>
+#include <string.h>
+
 #include "points/base/parallel.h"
-#include "points/base/simd.h"
-#include "points/quadrature/exact/transform_body.h"
-
-const aur_transform_kernel aur_transform_kernel_portable = {analyse, synthesise, analyse_order,
-                                                            synthesise_order, dots};
-
-const aur_transform_kernel *aur_transform_kernel_best(void) {
-    return &AUR_KERNEL_HERE(aur_transform_kernel);
-}
 
 aur_polar_points aur_polar_points_make(size_t count, const double *xyz, double *storage) {
     const aur_polar_points points = {count, storage, storage + count, storage + 2 * count,
@@ -30,7 +26,7 @@ typedef struct band_work {
     double *values; /* of points; NULL: sums are wanted */
 } band_work;
 
-/* A multiple of CHUNK in transform_body.h. */
+/* A multiple of CHUNK in transform_kernel.c. */
 enum { PIECE = 1024 };
 
 static aur_result do_band(void *context, size_t band) {
@@ -48,9 +44,10 @@ static aur_result do_band(void *context, size_t band) {
         if (aur_parallel_stops())
             return AUR_ERROR_CANCELLED;
         if (sums != NULL)
-            aur_transform_kernel_best()->analyse(t->basis, t->points, at, end, work->from, sums);
+            AUR_KERNEL_HERE(aur_transform_kernel).analyse(t->basis, t->points, at, end, work->from, sums);
         else
-            aur_transform_kernel_best()->synthesise(t->basis, t->points, at, end, work->from, work->values);
+            AUR_KERNEL_HERE(aur_transform_kernel)
+                .synthesise(t->basis, t->points, at, end, work->from, work->values);
     }
     return AUR_OK;
 }

@@ -4,6 +4,7 @@
 
 #include <aureole/core.h>
 
+#include "points/base/simd.h"
 #include "points/quadrature/exact/basis.h"
 
 /* Directions as heights, sines of the polar angle, and cosines and sines of the azimuth. */
@@ -72,6 +73,4 @@ typedef struct aur_transform_kernel {
                  size_t step, double *sums);
 } aur_transform_kernel;
 
-const aur_transform_kernel *aur_transform_kernel_best(void);
-extern const aur_transform_kernel aur_transform_kernel_portable, aur_transform_kernel_avx2,
-    aur_transform_kernel_avx512;
+AUR_KERNELS(const aur_transform_kernel, aur_transform_kernel);

@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "points/base/simd.h"
+
 typedef struct aur_cholesky {
     /* Replaces matrix[size * size], read on and below its diagonal, by L; inverse[size] gets the reciprocals
      * of L's diagonal, and work has room for aur_cholesky_work(size) doubles. What stands above the diagonal
@@ -18,8 +20,13 @@ typedef struct aur_cholesky {
     void (*solve)(size_t size, const double *matrix, const double *inverse, size_t columns, double *right);
 } aur_cholesky;
 
-/* The functions for this processor. */
-const aur_cholesky *aur_cholesky_best(void);
-size_t aur_cholesky_work(size_t size);
+AUR_KERNELS(const aur_cholesky, aur_cholesky);
 
-extern const aur_cholesky aur_cholesky_portable, aur_cholesky_avx2, aur_cholesky_avx512;
+/* Columns are factored so many at a time, within blocks of so many. */
+enum { AUR_CHOLESKY_NARROW = 16, AUR_CHOLESKY_WIDE = 128 };
+
+/* Strips of the widest tile, as deep as the widest block of columns. */
+static inline size_t aur_cholesky_work(size_t size) {
+    return (size + AUR_CHOLESKY_NARROW) *
+           (size > AUR_CHOLESKY_WIDE ? AUR_CHOLESKY_WIDE : AUR_CHOLESKY_NARROW);
+}

@@ -43,7 +43,7 @@ typedef struct factored {
 
 /* The 1-norm of what x becomes. */
 static double solve_in_place(const factored *system) {
-    aur_cholesky_best()->solve(system->size, system->matrix, system->inverse, 1, system->x);
+    AUR_KERNEL_HERE(aur_cholesky).solve(system->size, system->matrix, system->inverse, 1, system->x);
     double sum = 0.0;
     for (size_t i = 0; i < system->size; ++i)
         sum += fabs(system->x[i]);
@@ -94,9 +94,9 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a system of %zu samples", size);
     const factored system = {size, matrix, storage, storage + size, storage + 2 * size};
     const double norm = condition != NULL ? one_norm(size, matrix, storage) : 0.0;
-    bool good = aur_cholesky_best()->factor(size, matrix, storage, storage + 3 * size);
+    bool good = AUR_KERNEL_HERE(aur_cholesky).factor(size, matrix, storage, storage + 3 * size);
     if (good) {
-        aur_cholesky_best()->solve(size, matrix, storage, columns, right);
+        AUR_KERNEL_HERE(aur_cholesky).solve(size, matrix, storage, columns, right);
         if (condition != NULL)
             *condition = norm * inverse_norm(&system);
     }

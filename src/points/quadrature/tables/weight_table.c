@@ -8,8 +8,6 @@
 #include "points/base/options.h"
 #include "points/base/simd.h"
 #include "points/quadrature/check.h"
-#define BLEND aur_weight_blend_portable
-#include "points/quadrature/tables/blend_body.h"
 
 static aur_result check_grid(const aur_weight_table_grid *grid, const aur_oswa *oswa, aur_error *error) {
     enum { MOST = 1 << 16, MOST_ROUGHNESSES = 1 << 8 };

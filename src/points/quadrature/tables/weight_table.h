@@ -3,13 +3,14 @@
 #pragma once
 
 #include "points/base/internal.h"
+#include "points/base/simd.h"
 #include "points/base/vector.h"
 #include "points/quadrature/tables/oswa.h"
 
 /* Of `count` numbers of two rows, (1 - part) times the first and `part` times the second. */
 typedef void aur_weight_blend(size_t count, const float *below, const float *above, float part,
                               float *target);
-aur_weight_blend aur_weight_blend_portable, aur_weight_blend_avx2, aur_weight_blend_avx512;
+AUR_KERNELS(aur_weight_blend, aur_weight_blend);
 
 /* A row holds the weights of all lobes at one angle. Each rotation has rows of its own, at each roughness
  * anew: a *slot* is one of these pairs, numbered roughness by roughness. Where samples can be hidden, the

@@ -2,6 +2,7 @@
  * alone fixes. */
 #pragma once
 
+#include "points/base/simd.h"
 #include "points/quality/measure.h"
 #include "points/quality/pairs/twofold.h"
 
@@ -40,4 +41,4 @@ typedef struct aur_distance_kernels {
     aur_pair_tile_function exact, fast;
 } aur_distance_kernels;
 
-extern const aur_distance_kernels aur_distance_portable, aur_distance_avx2, aur_distance_avx512;
+AUR_KERNELS(const aur_distance_kernels, aur_distance);

@@ -1,6 +1,7 @@
 /* Sums of the rest of a split kernel over the pairs that are near each other. */
 #pragma once
 
+#include "points/base/simd.h"
 #include "points/quality/measure.h"
 #include "points/quality/pairs/twofold.h"
 #include "points/quality/split/kernel.h"
@@ -28,4 +29,4 @@ typedef double (*aur_near_row)(const aur_near_points *near, const aur_split_kern
 typedef struct aur_near_kernel {
     aur_near_row row;
 } aur_near_kernel;
-extern const aur_near_kernel aur_near_portable, aur_near_avx2, aur_near_avx512;
+AUR_KERNELS(const aur_near_kernel, aur_near);

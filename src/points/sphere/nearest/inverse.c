@@ -6,22 +6,13 @@
  * was checked against all points for every N to 20,000, and against the 16 points about the cell to 10^6. The
  * k nearest come from all lattice points in a cap that is sure to hold them, listed row by row. Both are
  * constant time in N. */
-#include "points/sphere/nearest/inverse_body.h"
+#include "points/sphere/nearest/inverse.h"
 
 #include <aureole/sphere.h>
 
 #include "points/base/error.h"
-#include "points/base/simd.h"
 #include "points/base/vector.h"
-
-void aur_sphere_lattice_nearest_portable(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
-                                         double *indices) {
-    nearest_points(lattice, count, xyz, indices);
-}
-
-const double aur_sphere_lattice_vectors[2][AUR_SPHERE_LATTICE_VECTORS] = {
-#include "data/lattice_vectors.inc"
-};
+#include "points/sphere/phase.h"
 
 /* 2^50 points keep an index and its neighbours exact. */
 static const uint64_t size_limit = UINT64_C(1) << 50;
@@ -144,7 +135,7 @@ static void offer_cap(const aur_sphere_lattice *lattice, const double *q, double
     const double centre = atan2(q[1], q[0]) / (2.0 * AUR_PI);
     const double half = asin(sine / across) / (2.0 * AUR_PI) + 1e-12;
     offer_box(lattice, q, index, (interval){centre - half, centre + half},
-              (int64_t)zone_of(lattice->whole, (aur_reals){across * across})[0], kept);
+              (int64_t)aur_sphere_lattice_zone(lattice->whole, (aur_reals){across * across})[0], kept);
 }
 
 /* A cap that holds the wanted points on average, and then larger ones until the last point kept is within. */
@@ -192,7 +183,7 @@ aur_result aur_fibonacci_nearest(const aur_fibonacci_set *set, size_t count, con
         result = check_direction(&lattice, xyz + 3 * i, error);
     if (result != AUR_OK)
         return result;
-    const aur_sphere_lattice_kernel find = AUR_KERNEL_HERE(aur_sphere_lattice_nearest);
+    aur_sphere_lattice_kernel *const find = AUR_KERNEL_HERE(aur_sphere_lattice_nearest);
     double found[CHUNK];
     for (size_t done = 0; done < count; done += CHUNK) {
         const size_t part = count - done < CHUNK ? count - done : CHUNK;

@@ -1,8 +1,8 @@
 /* The inside of the inverse map: the lattice of a spherical Fibonacci set and its kernels. */
 #pragma once
 
-#include <stddef.h>
-#include <stdint.h>
+#include "points/base/simd.h"
+#include "points/base/simd_lanes.h"
 
 /* Point j has 1 - z = (j + 1/2) step, for 0 <= j < limit of the `whole` points of the sphere. */
 typedef struct aur_sphere_lattice {
@@ -15,14 +15,22 @@ enum { AUR_SPHERE_LATTICE_VECTORS = 48 };
  */
 extern const double aur_sphere_lattice_vectors[2][AUR_SPHERE_LATTICE_VECTORS];
 
-typedef void (*aur_sphere_lattice_kernel)(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
-                                          double *indices);
+/* The zone k: b_k and b_{k+1} are nearly orthogonal on the sphere where Phi^{2k} is sqrt 5 pi N sin^2 theta
+ * (Keinert 2015), at least 2. log2 of 1 + m is a polynomial within 7.5e-4; the last factor is 1/(2 log2 Phi).
+ */
+static inline aur_words aur_sphere_lattice_zone(double whole, aur_reals sine_squared) {
+    const aur_words bits = (aur_words)(7.0248147310407263 * whole * sine_squared + 1.0);
+    const aur_reals exponent = aur_lanes_from_signed((bits >> 52) - 1023);
+    const aur_reals m = (aur_reals)((bits & UINT64_C(0xfffffffffffff)) | UINT64_C(0x3ff0000000000000)) - 1.0;
+    const aur_reals fraction =
+        ((0.15270028479752112 * m + -0.5687040530057504) * m + 1.415653190432735) * m + 8.254628229341662e-4;
+    const aur_reals k = (exponent + fraction) * 0.72021004203696985;
+    return aur_lanes_from_whole(
+        aur_lanes_choose((aur_words)(k > 2.0), aur_lanes_floor(k), (aur_reals){0} + 2.0));
+}
 
 /* The nearest point of each direction as an index, or -1 where the four corners of its cell do not decide
  * (near the limit). All kernels give the same. */
-void aur_sphere_lattice_nearest_portable(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
-                                         double *indices);
-void aur_sphere_lattice_nearest_avx2(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
-                                     double *indices);
-void aur_sphere_lattice_nearest_avx512(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
+typedef void aur_sphere_lattice_kernel(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
                                        double *indices);
+AUR_KERNELS(aur_sphere_lattice_kernel, aur_sphere_lattice_nearest);

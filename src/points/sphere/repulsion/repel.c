@@ -15,7 +15,7 @@ static const double least_fall = 1e-14;
 typedef struct descent {
     const aur_shells *shells;
     aur_charges *charges; /* coordinates in one block: x, y and z lie `stride` apart */
-    aur_push_kernel kernel;
+    aur_push_kernel *kernel;
     size_t stride;
     double *gradient, *direction, *start, *old_gradient; /* 3 * stride each, as the coordinates */
     double *steps, *changes;                             /* MEMORY of them */

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "points/base/simd.h"
+
 /* Unit vectors, one array a coordinate. With `axes` each charge has a twin at its opposite. */
 typedef struct aur_charges {
     size_t count;
@@ -21,10 +23,8 @@ typedef struct aur_push {
 } aur_push;
 
 /* What charges first .. last-1 but `index` do to charge `index`; no bit depends on the instruction set. */
-typedef aur_push (*aur_push_kernel)(const aur_charges *charges, size_t index, size_t first, size_t last);
-aur_push aur_push_portable(const aur_charges *charges, size_t index, size_t first, size_t last);
-aur_push aur_push_avx2(const aur_charges *charges, size_t index, size_t first, size_t last);
-aur_push aur_push_avx512(const aur_charges *charges, size_t index, size_t first, size_t last);
+typedef aur_push aur_push_kernel(const aur_charges *charges, size_t index, size_t first, size_t last);
+AUR_KERNELS(aur_push_kernel, aur_push);
 
 /* Charges 0 .. count-1 in shells: shell s has sizes[s] of them, one after another. The energy is half the
  * mean over pairs of all charges plus half the mean over shells of the means over their pairs (Caruyer,

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "points/base/simd.h"
+
 /* Point j has u = (j + offset) * step and azimuths phases[k] + j turns[k], in units of 2^-64 turns. */
 typedef struct aur_hopf_line {
     double step, offset;
@@ -23,4 +25,4 @@ typedef struct aur_hopf_kernels {
     void (*lift)(size_t count, const double *cube, double *wxyz);
 } aur_hopf_kernels;
 
-extern const aur_hopf_kernels aur_hopf_portable, aur_hopf_avx2, aur_hopf_avx512;
+AUR_KERNELS(const aur_hopf_kernels, aur_hopf);

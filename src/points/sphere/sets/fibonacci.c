@@ -13,22 +13,12 @@
 #include <stdlib.h>
 
 #include "points/base/error.h"
-#include "points/base/simd.h"
+#include "points/base/simd_lanes.h"
 #include "points/sphere/native.h"
-#include "points/sphere/sets/fibonacci_body.h"
-
-void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
-                                   double *xyz) {
-    fill_points(set, first, count, stream, xyz);
-}
-
-aur_fibonacci_kernel aur_fibonacci_choose_kernel(void) {
-    return AUR_KERNEL_HERE(aur_fibonacci_points);
-}
 
 typedef struct fibonacci_set {
     aur_fibonacci points;
-    aur_fibonacci_kernel kernel;
+    aur_fibonacci_kernel *kernel;
     int octant;
     uint64_t indices[]; /* of the points in the octant, where that is the region */
 } fibonacci_set;
@@ -109,7 +99,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
         malloc(sizeof *kept + (octant ? (size_t)request->count * sizeof kept->indices[0] : 0));
     if (kept == NULL)
         return aur_fail_memory(error);
-    *kept = (fibonacci_set){.points = lattice, .kernel = aur_fibonacci_choose_kernel()};
+    *kept = (fibonacci_set){.points = lattice, .kernel = AUR_KERNEL_HERE(aur_fibonacci_points)};
     if (octant)
         choose_octant(kept, request->count, lattice.offset);
     *data = kept;

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "points/base/simd.h"
 #include "points/sphere/phase.h"
 
 /* Point j has 1 - z = (j + offset) * step and the azimuth phase + j/Phi. */
@@ -35,19 +36,11 @@ static inline void aur_fibonacci_point(const aur_fibonacci *set, uint64_t index,
 
 /* Points first .. first+count-1 as x,y,z triples; `stream` writes past the caches, and
  * aur_lanes_end_stream is to follow. */
-typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
-                                     double *xyz);
+typedef void aur_fibonacci_kernel(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                  double *xyz);
 
-/* The kernel for this processor; all give the same bits. */
-aur_fibonacci_kernel aur_fibonacci_choose_kernel(void);
-
-/* What it chooses from: no kernel fuses a multiplication and an addition. */
-void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
-                                   double *xyz);
-void aur_fibonacci_points_avx2(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
-                               double *xyz);
-void aur_fibonacci_points_avx512(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
-                                 double *xyz);
+/* No kernel fuses a multiplication and an addition: all give the same bits. */
+AUR_KERNELS(aur_fibonacci_kernel, aur_fibonacci_points);
 
 /* Whether the caches cannot hold so many points, so that they are better streamed past them. */
 static inline bool aur_fibonacci_streams(size_t count) {

@@ -114,7 +114,7 @@ static void doubled_grid(uint64_t count, size_t s, double height, double centre,
     const double step = height / (double)count;
     const aur_fibonacci base = {step, centre, 0};
     const aur_fibonacci copy = {step, centre + half.index, half.phase};
-    const aur_fibonacci_kernel kernel = aur_fibonacci_choose_kernel();
+    aur_fibonacci_kernel *const kernel = AUR_KERNEL_HERE(aur_fibonacci_points);
     kernel(&base, 0, (size_t)count, false, xyz);
     kernel(&copy, 0, (size_t)count, false, xyz + 3 * count);
 }
@@ -144,7 +144,7 @@ typedef struct grid {
     shift shifts[LEVEL_LIMIT + 1][4]; /* of a level and its digit */
     double step;
     double centre; /* N d */
-    aur_fibonacci_kernel kernel;
+    aur_fibonacci_kernel *kernel;
 } grid;
 
 /* The mean over blocks 0 .. blocks-1 of what their shifts add to the index. */
@@ -245,7 +245,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
                           void **data, aur_error *error) {
     grid_keys p = {.levels = -1};
     aur_result result = aur_row_read(row, parameters, &p, error);
-    grid g = {.kernel = aur_fibonacci_choose_kernel()};
+    grid g = {.kernel = AUR_KERNEL_HERE(aur_fibonacci_points)};
     if (result == AUR_OK)
         result = choose_size(request->count, p.base, p.levels, &g, error);
     if (result != AUR_OK)

@@ -78,7 +78,7 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     }
     light->rectangle.area = (float)shape->area;
     light->rectangle.radiance = emitter->radiance.constant;
-    light->kernels = aur_rectangle_kernels_here();
+    light->kernels = &AUR_KERNEL_HERE(aur_rectangle_kernels);
     return light->is_mesh ? find_triangles(light, error) : AUR_OK;
 }
 

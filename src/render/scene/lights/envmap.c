@@ -6,7 +6,6 @@
 
 #include "render/image/image.h"
 #include "render/scene/emitter.h"
-#include "render/scene/lights/envmap_body.h"
 #include "render/scene/scene_data.h"
 
 static void release_envmap(aur_emitter *emitter) {
@@ -126,7 +125,7 @@ static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     free(radiance);
     emitter->brightness = aur_patches_integral(&self->patches);
     self->density = aur_patches_density(&self->patches, 1.0f);
-    self->kernels = aur_envmap_kernels_here();
+    self->kernels = &AUR_KERNEL_HERE(aur_envmap_kernels);
     return result;
 }
 
@@ -153,7 +152,7 @@ static void corners_of(const aur_envmap *self, size_t i, size_t j, float corner[
 
 static aur_vector envmap_light_from(const aur_emitter *emitter, aur_vector direction, float *pdf) {
     const aur_envmap *const self = emitter->data;
-    const aur_envmap_place at = envmap_find(self, direction);
+    const aur_envmap_place at = aur_envmap_find(self, direction);
     return light_at(self, &at, pdf);
 }
 
@@ -174,7 +173,7 @@ static aur_vector draw_direction(const aur_envmap *self, float u, float v, aur_e
     *at = (aur_envmap_place){(uint32_t)i, (uint32_t)j, u, 0.0f, v};
     float corner[4];
     corners_of(self, i, j, corner);
-    return envmap_draw(self, corner, at);
+    return aur_envmap_draw(self, corner, at);
 }
 
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
@@ -292,9 +291,3 @@ const aur_emitter_descriptor aur_emitter_envmap = {
     .light_from = envmap_light_from,
     .lights_from = envmap_lights_from,
 };
-
-static const aur_envmap_kernels aur_envmap_kernels_portable = AUR_ENVMAP_KERNELS;
-
-const aur_envmap_kernels *aur_envmap_kernels_here(void) {
-    return &AUR_KERNEL_HERE(aur_envmap_kernels);
-}

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "points/base/simd.h"
 #include "render/scene/bilinear.h"
 #include "render/scene/packet.h"
 
@@ -64,4 +65,4 @@ typedef struct aur_rectangle_kernels {
     aur_rectangle_lanes_function lanes;
 } aur_rectangle_kernels;
 
-const aur_rectangle_kernels *aur_rectangle_kernels_here(void);
+AUR_KERNELS(const aur_rectangle_kernels, aur_rectangle_kernels);

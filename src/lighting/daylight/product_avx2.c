@@ -1,2 +1,0 @@
-#define PRODUCT aur_daylight_product_avx2
-#include "lighting/daylight/product_body.h"

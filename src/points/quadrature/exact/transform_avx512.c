@@ -1,4 +1,0 @@
-#include "points/quadrature/exact/transform_body.h"
-
-const aur_transform_kernel aur_transform_kernel_avx512 = {analyse, synthesise, analyse_order,
-                                                          synthesise_order, dots};

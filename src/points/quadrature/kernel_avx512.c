@@ -1,2 +1,0 @@
-#define ROW aur_kernel_row_avx512
-#include "points/quadrature/kernel_body.h"

@@ -1,3 +1,0 @@
-#include "render/scene/lights/envmap_body.h"
-
-const aur_envmap_kernels aur_envmap_kernels_avx512 = AUR_ENVMAP_KERNELS;
