@@ -56,14 +56,16 @@ static bool read_truth(const bench_ask_scene *self, const char *path, float *val
 /* `integrator` NULL: whichever is found to be best. */
 static aur_result render(const bench_ask_scene *self, const char *integrator, double asked, uint64_t seed,
                          aur_ask **ask, aur_image **image, aur_error *error) {
-    aur_render_options own = aur_render_options_default();
+    aur_render_options own = {.size = sizeof own};
+    aur_render_options_init(&own, NULL);
     own.width = self->width;
     own.height = self->height;
     own.filter = "box";
     own.threads = self->options->threads;
     own.integrator = integrator;
     own.seed = seed;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = asked;
     aur_result result = aur_ask_create(self->renderer, &own, &wish, ask, error);
     if (result == AUR_OK)
@@ -135,7 +137,8 @@ aur_result bench_ask_scene_open(const bench_options *options, const bench_ask_ro
     char path[512];
     snprintf(path, sizeof path, AUR_SOURCE_DIR "/scenes/%s", row->scene);
     static const aur_definition integrator = {"integrator", "path"};
-    aur_scene_options load = aur_scene_options_default();
+    aur_scene_options load = {.size = sizeof load};
+    aur_scene_options_init(&load, NULL);
     load.definitions = &integrator;
     load.definition_count = strncmp(row->scene, "keller/", 7) == 0 ? 1 : 0;
     aur_result result = aur_scene_load(path, &load, &self->scene, error);

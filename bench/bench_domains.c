@@ -25,7 +25,8 @@ static void make_rotations(void *data) {
 static bool run_rotations(const bench_options *options, const char *set) {
     rotations_context context = {.count = options->quick ? 1 << 14 : 1000000};
     context.wxyz = calloc(4 * context.count, sizeof *context.wxyz);
-    const aur_rotations_options rotations = aur_rotations_options_default(context.count);
+    aur_rotations_options rotations = {.size = sizeof rotations};
+    aur_rotations_options_init(context.count, &rotations, NULL);
     if (context.wxyz == NULL || aur_rotations_create(set, &rotations, &context.rotations, NULL) != AUR_OK) {
         free(context.wxyz);
         return bench_fail("%s cannot be made ready", set);
@@ -53,9 +54,11 @@ typedef struct points_context {
 
 static bool make_points(const char *set, aur_domain domain, size_t count, uint64_t seed,
                         aur_points **points) {
-    aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     options.seed = seed;
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     return aur_points_generate(set, &request, points, NULL) == AUR_OK;
 }
 
@@ -87,7 +90,8 @@ static bool open_points(const bench_options *options, aur_domain domain, points_
 
 static void find_nearest(void *data) {
     const points_context *const context = data;
-    aur_nearest_options options = aur_nearest_options_default();
+    aur_nearest_options options = {.size = sizeof options};
+    aur_nearest_options_init(&options, NULL);
     options.threads = 1;
     options.neighbours = context->neighbours;
     aur_nearest_find(context->nearest, &options, context->query_count, context->asked.coordinates,
@@ -142,7 +146,8 @@ static bool run_nearest(const bench_options *options, aur_domain domain, const c
 
 static void find_cells(void *data) {
     const points_context *const context = data;
-    aur_measure_options options = aur_measure_options_default();
+    aur_measure_options options = {.size = sizeof options};
+    aur_measure_options_init(&options, NULL);
     options.threads = 1;
     double value = 0.0;
     aur_measure("voronoi-max", &context->look, &options, &value, NULL);
@@ -181,7 +186,8 @@ static void find_weights(void *data) {
 }
 
 static bool run_exact(const bench_options *options, const char *name, size_t count, size_t degree) {
-    exact_context context = {.options = aur_exact_options_default(AUR_DOMAIN_SPHERE)};
+    exact_context context = {.options = {.size = sizeof context.options}};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &context.options, NULL);
     context.options.degree = degree;
     context.options.threads = 1;
     context.weights = calloc(count, sizeof *context.weights);

@@ -55,13 +55,15 @@ static double pairs_of(double count) {
 static bool bench_sums(const bench_options *options) {
     const size_t count = options->quick ? 2048 : 16384;
     const size_t many = options->quick ? 20000 : 1000000;
-    measure_context fast = {.metric = "energy", .options = aur_measure_options_default()};
+    measure_context fast = {.metric = "energy", .options = {.size = sizeof(aur_measure_options)}};
     fast.options.threads = 1;
     fast.options.fast = true;
     measure_context structured = fast;
     aur_points *fibonacci = NULL;
-    aur_directions_options set = aur_directions_options_default(many, AUR_DOMAIN_SPHERE);
-    const aur_points_request request = aur_points_request_default(&set);
+    aur_directions_options set = {.size = sizeof set};
+    aur_directions_options_init(many, AUR_DOMAIN_SPHERE, &set, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&set, &request, NULL);
     if (!make_points(AUR_DOMAIN_SPHERE, count, &fast.points, &fast.coordinates))
         return false;
     if (aur_points_generate("spherical-fibonacci", &request, &fibonacci, NULL) != AUR_OK) {
@@ -98,7 +100,8 @@ static bool bench_sums(const bench_options *options) {
  * summed. */
 static bool bench_accuracy(const bench_options *options) {
     const size_t count = options->quick ? 20000 : 100000;
-    measure_context split = {.metric = "energy", .options = aur_measure_options_default()}, pairs = split;
+    measure_context split = {.metric = "energy", .options = {.size = sizeof(aur_measure_options)}},
+                    pairs = split;
     split.options.threads = pairs.options.threads = 1;
     split.options.accuracy = 1e-6;
     pairs.options.fast = true;
@@ -132,8 +135,8 @@ static bool bench_seconds(const bench_options *options, const char *name, measur
 }
 
 static bool run(const bench_options *options) {
-    measure_context cap = {.metric = "cap", .options = aur_measure_options_default()};
-    measure_context star = {.metric = "star", .options = aur_measure_options_default()};
+    measure_context cap = {.metric = "cap", .options = {.size = sizeof(aur_measure_options)}};
+    measure_context star = {.metric = "star", .options = {.size = sizeof(aur_measure_options)}};
     const bool quick = options->quick;
     return bench_sums(options) && bench_accuracy(options) &&
            bench_seconds(options, quick ? "cap, N = 64" : "cap, N = 512 (asked 3)", &cap, AUR_DOMAIN_SPHERE,

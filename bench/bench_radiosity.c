@@ -40,7 +40,8 @@ static void run_replay(void *context) {
 }
 
 static bool start(walk_context *context, const char *set, aur_scramble scramble, size_t threads) {
-    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity_options options = {.size = sizeof options};
+    aur_radiosity_options_init(&options, NULL);
     options.sequence = set;
     options.scramble = scramble;
     options.bounces = BOUNCES;

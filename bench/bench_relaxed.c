@@ -13,8 +13,10 @@ typedef struct relaxed_context {
 
 static void relax(void *data) {
     relaxed_context *const context = data;
-    const aur_directions_options options = aur_directions_options_default(context->count, context->domain);
-    aur_points_request request = aur_points_request_default(&options);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(context->count, context->domain, &options, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     request.dimension = context->domain == AUR_DOMAIN_SQUARE ? 2 : 0;
     aur_points *points = NULL;
     if (aur_points_generate(context->set, &request, &points, NULL) == AUR_OK) {

@@ -15,7 +15,8 @@
 static const double source[3] = {0.48, -0.6, 0.64};
 
 static double *directions(const char *set, uint64_t count) {
-    const aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &options, NULL);
     double *const xyz = malloc(3 * count * sizeof *xyz);
     aur_directions *made;
     aur_error error;

@@ -34,7 +34,8 @@ static double reference(double q) {
 
 int main(int argc, char **argv) {
     const uint64_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 500;
-    const aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_AXES);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_AXES, &options, NULL);
     double *const xyz = malloc(3 * count * sizeof *xyz);
     aur_directions *axes;
     aur_error error;

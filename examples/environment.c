@@ -22,7 +22,8 @@ static aur_result sky(void *user, size_t count, const double *directions, const 
 
 int main(int argc, char **argv) {
     double zenith = 1000.0; /* candela a square metre */
-    aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_HEMISPHERE);
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_HEMISPHERE, &options, NULL);
     options.relative = argc > 1 ? atof(argv[1]) : 1e-4;
     options.exponent = 1.0; /* times the cosine, which directions follow */
     aur_integral lux = {.size = sizeof lux};

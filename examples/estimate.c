@@ -22,7 +22,8 @@ static aur_result exchange(void *user, const aur_estimate_points *points, double
 }
 
 int main(void) {
-    aur_estimate_options options = aur_estimate_options_default(4, 1);
+    aur_estimate_options options = {.size = sizeof options};
+    aur_estimate_options_init(4, 1, &options, NULL);
     options.relative = 1e-4;
     aur_estimated factor;
     aur_estimate_report report = {.size = sizeof report};

@@ -19,9 +19,11 @@ static double radiance(const double u[3], double azimuth) {
 
 /* The mean square of the errors; `truth` is the mean of many directions. */
 static int gather(size_t count, bool optimal, double truth, double *found) {
-    aur_directions_options points = aur_directions_options_default(count, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options points = {.size = sizeof points};
+    aur_directions_options_init(count, AUR_DOMAIN_HEMISPHERE, &points, NULL);
     points.lobe.exponent = 1.0;
-    aur_rule_options options = aur_rule_options_default(&points);
+    aur_rule_options options = {.size = sizeof options};
+    aur_rule_options_init(&points, &options, NULL);
     options.optimal = optimal;
     aur_error error;
     double *const xyz = malloc(4 * count * sizeof *xyz), *const weights = xyz + 3 * count, square = 0.0;

@@ -47,7 +47,8 @@ static double exact(const beam *b, double from, double to) {
 
 int main(int argc, char **argv) {
     beam b = {{0.6, 0.0, 0.8}, 8.0};
-    aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.has_axis = true;
     options.axis_from = 0.1;
     options.axis_to = 10.0;

@@ -41,8 +41,10 @@ static void octahedron(const double n[3], double back[3]) {
 int main(void) {
     static double normals[3 * NORMALS];
     static uint64_t codes[NORMALS];
-    const aur_directions_options of_normals = aur_directions_options_default(NORMALS, AUR_DOMAIN_SPHERE);
-    const aur_directions_options of_codes = aur_directions_options_default(POINTS, AUR_DOMAIN_SPHERE);
+    aur_directions_options of_normals = {.size = sizeof of_normals};
+    aur_directions_options_init(NORMALS, AUR_DOMAIN_SPHERE, &of_normals, NULL);
+    aur_directions_options of_codes = {.size = sizeof of_codes};
+    aur_directions_options_init(POINTS, AUR_DOMAIN_SPHERE, &of_codes, NULL);
     const aur_fibonacci_set set = {POINTS, AUR_DOMAIN_SPHERE};
     aur_directions *random = NULL, *even = NULL;
     aur_error error;

@@ -28,9 +28,11 @@ static int is_open(RTCScene scene, const double u[3]) {
 }
 
 static double open_share(RTCScene scene, const char *set, size_t count) {
-    aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_HEMISPHERE, &options, NULL);
     options.lobe.exponent = 1.0;
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     aur_points *points;
     double seen = 0.0;
     if (aur_points_generate(set, &request, &points, NULL) != AUR_OK)

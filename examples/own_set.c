@@ -39,8 +39,10 @@ int main(void) {
         return 1;
     const char *const sets[] = {"file:own.npy", "sobol"};
     for (int which = 0; which < 2; ++which) {
-        const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_SQUARE);
-        const aur_points_request request = aur_points_request_default(&options);
+        aur_directions_options options = {.size = sizeof options};
+        aur_directions_options_init(COUNT, AUR_DOMAIN_SQUARE, &options, NULL);
+        aur_points_request request = {.size = sizeof request};
+        aur_points_request_init(&options, &request, NULL);
         aur_points *points = NULL;
         if (aur_points_generate(sets[which], &request, &points, &error) != AUR_OK) {
             fprintf(stderr, "%s\n", error.message);

@@ -25,7 +25,8 @@ static void moments(uint64_t count, const double *xyz, double delta, double foun
 
 static int average(const char *set, uint64_t count) {
     const double delta = 30.0; /* parts in a million */
-    const aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_AXES);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_AXES, &options, NULL);
     aur_directions *axes = NULL;
     aur_error error;
     double *const xyz = malloc(3 * count * sizeof *xyz);

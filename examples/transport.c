@@ -14,7 +14,8 @@
 #include <stdlib.h>
 
 static double *directions(const char *set, uint64_t count, aur_domain domain) {
-    const aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     double *const xyz = malloc(3 * count * sizeof *xyz);
     aur_directions *made;
     aur_error error;

@@ -13,11 +13,14 @@
 
 int main(int argc, char **argv) {
     const uint64_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 40;
-    aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &options, NULL);
     options.cap_degrees = argc > 2 ? atof(argv[2]) : 110.0;
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     aur_points *views = NULL;
-    aur_measure_options within = aur_measure_options_default();
+    aur_measure_options within = {.size = sizeof within};
+    aur_measure_options_init(&within, NULL);
     within.cap_degrees = options.cap_degrees;
     double covering = 0.0, apart = 0.0;
     aur_error error;

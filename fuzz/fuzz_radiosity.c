@@ -57,7 +57,8 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index >= 2)
         return 0;
     aur_scene *const scene = load_room();
-    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity_options options = {.size = sizeof options};
+    aur_radiosity_options_init(&options, NULL);
     options.scramble = AUR_SCRAMBLE_OWEN;
     options.randomizations = index + 1;
     aur_radiosity *radiosity = NULL;

@@ -21,10 +21,12 @@ int main(int argc, char **argv) {
     aur_domain domain = AUR_DOMAIN_SQUARE;
     while (aur_domain_name(domain) != NULL && strcmp(aur_domain_name(domain), argv[3]) != 0)
         ++domain;
-    aur_directions_options options = aur_directions_options_default(strtoull(argv[2], NULL, 10), domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(strtoull(argv[2], NULL, 10), domain, &options, NULL);
     options.scramble = strcmp(argv[4], "owen") == 0 ? AUR_SCRAMBLE_OWEN : AUR_SCRAMBLE_NONE;
     options.seed = 1;
-    aur_points_request request = aur_points_request_default(&options);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     request.dimension = domain == AUR_DOMAIN_SQUARE ? 2 : 0;
     double seconds[MOST];
     size_t count = 0;

@@ -30,12 +30,7 @@ typedef struct aur_ask_options {
     size_t replicas;   /* independent renderings, 3 to 16; 0: 4 */
 } aur_ask_options;
 
-static inline aur_ask_options aur_ask_options_default(void) {
-    aur_ask_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_ask_options_init(aur_ask_options *options, aur_error *error) AUR_NONNULL(1);
 
 typedef struct aur_ask aur_ask;
 

@@ -150,6 +150,15 @@ inline void require(bool right, const char *message) {
 
 } // namespace detail
 
+/* An option struct with its defaults: options<aur_weights_options>(aur_weights_options_init), with what the
+ * function takes before the struct after it. */
+template <class Options, class Init, class... Inputs> Options options(Init init, Inputs... inputs) {
+    Options filled{};
+    filled.size = sizeof filled;
+    detail::call(init, inputs..., &filled);
+    return filled;
+}
+
 /* A set of the unit cube made ready (aur_pointset). */
 class point_set {
   public:
@@ -159,7 +168,7 @@ class point_set {
         owned_.reset(made);
     }
     point_set(const std::string &set, std::uint64_t count)
-        : point_set(set, aur_pointset_options_default(count)) {
+        : point_set(set, aureole::options<aur_pointset_options>(aur_pointset_options_init, count)) {
     }
 
     std::uint64_t size() const noexcept {
@@ -195,7 +204,8 @@ class directions {
         owned_.reset(made);
     }
     directions(const std::string &set, std::uint64_t count, aur_domain domain)
-        : directions(set, aur_directions_options_default(count, domain)) {
+        : directions(set,
+                     aureole::options<aur_directions_options>(aur_directions_options_init, count, domain)) {
     }
 
     std::uint64_t size() const noexcept {
@@ -232,7 +242,7 @@ class points {
         owned_.reset(made);
     }
     points(const std::string &set, const aur_directions_options &options)
-        : points(set, aur_points_request_default(&options)) {
+        : points(set, aureole::options<aur_points_request>(aur_points_request_init, &options)) {
     }
     static points read(const std::string &path) {
         aur_points *made = nullptr;
@@ -265,8 +275,9 @@ inline aur_points_view view_of(aur_domain domain, std::size_t dimension, span<co
     return aur_points_view_of(domain, coordinates.size() / dimension, dimension, coordinates.data());
 }
 
-inline double measure(const std::string &metric, const aur_points_view &view,
-                      const aur_measure_options &options = aur_measure_options_default()) {
+inline double measure(
+    const std::string &metric, const aur_points_view &view,
+    const aur_measure_options &options = aureole::options<aur_measure_options>(aur_measure_options_init)) {
     double value = 0.0;
     detail::call(aur_measure, metric.c_str(), &view, &options, &value);
     return value;
@@ -293,7 +304,8 @@ class potential {
 
 /* `weights` empty: 1/N. */
 inline double worst_case_error(span<const double> xyz, const potential &of, span<const double> weights = {},
-                               const aur_worst_case_options &options = aur_worst_case_options_default()) {
+                               const aur_worst_case_options &options =
+                                   aureole::options<aur_worst_case_options>(aur_worst_case_options_init)) {
     detail::require(weights.empty() || weights.size() == xyz.size() / 3,
                     "there are not as many weights as directions");
     double value = 0.0;
@@ -303,9 +315,9 @@ inline double worst_case_error(span<const double> xyz, const potential &of, span
 }
 
 /* The optimal weights of unit vectors for one density. */
-inline std::vector<double>
-optimal_weights(span<const double> xyz, const potential &of,
-                const aur_weights_options &options = aur_weights_options_default()) {
+inline std::vector<double> optimal_weights(
+    span<const double> xyz, const potential &of,
+    const aur_weights_options &options = aureole::options<aur_weights_options>(aur_weights_options_init)) {
     std::vector<double> weights(xyz.size() / 3);
     const aur_potential *const one = of.get();
     detail::call(aur_weights_solve, weights.size(), xyz.data(), std::size_t{1}, &one, &options,
@@ -340,7 +352,8 @@ class nearest {
     }
     /* Per query the indices of options.neighbours points, nearest first. */
     std::vector<std::size_t> find(span<const double> queries, std::size_t dimension,
-                                  const aur_nearest_options &options = aur_nearest_options_default()) const {
+                                  const aur_nearest_options &options =
+                                      aureole::options<aur_nearest_options>(aur_nearest_options_init)) const {
         const std::size_t count = queries.size() / dimension;
         std::vector<std::size_t> indices(count * (options.neighbours != 0 ? options.neighbours : 1));
         detail::call(aur_nearest_find, owned_.get(), &options, count, queries.data(), indices.data(),

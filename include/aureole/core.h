@@ -1,4 +1,9 @@
-/* Results, errors and the version: what every other header of Aureole uses. */
+/* Results, errors and the version: what every other header of Aureole uses.
+ *
+ * Structs of options begin with `size`, which the caller sets, so that they can grow in later versions:
+ *     aur_weights_options options = {.size = sizeof options};
+ *     aur_weights_options_init(&options, NULL);
+ * aur_..._init fills the struct with its defaults. Its only error is ARGUMENT: `size` is not set. */
 #ifndef AUREOLE_CORE_H
 #define AUREOLE_CORE_H
 

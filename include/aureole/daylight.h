@@ -66,7 +66,7 @@ AUR_EXPERIMENTAL const aur_weather_view *aur_weather_look(const aur_weather *wea
  * the clearness and brightness of the sky and the water in it, or 179 lm/W. */
 typedef enum aur_luminous_efficacy { AUR_EFFICACY_PEREZ, AUR_EFFICACY_CONSTANT } aur_luminous_efficacy;
 
-/* All zero but `size`, as aur_daylight_options_default makes it, takes the defaults. */
+/* All zero but `size`, as aur_daylight_options_init fills it, takes the defaults. */
 typedef struct aur_daylight_options {
     size_t size;          /* of the caller's struct, so that it can grow */
     const char *set;      /* a SET of directions; NULL: "spherical-fibonacci" */
@@ -92,12 +92,8 @@ typedef struct aur_daylight_options {
                               that are not known, or whose sky is no sky of the model */
 } aur_daylight_options;
 
-static inline aur_daylight_options aur_daylight_options_default(void) {
-    aur_daylight_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_daylight_options_init(aur_daylight_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* What is told of a sensor. Shares are percents of the hours that count. */
 typedef enum aur_daylight_measure {

@@ -10,7 +10,6 @@
 
 #include <aureole/pointset.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -47,21 +46,6 @@ typedef struct aur_estimate_options {
 
 /* One percent of the first value with 95 % confidence, by 16 randomisations of 16 points or more, at most
  * 2^20 points. */
-static inline aur_estimate_options aur_estimate_options_default(size_t dimension, size_t values) {
-    aur_estimate_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.dimension = dimension;
-    options.values = values;
-    options.relative = 0.01;
-    options.confidence = 0.95;
-    options.replicates = 16;
-    options.first = 16;
-    options.evaluations = UINT64_C(1) << 20;
-    return options;
-}
-/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
- * ARGUMENT for a size that was not set. */
 AUR_API aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
                                              aur_error *error) AUR_NONNULL(3);
 

@@ -12,7 +12,6 @@
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -42,16 +41,6 @@ typedef struct aur_exact_options {
 } aur_exact_options;
 
 /* The largest degree, near to equal weights, on a whole domain. */
-static inline aur_exact_options aur_exact_options_default(aur_domain domain) {
-    aur_exact_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.domain = domain;
-    options.degree = AUR_DEGREE_LARGEST;
-    return options;
-}
-/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
- * ARGUMENT for a size that was not set. */
 AUR_API aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error)
     AUR_NONNULL(2);
 

@@ -4,7 +4,6 @@
 
 #include <aureole/tables.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -65,7 +64,7 @@ enum { AUR_TONE_COUNT = AUR_TONE_FILMIC + 1 };
 AUR_API aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) AUR_NONNULL(1, 2);
 AUR_API const char *aur_tone_name(aur_tone tone);
 
-/* All zero but `size`, as aur_image_write_options_default makes it, writes radiance as it is. */
+/* All zero but `size`, as aur_image_write_options_init fills it, writes radiance as it is. */
 typedef struct aur_image_write_options {
     size_t size;        /* of the caller's struct, so that it can grow */
     float exposure;     /* stops, finite; PNG only */
@@ -74,12 +73,8 @@ typedef struct aur_image_write_options {
     const char *format; /* an extension: "exr", ...; NULL: that of the path, and exr for "-" */
 } aur_image_write_options;
 
-static inline aur_image_write_options aur_image_write_options_default(void) {
-    aur_image_write_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_API aur_result aur_image_write_options_init(aur_image_write_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* The row, of the table "picture", of the format that aur_image_write writes to this path: its name is the
  * extension, its keys the options that it takes. `format` as in the options, or NULL. NAME when there is none

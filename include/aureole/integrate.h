@@ -9,7 +9,6 @@
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,19 +39,6 @@ typedef struct aur_integrate_options {
 } aur_integrate_options;
 
 /* One percent of the value with 95 % confidence, by 8 replicates and at most 2^22 evaluations. */
-static inline aur_integrate_options aur_integrate_options_default(aur_domain domain) {
-    aur_integrate_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.domain = domain;
-    options.relative = 0.01;
-    options.confidence = 0.95;
-    options.replicates = 8;
-    options.evaluations = UINT64_C(1) << 22;
-    return options;
-}
-/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
- * ARGUMENT for a size that was not set. */
 AUR_API aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options,
                                               aur_error *error) AUR_NONNULL(2);
 

@@ -10,7 +10,6 @@
 
 #include <aureole/scene.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -40,7 +39,7 @@ typedef struct aur_sensors aur_sensors;
  * mean of the normals around it by their angles there. */
 typedef enum aur_sensors_place { AUR_SENSORS_ON_FACES, AUR_SENSORS_ON_VERTICES } aur_sensors_place;
 
-/* All zero but `size`, as aur_sensors_options_default makes it, takes the defaults. */
+/* All zero but `size`, as aur_sensors_options_init fills it, takes the defaults. */
 typedef struct aur_sensors_options {
     size_t size; /* of the caller's struct, so that it can grow */
     aur_sensors_place place;
@@ -48,12 +47,8 @@ typedef struct aur_sensors_options {
     aur_warnings warnings; /* of meshes: facets that lie on each other, open or inconsistent edges */
 } aur_sensors_options;
 
-static inline aur_sensors_options aur_sensors_options_default(void) {
-    aur_sensors_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_sensors_options_init(aur_sensors_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* Reads six numbers a line, x y z nx ny nz, with blanks or commas between them (Radiance's .pts, and CSV with
  * or without a header), an NPY array of six columns, or a mesh (.obj, .ply, .stl, .off). `options` may be
@@ -85,7 +80,7 @@ AUR_API aur_result aur_reflected_from_name(const char *name, aur_reflected *refl
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_reflected_name(aur_reflected reflected);
 
-/* All zero but `size`, as aur_irradiance_options_default makes it, takes the defaults. */
+/* All zero but `size`, as aur_irradiance_options_init fills it, takes the defaults. */
 typedef struct aur_irradiance_options {
     size_t size;       /* of the caller's struct, so that it can grow */
     const char *set;   /* a SET of directions; NULL: "spherical-fibonacci" */
@@ -107,12 +102,8 @@ typedef struct aur_irradiance_options {
     size_t particles; /* of the map or the solution; 0: 500,000 */
 } aur_irradiance_options;
 
-static inline aur_irradiance_options aur_irradiance_options_default(void) {
-    aur_irradiance_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_irradiance_options_init(aur_irradiance_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* Where light comes from: all of it; straight from lights; straight from the sky (a light that is all
  * around); all that was reflected or refracted on its way; straight from the sun (a disk of the sky of 5

@@ -25,12 +25,7 @@ typedef struct aur_nearest_options {
     aur_progress progress;
 } aur_nearest_options;
 
-static inline aur_nearest_options aur_nearest_options_default(void) {
-    aur_nearest_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_API aur_result aur_nearest_options_init(aur_nearest_options *options, aur_error *error) AUR_NONNULL(1);
 
 /* The points nearest to each of `count` queries, given as the points are, one after another: the indices into
  * indices[count * neighbours], nearest first, of equally near ones the smaller index first; and into

@@ -95,13 +95,8 @@ typedef struct aur_pointset_options {
 } aur_pointset_options;
 
 /* A set of two dimensions that is not scrambled. */
-static inline aur_pointset_options aur_pointset_options_default(uint64_t count) {
-    aur_pointset_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.count = count;
-    return options;
-}
+AUR_API aur_result aur_pointset_options_init(uint64_t count, aur_pointset_options *options, aur_error *error)
+    AUR_NONNULL(2);
 
 /* Makes the set that `set` names ready. Errors: NAME for an unknown set or key, FORMAT, ARGUMENT for a count
  * or dimension that the set does not have, UNSUPPORTED for a scrambling that has no meaning there, MEMORY. */
@@ -338,12 +333,7 @@ typedef struct aur_points_origin {
     uint64_t seed;
 } aur_points_origin;
 
-static inline aur_points_origin aur_points_origin_default(void) {
-    aur_points_origin origin;
-    memset(&origin, 0, sizeof origin);
-    origin.size = sizeof origin;
-    return origin;
-}
+AUR_API aur_result aur_points_origin_init(aur_points_origin *origin, aur_error *error) AUR_NONNULL(1);
 
 /* Writes points to `path`, "-" for standard output; the file is replaced whole or not at all. `origin` may be
  * NULL. Errors: ARGUMENT for an unknown format or domain or a stride below the dimension, UNSUPPORTED for a
@@ -360,12 +350,8 @@ typedef struct aur_points_write_options {
     unsigned digits; /* CSV: significant digits, 1 to 17; 0 stands for 17, which lose nothing */
 } aur_points_write_options;
 
-static inline aur_points_write_options aur_points_write_options_default(void) {
-    aur_points_write_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_API aur_result aur_points_write_options_init(aur_points_write_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* aur_points_write with options (NULL: none). Errors: also ARGUMENT for more than 17 digits, UNSUPPORTED for
  * an option that the format has no use for. */

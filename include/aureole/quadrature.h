@@ -17,7 +17,6 @@
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -63,12 +62,7 @@ typedef struct aur_density {
 #define AUR_EXPONENT_MAXIMUM 1e5
 
 /* The uniform hemisphere about +z. */
-static inline aur_density aur_density_default(void) {
-    aur_density density;
-    memset(&density, 0, sizeof density);
-    density.size = sizeof density;
-    return density;
-}
+AUR_API aur_result aur_density_init(aur_density *density, aur_error *error) AUR_NONNULL(1);
 
 /* Makes *density, whose `size` must be set, the one that points of a lobe on a domain are drawn for: cos^M or
  * GGX on the hemisphere, 1 on the sphere, where only the uniform lobe has a meaning. Errors: UNSUPPORTED for
@@ -122,19 +116,15 @@ AUR_API double aur_kernel(double smoothness, double chord);
 
 /* --- worst-case error */
 
-/* All zero but `size`, as aur_worst_case_options_default makes it, takes the defaults. */
+/* All zero but `size`, as aur_worst_case_options_init fills it, takes the defaults. */
 typedef struct aur_worst_case_options {
     size_t size;    /* of the caller's struct, so that it can grow */
     size_t threads; /* 0: all; no bit depends on it */
     aur_progress progress;
 } aur_worst_case_options;
 
-static inline aur_worst_case_options aur_worst_case_options_default(void) {
-    aur_worst_case_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_API aur_result aur_worst_case_options_init(aur_worst_case_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* sup |I - sum w_i f(u_i)| over f of norm 1 (Marques 2018 eq. 9): sqrt(W'KW - 2 Z'W + V), which rounding
  * leaves no digits below some 1e-8 times the root of K(u,u). `weights` may be NULL: 1/N. O(N^2) time, O(N)
@@ -155,16 +145,6 @@ typedef struct aur_weights_options {
 } aur_weights_options;
 
 /* Regularisation 1e-6, sum constraint on. */
-static inline aur_weights_options aur_weights_options_default(void) {
-    aur_weights_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.regularization = AUR_REGULARIZATION_DEFAULT;
-    options.sum_constraint = true;
-    return options;
-}
-/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
- * ARGUMENT for a size that was not set. */
 AUR_API aur_result aur_weights_options_init(aur_weights_options *options, aur_error *error) AUR_NONNULL(1);
 
 typedef struct aur_weights_report {
@@ -203,13 +183,8 @@ typedef struct aur_rule_options {
 } aur_rule_options;
 
 /* The Fibonacci set of the points that the options describe, which must outlive the rule's; equal weights. */
-static inline aur_rule_options aur_rule_options_default(const aur_directions_options *points) {
-    aur_rule_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.points = points;
-    return options;
-}
+AUR_API aur_result aur_rule_options_init(const aur_directions_options *points, aur_rule_options *options,
+                                         aur_error *error) AUR_NONNULL(2);
 
 /* Fills xyz[3 * count] and weights[count] with the options' count of points, for integrals against the lobe
  * normalised to 1 (plain weights of a GGX lobe: against the density of its visible normals, which has no
@@ -258,14 +233,8 @@ typedef struct aur_oswa_options {
 } aur_oswa_options;
 
 /* Two uniform lobes, whole, of so many samples of the Fibonacci set. */
-static inline aur_oswa_options aur_oswa_options_default(size_t count, size_t mirror_count) {
-    aur_oswa_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.count = count;
-    options.mirror_count = mirror_count;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_oswa_options_init(size_t count, size_t mirror_count,
+                                                  aur_oswa_options *options, aur_error *error) AUR_NONNULL(3);
 
 /* Both patterns with all that does not depend on the angle: the two constant blocks of K and their z (Marques
  * 2018 section 6.2). Immutable, for any number of threads. */
@@ -313,18 +282,7 @@ typedef struct aur_weight_table_grid {
 } aur_weight_table_grid;
 
 /* 64 angles, one roughness, 16 rotations. */
-static inline aur_weight_table_grid aur_weight_table_grid_default(void) {
-    aur_weight_table_grid grid;
-    memset(&grid, 0, sizeof grid);
-    grid.size = sizeof grid;
-    grid.angle_count = 64;
-    grid.roughness_count = 1;
-    grid.rotation_count = 16;
-    return grid;
-}
-/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
- * ARGUMENT for a size that was not set. */
-AUR_EXPERIMENTAL aur_result aur_weight_table_grid_init(aur_weight_table_grid *options, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_weight_table_grid_init(aur_weight_table_grid *grid, aur_error *error)
     AUR_NONNULL(1);
 
 /* angles * roughnesses * rotations systems are solved, and more where samples cross the horizon. Each entry

@@ -10,7 +10,6 @@
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,12 +50,7 @@ typedef struct aur_measure_options {
     double cap_degrees;
 } aur_measure_options;
 
-static inline aur_measure_options aur_measure_options_default(void) {
-    aur_measure_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_API aur_result aur_measure_options_init(aur_measure_options *options, aur_error *error) AUR_NONNULL(1);
 
 /* One measure, by name, of points with optional weights. `options` may be NULL. The result does not depend on
  * the number of threads. The value is finite but for riesz:S with S >= 0 and mesh-ratio of points that

@@ -12,7 +12,6 @@
 #include <aureole/pointset.h>
 #include <aureole/scene.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -51,16 +50,6 @@ typedef struct aur_radiosity_options {
 } aur_radiosity_options;
 
 /* Sobol points, cosine directions, emission by power, 6 bounces, 1 randomisation. */
-static inline aur_radiosity_options aur_radiosity_options_default(void) {
-    aur_radiosity_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.bounces = 6;
-    options.randomizations = 1;
-    return options;
-}
-/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
- * ARGUMENT for a size that was not set. */
 AUR_EXPERIMENTAL aur_result aur_radiosity_options_init(aur_radiosity_options *options, aur_error *error)
     AUR_NONNULL(1);
 
@@ -94,13 +83,8 @@ typedef struct aur_radiosity_termination {
     uint64_t limit;    /* end after so many paths in any case; 0: 2^32 */
 } aur_radiosity_termination;
 
-static inline aur_radiosity_termination aur_radiosity_termination_default(double epsilon) {
-    aur_radiosity_termination rule;
-    memset(&rule, 0, sizeof rule);
-    rule.size = sizeof rule;
-    rule.epsilon = epsilon;
-    return rule;
-}
+AUR_EXPERIMENTAL aur_result aur_radiosity_termination_init(double epsilon, aur_radiosity_termination *rule,
+                                                           aur_error *error) AUR_NONNULL(2);
 
 /* Goes on from the paths that are there, which must be a multiple of the interval. *converged (may be NULL)
  * becomes true when the changes fell below epsilon, and false when the limit of paths came first. Errors:

@@ -11,7 +11,6 @@
 #include <aureole/scene.h>
 #include <aureole/tables.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -39,7 +38,7 @@ typedef struct aur_render_statistics {
     double cpu_seconds;                 /* of the process, for both */
 } aur_render_statistics;
 
-/* All zero but `size`, as aur_render_options_default makes it, renders what the scene says. */
+/* All zero but `size`, as aur_render_options_init fills it, renders what the scene says. */
 typedef struct aur_render_options {
     size_t size;              /* of the caller's struct, so that it can grow */
     const char *integrator;   /* NAME[:key=value,...] instead of the scene's; NULL keeps it */
@@ -65,12 +64,8 @@ typedef struct aur_render_options {
     const aur_gather_integrator *gather;
 } aur_render_options;
 
-static inline aur_render_options aur_render_options_default(void) {
-    aur_render_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_render_options_init(aur_render_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* Renders pictures of one scene and keeps between them what they share (a photon map, for one). The scene
  * must outlive it. Not for two threads at once. */

@@ -40,7 +40,8 @@ class image {
         return {aur_image_data(owned_.get()), width() * height() * channels()};
     }
     void write(const std::string &path,
-               const aur_image_write_options &options = aur_image_write_options_default()) const {
+               const aur_image_write_options &options =
+                   aureole::options<aur_image_write_options>(aur_image_write_options_init)) const {
         detail::call(aur_image_write, path.c_str(), owned_.get(), &options);
     }
     const aur_image *get() const noexcept {
@@ -54,7 +55,8 @@ class image {
 /* A scene that was read (aur_scene). It must outlive its renderers. */
 class scene {
   public:
-    explicit scene(const std::string &path, const aur_scene_options &options = aur_scene_options_default()) {
+    explicit scene(const std::string &path, const aur_scene_options &options =
+                                                aureole::options<aur_scene_options>(aur_scene_options_init)) {
         aur_scene *made = nullptr;
         detail::call(aur_scene_load, path.c_str(), &options, &made);
         owned_.reset(made);
@@ -81,8 +83,9 @@ class renderer {
         detail::call(aur_renderer_create, of.get(), &made);
         owned_.reset(made);
     }
-    image render(const aur_render_options &options = aur_render_options_default(),
-                 aur_render_statistics *statistics = nullptr) {
+    image
+    render(const aur_render_options &options = aureole::options<aur_render_options>(aur_render_options_init),
+           aur_render_statistics *statistics = nullptr) {
         aur_error found{};
         aur_image *made = nullptr;
         const aur_result result = aur_renderer_render(owned_.get(), &options, &made, statistics, &found);

@@ -26,13 +26,8 @@ typedef struct aur_rotations_options {
     aur_warnings warnings;
 } aur_rotations_options;
 
-static inline aur_rotations_options aur_rotations_options_default(uint64_t count) {
-    aur_rotations_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.count = count;
-    return options;
-}
+AUR_API aur_result aur_rotations_options_init(uint64_t count, aur_rotations_options *options,
+                                              aur_error *error) AUR_NONNULL(2);
 
 /* Makes rotations ready: a set native to them (super-fibonacci, its grid, esfg-rotations), or any set of the
  * cube, whose first three coordinates are lifted (Shoemake 1992). Errors: as aur_pointset_create. */

@@ -6,7 +6,6 @@
 
 #include <aureole/core.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -37,7 +36,7 @@ AUR_EXPERIMENTAL aur_result aur_model_light_from_name(const char *name, aur_mode
                                                       aur_error *error) AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL const char *aur_model_light_name(aur_model_light light);
 
-/* All zero but `size`, as aur_scene_options_default makes it, takes the scene as it stands. */
+/* All zero but `size`, as aur_scene_options_init fills it, takes the scene as it stands. */
 typedef struct aur_scene_options {
     size_t size; /* of the caller's struct, so that it can grow */
     size_t definition_count;
@@ -57,12 +56,8 @@ typedef struct aur_scene_options {
     aur_progress progress;
 } aur_scene_options;
 
-static inline aur_scene_options aur_scene_options_default(void) {
-    aur_scene_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* Whether a file is a scene by the end of its name, and not by its content as XML is: Radiance's (.rad) and
  * models: .obj, .ply, .stl, .off, and .glb, .gltf, .fbx, .dae and .3ds, which a build with assimp reads. */

@@ -8,7 +8,6 @@
 
 #include <aureole/pointset.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -155,14 +154,9 @@ typedef struct aur_directions_options {
 } aur_directions_options;
 
 /* Uniform directions that are not scrambled, sets of the square by LAMBERT. */
-static inline aur_directions_options aur_directions_options_default(uint64_t count, aur_domain domain) {
-    aur_directions_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    options.count = count;
-    options.domain = domain;
-    return options;
-}
+AUR_API aur_result aur_directions_options_init(uint64_t count, aur_domain domain,
+                                               aur_directions_options *options, aur_error *error)
+    AUR_NONNULL(3);
 
 /* Makes the directions of a set of the square or of the sphere ready; `set` as in aur_pointset_create. A file
  * of directions is taken as it stands. Sets native to the sphere know the scramblings ROTATE and, on the
@@ -197,13 +191,8 @@ typedef struct aur_points_request {
 } aur_points_request;
 
 /* All points of the set that the options describe, which must outlive the request. */
-static inline aur_points_request aur_points_request_default(const aur_directions_options *options) {
-    aur_points_request request;
-    memset(&request, 0, sizeof request);
-    request.size = sizeof request;
-    request.options = options;
-    return request;
-}
+AUR_API aur_result aur_points_request_init(const aur_directions_options *options, aur_points_request *request,
+                                           aur_error *error) AUR_NONNULL(2);
 
 /* Makes *points: free with aur_points_destroy. Weights are there where they are not all equal. Native
  * sets come to the disk by the azimuthal map from the hemisphere. Errors: as aur_directions_create and

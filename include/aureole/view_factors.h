@@ -6,7 +6,6 @@
 
 #include <aureole/scene.h>
 #include <stdbool.h>
-#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -28,7 +27,7 @@ AUR_EXPERIMENTAL aur_result aur_view_factor_polygons(size_t from_count, const do
  * seen from the front), and hide what is behind them from both sides. Immutable once loaded. */
 typedef struct aur_facets aur_facets;
 
-/* All zero but `size`, as aur_facets_options_default makes it: a row for the front of every triangle. */
+/* All zero but `size`, as aur_facets_options_init fills it: a row for the front of every triangle. */
 typedef struct aur_facets_options {
     size_t size;     /* of the caller's struct, so that it can grow */
     bool group;      /* a row for each group of an OBJ, or each shape of a scene or PLY */
@@ -43,12 +42,8 @@ typedef struct aur_facets_options {
     const char *const *further;
 } aur_facets_options;
 
-static inline aur_facets_options aur_facets_options_default(void) {
-    aur_facets_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_facets_options_init(aur_facets_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* Reads an OBJ, a PLY or a scene (.xml). `options` may be NULL. Errors: OPEN, FORMAT (with file and line),
  * UNSUPPORTED (other files; shapes that are no meshes, or instances), those of aur_scene_load, MEMORY. */
@@ -63,7 +58,7 @@ AUR_EXPERIMENTAL const char *aur_facets_name(const aur_facets *facets, size_t ro
 
 /* --- the matrix */
 
-/* All zero but `size`, as aur_view_factors_options_default makes it, takes the defaults. */
+/* All zero but `size`, as aur_view_factors_options_init fills it, takes the defaults. */
 typedef struct aur_view_factors_options {
     size_t size;           /* of the caller's struct, so that it can grow */
     size_t rays;           /* from each facet and side, all randomisations together; 0: 2048 */
@@ -79,12 +74,8 @@ typedef struct aur_view_factors_options {
                               for two rays */
 } aur_view_factors_options;
 
-static inline aur_view_factors_options aur_view_factors_options_default(void) {
-    aur_view_factors_options options;
-    memset(&options, 0, sizeof options);
-    options.size = sizeof options;
-    return options;
-}
+AUR_EXPERIMENTAL aur_result aur_view_factors_options_init(aur_view_factors_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 typedef struct aur_view_factors aur_view_factors;
 
@@ -171,12 +162,7 @@ typedef struct aur_facets_light {
     double sun[3];      /* to the sun; the length is the irradiance of what faces it; 0: none */
 } aur_facets_light;
 
-static inline aur_facets_light aur_facets_light_default(void) {
-    aur_facets_light light;
-    memset(&light, 0, sizeof light);
-    light.size = sizeof light;
-    return light;
-}
+AUR_EXPERIMENTAL aur_result aur_facets_light_init(aur_facets_light *light, aur_error *error) AUR_NONNULL(1);
 
 /* B = emission + reflectance (sun + sky + F B), for each row. With `factors` (of the same facets; else NULL)
  * the products are the matrix's, and solutions by the matrices of its single randomisations say what the one

@@ -50,7 +50,8 @@ static aur_result estimate(const lab_run *run, const lab_case *made, aur_irradia
     aur_result result = aur_scene_load_memory("case.xml", (size_t)size, text, NULL, &scene, error);
     const aur_sensors_view sensors = {
         .size = sizeof sensors, .count = made->count, .positions = positions, .normals = normals};
-    aur_irradiance_options options = aur_irradiance_options_default();
+    aur_irradiance_options options = {.size = sizeof options};
+    aur_irradiance_options_init(&options, NULL);
     options.directions = made->more * (lab->quick ? DIRECTIONS_QUICK : DIRECTIONS);
     options.threads = lab->threads;
     if (result == AUR_OK)

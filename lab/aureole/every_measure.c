@@ -78,7 +78,8 @@ static aur_result add_set(lab_run *run, const char *set, aur_domain domain, size
     aur_result result = lab_points_make(&request, &made, error);
     if (result != AUR_OK)
         return result;
-    aur_measure_options how = aur_measure_options_default();
+    aur_measure_options how = {.size = sizeof how};
+    aur_measure_options_init(&how, NULL);
     how.threads = lab_run_options(run)->threads;
     for (size_t m = 0; m < aur_measure_count() && m < MOST_MEASURES && result == AUR_OK; ++m) {
         char metric[64];

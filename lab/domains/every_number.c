@@ -41,8 +41,10 @@ static prefix_figures measure(const aur_points_view *points) {
 
 static aur_result row(lab_run *run, const char *set, bool judged, aur_error *error) {
     const size_t count = lab_run_options(run)->quick ? QUICK : LAST;
-    const aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &options, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     aur_points *points;
     const aur_result result = aur_points_generate(set, &request, &points, error);
     if (result != AUR_OK)

@@ -73,7 +73,8 @@ static void put(double u, double a, double b, double wxyz[4]) {
 static aur_result figure(const char *metric, size_t count, const double *wxyz, size_t threads, double *value,
                          aur_error *error) {
     const aur_points_view view = aur_points_view_of(AUR_DOMAIN_ROTATIONS, count, 4, wxyz);
-    aur_measure_options how = aur_measure_options_default();
+    aur_measure_options how = {.size = sizeof how};
+    aur_measure_options_init(&how, NULL);
     how.threads = threads;
     return aur_measure(metric, &view, &how, value, error);
 }
@@ -123,8 +124,10 @@ static aur_result make(const lift *from, size_t count, size_t threads, double *w
         return result;
     }
     const aur_domain domain = from->turn != NULL ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_ROTATIONS;
-    const aur_directions_options set = aur_directions_options_default(count, domain);
-    const aur_points_request request = aur_points_request_default(&set);
+    aur_directions_options set = {.size = sizeof set};
+    aur_directions_options_init(count, domain, &set, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&set, &request, NULL);
     aur_points *points;
     const aur_result result = aur_points_generate(from->set, &request, &points, error);
     if (result != AUR_OK)

@@ -20,7 +20,8 @@ static const double triangles[KELLER_SCENES] = {12, 3604, 276, 1572};
 static aur_result solve(const lab_run *run, const aur_scene *scene, double epsilon,
                         aur_radiosity_description *found, aur_error *error) {
     aur_radiosity *radiosity = NULL;
-    const aur_radiosity_termination rule = aur_radiosity_termination_default(epsilon);
+    aur_radiosity_termination rule = {.size = sizeof rule};
+    aur_radiosity_termination_init(epsilon, &rule, NULL);
     aur_result result =
         keller_start(run, scene, "halton", 0, 6, AUR_RADIOSITY_UNIFORM_ANGLE, &radiosity, error);
     if (result == AUR_OK)

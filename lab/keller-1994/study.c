@@ -61,7 +61,8 @@ aur_result keller_start(const lab_run *run, const aur_scene *scene, const char *
                         size_t bounces, aur_radiosity_directions directions, aur_radiosity **radiosity,
                         aur_error *error) {
     const lab_options *const lab = lab_run_options(run);
-    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity_options options = {.size = sizeof options};
+    aur_radiosity_options_init(&options, NULL);
     options.sequence = set;
     options.seed = variant;
     options.variant = variant;

@@ -59,7 +59,8 @@ static aur_result load(const lab_run *run, coverage_mesh mesh, bool group, aur_f
     aur_result result = fclose(file) == 0 ? aur_file_write(path, size, text, error)
                                           : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     free(text);
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = group;
     if (result == AUR_OK)
         result = aur_facets_load(path, &options, facets, error);
@@ -123,7 +124,8 @@ static aur_result of_matrix(const aur_facets *facets, const aur_view_factors_opt
 
 static aur_result measure(const lab_run *run, const aur_facets *facets, const coverage_case *given,
                           size_t seed, double *values, double *half, size_t *count, aur_error *error) {
-    aur_view_factors_options options = aur_view_factors_options_default();
+    aur_view_factors_options options = {.size = sizeof options};
+    aur_view_factors_options_init(&options, NULL);
     options.rays = given->rays;
     options.half_planes = given->rays / 2;
     options.seed = seed;

@@ -84,7 +84,8 @@ static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_
                                       .count = SENSORS,
                                       .positions = given->positions[0],
                                       .normals = given->normals[0]};
-    aur_irradiance_options options = aur_irradiance_options_default();
+    aur_irradiance_options options = {.size = sizeof options};
+    aur_irradiance_options_init(&options, NULL);
     options.seed = seed;
     options.error = asked;
     options.threads = lab_run_options(run)->threads;
@@ -142,7 +143,8 @@ static aur_result study_functional(lab_run *run, lab_tally pooled[2], aur_error 
     for (size_t kind = 0; kind < 2; ++kind) {
         lab_tally t = {0};
         for (size_t seed = 0; seed < seeds; ++seed) {
-            aur_estimate_options options = aur_estimate_options_default(3, 2);
+            aur_estimate_options options = {.size = sizeof options};
+            aur_estimate_options_init(3, 2, &options, NULL);
             aur_estimated found[2];
             aur_estimate_report how = {.size = sizeof how};
             options.seed = seed;

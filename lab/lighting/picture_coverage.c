@@ -19,13 +19,15 @@ typedef struct picture {
 
 static aur_result render(lab_run *run, aur_renderer *renderer, double asked, size_t seed, picture *made,
                          aur_error *error) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.integrator = "path";
     options.filter = "box";
     options.seed = seed;
     options.threads = lab_run_options(run)->threads;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = asked;
     wish.rounds = asked > 0.0 ? 0 : 2;
     aur_ask *ask = NULL;
@@ -112,7 +114,8 @@ static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *erro
     double truth = 0.0;
     for (size_t i = 0; i < seeds * RUNS && result == AUR_OK; ++i) {
         double points[2 * POINTS];
-        aur_pointset_options options = aur_pointset_options_default(POINTS);
+        aur_pointset_options options = {.size = sizeof options};
+        aur_pointset_options_init(POINTS, &options, NULL);
         options.scramble = AUR_SCRAMBLE_OWEN;
         options.seed = i;
         aur_pointset *set = NULL;

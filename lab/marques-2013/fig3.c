@@ -31,7 +31,8 @@ typedef struct study {
 static aur_result measure(const study *s, const marques_pattern *pattern, size_t count, uint64_t seed,
                           double value[METRICS], aur_error *error) {
     aur_points *points;
-    aur_measure_options how = aur_measure_options_default();
+    aur_measure_options how = {.size = sizeof how};
+    aur_measure_options_init(&how, NULL);
     how.threads = lab_run_options(s->run)->threads;
     aur_result result = marques_points(pattern, s->domain, count, seed, &points, error);
     for (size_t m = 0; m < METRICS && result == AUR_OK; ++m)

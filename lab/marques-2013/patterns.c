@@ -23,10 +23,12 @@ size_t marques_patterns(const lab_run *run, marques_pattern patterns[MARQUES_PAT
 
 aur_result marques_points(const marques_pattern *pattern, aur_domain domain, size_t count, uint64_t seed,
                           aur_points **points, aur_error *error) {
-    aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     options.map = pattern->map;
     options.scramble = pattern->scramble;
     options.seed = seed;
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     return aur_points_generate(pattern->set, &request, points, error);
 }

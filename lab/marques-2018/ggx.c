@@ -204,7 +204,8 @@ static aur_result compare(study *s, double alpha, double degrees, aur_error *err
     const double lights = (double)light_count(s);
     s->lobe = (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = alpha, .view_degrees = degrees};
     s->radians = degrees * 3.14159265358979323846 / 180.0;
-    aur_density density = aur_density_default();
+    aur_density density = {.size = sizeof density};
+    aur_density_init(&density, NULL);
     const aur_oswa_options two = patterns(s, DIFFUSE);
     aur_result result = aur_density_from_lobe(&s->lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
     if (result == AUR_OK)

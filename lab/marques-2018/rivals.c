@@ -95,7 +95,7 @@ static aur_result from_table(const study *s, uint64_t seed, rule *r, aur_error *
 /* Weights that take no merged solve. */
 static aur_result separate(const study *s, method m, rule *r, aur_error *error) {
     const double axis[3] = {-sin(s->radians), 0.0, cos(s->radians)};
-    aur_density densities[2] = {aur_density_default(), aur_density_default()};
+    aur_density densities[2] = {{.size = sizeof(aur_density)}, {.size = sizeof(aur_density)}};
     densities[0].exponent = 1.0;
     densities[1].exponent = 20.0;
     aur_strategy strategies[2] = {{.count = DIFFUSE, .sampled = {.exponent = 1.0}},

@@ -99,7 +99,8 @@ static aur_result add_row(lab_run *run, const shown *grid, const aur_points_view
                           double *uneven, aur_error *error) {
     static const char *const metrics[] = {"scd", "min-distance", "voronoi-deviation", "voronoi-max"};
     double values[4];
-    aur_measure_options how = aur_measure_options_default();
+    aur_measure_options how = {.size = sizeof how};
+    aur_measure_options_init(&how, NULL);
     how.threads = lab_run_options(run)->threads;
     for (size_t m = 0; m < 4; ++m) {
         const aur_result result = aur_measure(metrics[m], points, &how, &values[m], error);

@@ -33,7 +33,8 @@ static bool is_fixed(const char *set) {
 }
 
 static aur_result draw(const char *set, size_t count, uint64_t seed, double *xyz, aur_error *error) {
-    aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &options, NULL);
     options.scramble = is_fixed(set) || strcmp(set, "random") == 0 ? AUR_SCRAMBLE_NONE : AUR_SCRAMBLE_OWEN;
     options.seed = seed;
     aur_directions *directions;
@@ -54,9 +55,11 @@ static aur_result weigh(weighed *w, const aur_potential *const *potentials, size
     const size_t n = w->count;
     for (size_t i = 0; i < n; ++i)
         w->weights[EQUAL][i] = 1.0 / (double)n;
-    aur_measure_options measure = aur_measure_options_default();
+    aur_measure_options measure = {.size = sizeof measure};
+    aur_measure_options_init(&measure, NULL);
     measure.threads = threads;
-    aur_exact_options exact = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options exact = {.size = sizeof exact};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &exact, NULL);
     exact.threads = threads;
     aur_exact_report report = {0};
     aur_result result = AUR_OK;
@@ -122,7 +125,8 @@ static aur_result study(lab_run *run, const char *set, weighed *w, const aur_pot
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
-    aur_density density = aur_density_default();
+    aur_density density = {.size = sizeof density};
+    aur_density_init(&density, NULL);
     density.kind = AUR_DENSITY_SPHERE;
     aur_potential *potentials[KERNELS] = {NULL};
     aur_result result = AUR_OK;

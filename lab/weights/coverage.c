@@ -37,7 +37,8 @@ static aur_result study(lab_run *run, aur_domain domain, lab_class kind, double 
     double evaluations = 0.0, squares = 0.0;
     for (size_t seed = 0; seed < runs; ++seed) {
         lab_integrand integrand = lab_integrand_make(kind, seed);
-        aur_integrate_options options = aur_integrate_options_default(domain);
+        aur_integrate_options options = {.size = sizeof options};
+        aur_integrate_options_init(domain, &options, NULL);
         options.relative = tolerance;
         options.seed = seed;
         aur_integral integral = {.size = sizeof integral};

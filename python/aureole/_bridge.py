@@ -126,6 +126,11 @@ class Bridge:
         struct.size = self.ffi.sizeof(f"aur_{kind}")
         return self.fill(struct, **fields)
 
+    def initialize(self, struct: Any, init: Any, *inputs: Any) -> None:
+        """Fills a struct of options with its defaults by `aur_KIND_init(*inputs, struct, error)`."""
+        struct.size = self.ffi.sizeof(struct[0])
+        self.call(init, *inputs, struct)
+
     def fill(self, struct: Any, **fields: Any) -> Any:
         for name, value in fields.items():
             try:

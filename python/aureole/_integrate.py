@@ -47,7 +47,7 @@ def integrate(
     (4.18879, True)
     """
     options = ffi.new("aur_integrate_options *")
-    options[0] = lib.aur_integrate_options_default(core.value("domain", domain))
+    core.initialize(options, lib.aur_integrate_options_init, core.value("domain", domain))
     core.fill(
         options, cap_degrees=cap, exponent=exponent, relative=tol, absolute=absolute, confidence=confidence,
         replicates=replicates, evaluations=evaluations, seed=seed,
@@ -95,7 +95,7 @@ def estimate(
     """
     name = ffi.new("char[]", set.encode())
     options = ffi.new("aur_estimate_options *")
-    options[0] = lib.aur_estimate_options_default(dimension, values)
+    core.initialize(options, lib.aur_estimate_options_init, dimension, values)
     core.fill(
         options, set=name, relative=tol, absolute=absolute, confidence=confidence, replicates=replicates, first=first,
         evaluations=evaluations, seed=seed,

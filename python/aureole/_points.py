@@ -33,7 +33,7 @@ def directions_options(
     if density not in ("same", "optimal"):
         raise ArgumentError(f"density must be 'same' or 'optimal', not {density!r}")
     options = ffi.new("aur_directions_options *")
-    options[0] = lib.aur_directions_options_default(0, core.value("domain", domain))
+    core.initialize(options, lib.aur_directions_options_init, 0, core.value("domain", domain))
     core.fill(
         options, count=n, map=core.value("map", map), lobe=parse_lobe(lobe)[0], optimal_density=density == "optimal",
         smoothness=smoothness, cap_degrees=cap, scramble=core.value("scramble", scramble), seed=seed,
@@ -111,7 +111,7 @@ def points(
             call, n, domain or "square", map, lobe, density, smoothness, cap, scramble, seed
         )  # fmt: skip
         request = ffi.new("aur_points_request *")
-        request[0] = lib.aur_points_request_default(options)
+        core.initialize(request, lib.aur_points_request_init, options)
         core.fill(request, natural_domain=domain is None, dimension=dimension, first=first, count=count)
         made = ffi.new("aur_points **")
         core.call(lib.aur_points_generate, encode(set), request, made)

@@ -40,7 +40,7 @@ class Potential:
         nodes: Optional[ArrayLike] = None, masses: Optional[ArrayLike] = None,
     ):  # fmt: skip
         density = ffi.new("aur_density *")
-        density[0] = lib.aur_density_default()
+        core.initialize(density, lib.aur_density_init)
         self._call = CoreCall(function=function and (lambda xyz: [float(function(u)) for u in xyz]))
         if function is not None:
             density.kind = lib.AUR_DENSITY_FUNCTION
@@ -196,7 +196,7 @@ def weights_solve(
     """
     array = rows(xyz, 3, "xyz")
     options = ffi.new("aur_weights_options *")
-    options[0] = lib.aur_weights_options_default()
+    core.initialize(options, lib.aur_weights_options_init)
     core.fill(options, regularization=regularization, sum_constraint=sum_constraint)
     found = np.empty((len(potentials), len(array)))
     reports = ffi.new("aur_weights_report[]", max(1, len(potentials)))
@@ -222,7 +222,7 @@ def _exact_options(
     near: Optional[ArrayLike], negative: bool, threads: int,
 ) -> tuple[Any, Optional[Array]]:  # fmt: skip
     options = ffi.new("aur_exact_options *")
-    options[0] = lib.aur_exact_options_default(core.value("domain", domain or domain_of(array)))
+    core.initialize(options, lib.aur_exact_options_init, core.value("domain", domain or domain_of(array)))
     core.fill(options, cap_degrees=cap, lobe=parse_lobe(lobe)[0], negative=negative, threads=threads)
     if degree is not None:
         core.fill(options, degree=degree)
@@ -296,11 +296,11 @@ def rule(
     with CoreCall() as call:
         points = directions_options(call, n, domain, map, lobe, density, smoothness, 0.0, scramble, seed)
         weighing = ffi.new("aur_weights_options *")
-        weighing[0] = lib.aur_weights_options_default()
+        core.initialize(weighing, lib.aur_weights_options_init)
         core.fill(weighing, regularization=regularization, sum_constraint=sum_constraint)
         name = ffi.new("char[]", encode(set))
         options = ffi.new("aur_rule_options *")
-        options[0] = lib.aur_rule_options_default(points)
+        core.initialize(options, lib.aur_rule_options_init, points)
         core.fill(options, set=name, optimal=optimal, weights=weighing)
         xyz, found = np.empty((n, 3)), np.empty(n)
         core.call(lib.aur_rule_make, options, xyz.size, core.output(xyz), core.output(found))

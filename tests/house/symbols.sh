@@ -31,6 +31,12 @@ nm -D --undefined-only "$build"/libaureole-{render,lighting}.so | awk '{ sub(/@.
 sed -n 's/@@AUREOLE_PRIVATE_.*//p' aureole-render.txt aureole-lighting.txt | sort | comm -23 - needed.txt | grep . &&
   { echo "these are AUR_INTERNAL, and no other library needs them"; status=1; }
 
+# Every struct of options has a function that fills its defaults, which bindings can call: no inline code does.
+while read -r name; do
+  grep -qrE "\b${name}_init\(" "$source_tree/include" || { echo "no function fills $name"; status=1; }
+done < <(grep -rhoE '^typedef struct aur_[a-z0-9_]*_options\b' "$source_tree"/include/*/*.h | sed 's/.* //')
+grep -rnE '^static inline aur_.*_(default|options)\(' "$source_tree"/include/*/*.h && { echo "defaults in inline code"; status=1; }
+
 # Besides them the program does, which is a client of the public headers too, and the tests of two rooms.
 while read -r name; do
   grep -qE "\b$name\(" "$source_tree"/tests/house/calls/*.c \

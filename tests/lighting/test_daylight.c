@@ -133,7 +133,8 @@ static void test_hours(void **state) {
     aur_sky_patches patches;
     aur_lit_hours lit;
     assert_int_equal(aur_sky_patches_create(1, &patches, NULL), AUR_OK);
-    aur_daylight_options options = aur_daylight_options_default();
+    aur_daylight_options options = {.size = sizeof options};
+    aur_daylight_options_init(&options, NULL);
     options.from = 8;
     options.to = 18;
     options.efficacy = AUR_EFFICACY_CONSTANT;

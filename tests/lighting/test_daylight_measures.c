@@ -38,7 +38,8 @@ static double mean_of(const double *lanes) {
 static aur_daylight measured(const made_year *year, size_t counted) {
     static double scratch[2 * HOURS];
     const aur_lit_hours lit = {.count = HOURS, .counted = counted, .hours = (aur_lit_hour *)year->hours};
-    aur_daylight_options options = aur_daylight_options_default();
+    aur_daylight_options options = {.size = sizeof options};
+    aur_daylight_options_init(&options, NULL);
     options.threshold = 300.0;
     options.useful[0] = 100.0;
     options.useful[1] = 2000.0;

@@ -17,7 +17,8 @@ static aur_facets *load_room(const double offset[3], bool group) {
     mesh_begin(&file, "place-room");
     moved_box(&file, &place, "room", (double[3]){0, 0, 0}, (double[3]){4, 3, 2.5}, true);
     moved_box(&file, &place, "table", (double[3]){1, 1.2, 0.7}, (double[3]){2.2, 2, 0.72}, false);
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = group;
     return mesh_load(&file, &options);
 }
@@ -35,14 +36,16 @@ static aur_facets *load_street(const double offset[3], bool both_sides) {
     }
     moved_box(&file, &place, "west", (double[3]){-13, -20, 0}, (double[3]){-3, 20, 10}, false);
     moved_box(&file, &place, "east", (double[3]){3, -20, 0}, (double[3]){13, 20, 14}, false);
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = true;
     options.both_sides = both_sides;
     return mesh_load(&file, &options);
 }
 
 static aur_view_factors_options wish_of(uint64_t seed, bool rays_only) {
-    aur_view_factors_options wish = aur_view_factors_options_default();
+    aur_view_factors_options wish = {.size = sizeof wish};
+    aur_view_factors_options_init(&wish, NULL);
     wish.rays = 256;
     wish.half_planes = 64;
     wish.seed = seed;
@@ -151,7 +154,8 @@ static void test_street(void **state) {
 static void add_radiosities(sample *s, const aur_facets *facets, uint64_t seed, bool matrix, bool sun) {
     const size_t rows = aur_facets_rows(facets);
     const aur_view_factors_options wish = wish_of(seed, false);
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     light.reflectance = 0.3;
     light.sky = 1.0;
     for (int d = 0; sun && d < 3; ++d)
@@ -245,7 +249,8 @@ static void test_sky_coverage(void **state) {
                                       {o[0], o[1] + 1.0, o[2] + 1.0},
                                       {o[0] + 1.0, o[1] + 1.0, o[2] + 1.0},
                                       {o[0] + 1.0, o[1], o[2] + 1.0}});
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = true;
     aur_facets *const facets = mesh_load(&file, &options);
     static const double confidences[] = {0.8, 0.95};
@@ -288,7 +293,8 @@ static void test_small_facets(void **state) {
                                               {o[0], o[1] + size, o[2] + size},
                                               {o[0] + size, o[1] + size, o[2] + size},
                                               {o[0] + size, o[1], o[2] + size}});
-            aur_facets_options options = aur_facets_options_default();
+            aur_facets_options options = {.size = sizeof options};
+            aur_facets_options_init(&options, NULL);
             aur_facets *const facets = mesh_load(&file, &options);
             const aur_view_factors_options wish = wish_of(1, false);
             aur_view_factors_matrix m;
@@ -315,7 +321,8 @@ static void test_far_speck(void **state) {
         mesh_group(&file, "speck");
         if (far)
             mesh_polygon(&file, 3, (const double[3][3]){{3e6, 0, 9}, {3e6, 1, 9}, {3e6, 0, 8}});
-        aur_facets_options options = aur_facets_options_default();
+        aur_facets_options options = {.size = sizeof options};
+        aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
         const aur_view_factors_options wish = wish_of(3, false);
@@ -338,7 +345,8 @@ static void test_wide_ground(void **state) {
         mesh_group(&file, "ground");
         mesh_polygon(&file, 4, (const double[4][3]){{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}});
         mesh_box(&file, "table", (double[3]){0.1, 0.2, 0.01}, (double[3]){0.11, 0.21, 0.02}, false, true);
-        aur_facets_options options = aur_facets_options_default();
+        aur_facets_options options = {.size = sizeof options};
+        aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
         aur_view_factors_options wish = wish_of(1, true);

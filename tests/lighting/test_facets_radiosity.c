@@ -12,7 +12,8 @@ static void test_closed_room(void **state) {
     mesh_begin(&file, "glow");
     mesh_box(&file, "side", (double[3]){0, 0, 0}, (double[3]){2, 3, 1}, true, true);
     aur_facets *const facets = mesh_load(&file, NULL);
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     light.reflectance = 0.75;
     light.emission = 2.0;
     double radiosity[12], half[12];
@@ -34,7 +35,8 @@ static aur_facets *load_shade(void) {
     mesh_polygon(&file, 4, (const double[4][3]){{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}});
     mesh_group(&file, "roof");
     mesh_polygon(&file, 4, (const double[4][3]){{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}});
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = true;
     return mesh_load(&file, &options);
 }
@@ -42,7 +44,8 @@ static aur_facets *load_shade(void) {
 static void test_sun(void **state) {
     (void)state;
     aur_facets *const facets = load_shade();
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     light.reflectance = 0.5;
     light.sun[2] = 10.0;
     aur_view_factors *factors = NULL;
@@ -79,13 +82,15 @@ static void test_both_ways(void **state) {
     aur_facets *const facets = mesh_load(&file, NULL);
     const size_t rows = aur_facets_rows(facets);
     assert_int_equal(rows, 14);
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     light.reflectance = 0.6;
     light.sky = 1.0;
     light.emission = 0.5;
     light.sun[0] = 1.0;
     light.sun[2] = 2.0;
-    aur_view_factors_options wish = aur_view_factors_options_default();
+    aur_view_factors_options wish = {.size = sizeof wish};
+    aur_view_factors_options_init(&wish, NULL);
     wish.rays = 4096;
     aur_view_factors *factors = NULL;
     assert_int_equal(aur_view_factors_create(facets, &wish, &factors, NULL), AUR_OK);
@@ -117,12 +122,14 @@ static void test_half_widths_hold(void **state) {
     (void)state;
     enum { SEEDS = 2000 };
     aur_facets *const facets = load_shade();
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     light.reflectance = 0.5;
     light.sun[2] = 10.0;
     static const double confidences[] = {0.8, 0.95};
     for (size_t k = 0; k < 2; ++k) {
-        aur_view_factors_options options = aur_view_factors_options_default();
+        aur_view_factors_options options = {.size = sizeof options};
+        aur_view_factors_options_init(&options, NULL);
         options.rays = 64;
         options.confidence = confidences[k];
         size_t inside = 0;

@@ -28,7 +28,8 @@ static aur_view_factors_description description_of(const aur_view_factors *facto
 static void test_shares(void **state) {
     (void)state;
     aur_facets *const facets = load_plates();
-    aur_view_factors_options options = aur_view_factors_options_default();
+    aur_view_factors_options options = {.size = sizeof options};
+    aur_view_factors_options_init(&options, NULL);
     options.rays = 512;
     options.confidence = 0.9;
     aur_view_factors_matrix m;
@@ -61,7 +62,8 @@ static void test_shares(void **state) {
 static void test_balance(void **state) {
     (void)state;
     aur_facets *const facets = load_plates();
-    aur_view_factors_options options = aur_view_factors_options_default();
+    aur_view_factors_options options = {.size = sizeof options};
+    aur_view_factors_options_init(&options, NULL);
     options.rays = 64;
     options.randomizations = 4;
     options.rays_only = true;
@@ -108,7 +110,8 @@ static void test_unbalanced(void **state) {
     aur_facets *const facets = mesh_load(&file, NULL);
     size_t unbalanced = 0;
     for (uint64_t seed = 0; seed < 8; ++seed) {
-        aur_view_factors_options options = aur_view_factors_options_default();
+        aur_view_factors_options options = {.size = sizeof options};
+        aur_view_factors_options_init(&options, NULL);
         options.rays = options.randomizations = 2;
         options.rays_only = true;
         options.seed = seed;

@@ -28,7 +28,8 @@ static void check_gap(double height, double x, double y, bool room, const mesh_p
               false);
     if (room)
         moved_box(&file, place, "room", (double[3]){-1.5, -2, -1}, (double[3]){2.5, 3, 4}, true);
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = true;
     aur_facets *const facets = mesh_load(&file, &options);
     aur_view_factors_matrix m;
@@ -87,7 +88,8 @@ static void check_stood_on(double gap, const mesh_place *place) {
     moved_box(&file, place, "right", (double[3]){1 + gap, 0, 0}, (double[3]){2, 1, 1}, false);
     moved_box(&file, place, "top", (double[3]){0.5, 0.5, 1}, (double[3]){1.5, 0.8, 2}, false);
     moved_box(&file, place, "room", (double[3]){-1, -1, -1}, (double[3]){3, 3, 4}, true);
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = true;
     aur_facets *const facets = mesh_load(&file, &options);
     aur_view_factors_matrix m;
@@ -122,7 +124,8 @@ static void test_face_down(void **state) {
         moved_box(&file, &place, "room", (double[3]){0, 0, 0}, (double[3]){4, 5, 3}, true);
         mesh_group(&file, "sheet");
         moved_polygon(&file, &place, 4, (const double[4][3]){{1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}});
-        aur_facets_options options = aur_facets_options_default();
+        aur_facets_options options = {.size = sizeof options};
+        aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
         aur_view_factors_matrix m;
@@ -161,7 +164,8 @@ static aur_facets *load_rugs(double gap, size_t layers, bool rugs_first, const m
                           (const double[4][3]){{0.1, 0.1, z}, {0.6, 0.1, z}, {0.6, 0.9, z}, {0.1, 0.9, z}});
         }
     }
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = options.both_sides = true;
     return mesh_load(&file, &options);
 }
@@ -193,12 +197,14 @@ static void check_rugs(double gap, size_t layers, bool rugs_first, const mesh_pl
     const size_t rows = layers + 1, floor = rugs_first ? layers : 0, first = rugs_first ? 0 : 1;
     const double slack = lost_past_edges(gap) + 1e-6;
     assert_int_equal(aur_facets_rows(facets), 2 * rows);
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     light.reflectance = 0.5;
     light.emission = 1.0;
     light.sky = 0.0;
     for (int mode = 0; mode < 3; ++mode) {
-        aur_view_factors_options options = aur_view_factors_options_default();
+        aur_view_factors_options options = {.size = sizeof options};
+        aur_view_factors_options_init(&options, NULL);
         options.rays_only = mode == 1;
         aur_view_factors_matrix m;
         aur_view_factors *const factors = mode < 2 ? factors_of(facets, &options, &m) : NULL;

@@ -1,5 +1,8 @@
 /* Facets in one plane: the first in the file wins. */
 #include "lighting/viewfactors/facets.h"
+
+#include <string.h>
+
 #include "moved_mesh.h"
 #include "points/base/random.h"
 #include "points/base/text.h"
@@ -30,7 +33,8 @@ static double dice(uint64_t seed, uint64_t number) {
 static void check_plane(uint64_t seed, size_t count, const mesh_place *place, const char *digits) {
     enum { MOST = 24, POINTS = 400 };
     triangle triangles[MOST];
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.both_sides = true;
     mesh_file file;
     mesh_begin(&file, "plane");
@@ -109,7 +113,8 @@ static size_t count_cut(double height, double shift, bool over, bool both_sides)
     const double b[4][3] = {
         {shift, 0, height}, {shift, 1, height}, {1 + shift, 1, height}, {1 + shift, 0, height}};
     mesh_polygon(&file, 4, over ? b : a);
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.both_sides = both_sides;
     aur_facets *const facets = mesh_load(&file, &options);
     const size_t count = facets->scene->overlap.count;
@@ -153,10 +158,12 @@ static void test_sheet(void **state) {
         mesh_polygon(&file, 4, (const double[4][3]){{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}});
         mesh_group(&file, "below");
         mesh_polygon(&file, 4, (const double[4][3]){{0, 0, -1}, {1, 0, -1}, {1, 1, -1}, {0, 1, -1}});
-        aur_facets_options options = aur_facets_options_default();
+        aur_facets_options options = {.size = sizeof options};
+        aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
-        aur_view_factors_options wish = aur_view_factors_options_default();
+        aur_view_factors_options wish = {.size = sizeof wish};
+        aur_view_factors_options_init(&wish, NULL);
         wish.rays = 1 << 16;
         wish.rays_only = true;
         aur_view_factors_matrix exact, m;

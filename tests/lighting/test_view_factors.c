@@ -5,7 +5,8 @@
 #include "mesh_text.h"
 
 static aur_facets_options grouped(void) {
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     options.group = true;
     return options;
 }
@@ -172,12 +173,14 @@ static aur_facets *load_yard(const aur_facets_options *options) {
 
 static void test_physics_and_threads(void **state) {
     (void)state;
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     for (int variant = 0; variant < 4; ++variant) {
         options.group = variant == 1;
         options.both_sides = variant == 2;
         aur_facets *const facets = load_yard(&options);
-        aur_view_factors_options wish = aur_view_factors_options_default();
+        aur_view_factors_options wish = {.size = sizeof wish};
+        aur_view_factors_options_init(&wish, NULL);
         wish.rays = 512;
         wish.rays_only = variant == 3;
         wish.seed = 5;
@@ -214,7 +217,8 @@ static void test_intervals(void **state) {
     aur_view_factors *const closed = factors_of(facets, NULL, &exact);
     size_t held = 0, all = 0;
     for (uint64_t seed = 0; seed < 60; ++seed) {
-        aur_view_factors_options wish = aur_view_factors_options_default();
+        aur_view_factors_options wish = {.size = sizeof wish};
+        aur_view_factors_options_init(&wish, NULL);
         wish.rays_only = true;
         wish.rays = 256;
         wish.seed = seed;
@@ -241,7 +245,8 @@ static void test_product(void **state) {
     (void)state;
     aur_facets *const facets = load_yard(NULL);
     const size_t rows = aur_facets_rows(facets);
-    aur_view_factors_options wish = aur_view_factors_options_default();
+    aur_view_factors_options wish = {.size = sizeof wish};
+    aur_view_factors_options_init(&wish, NULL);
     aur_view_factors_matrix m;
     aur_view_factors *const factors = factors_of(facets, &wish, &m);
     double *const numbers = malloc(3 * rows * sizeof *numbers);
@@ -273,7 +278,8 @@ static void test_errors(void **state) {
     aur_facets *const facets = load_yard(NULL);
     aur_view_factors *factors;
     aur_error error;
-    aur_view_factors_options wish = aur_view_factors_options_default();
+    aur_view_factors_options wish = {.size = sizeof wish};
+    aur_view_factors_options_init(&wish, NULL);
     wish.rays = 4;
     assert_int_equal(aur_view_factors_create(facets, &wish, &factors, &error), AUR_ERROR_ARGUMENT);
     wish.rays = 0;

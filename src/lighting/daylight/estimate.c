@@ -65,7 +65,8 @@ static aur_result check_options(const aur_daylight_options *o, aur_error *error)
 
 static aur_result read_options(const aur_daylight_options *given, aur_daylight_options *o, aur_error *error) {
     static const double REC709[3] = {0.2126, 0.7152, 0.0722};
-    *o = aur_daylight_options_default();
+    o->size = sizeof(aur_daylight_options);
+    aur_daylight_options_init(o, NULL);
     const aur_result result = aur_options_read(given, sizeof *o, o, "aur_daylight_options", error);
     if (result != AUR_OK)
         return result;
@@ -323,4 +324,9 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
     free(w.overcast);
     free(w.series);
     return result;
+}
+
+aur_result aur_daylight_options_init(aur_daylight_options *options, aur_error *error) {
+    static const aur_daylight_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_daylight_options", error);
 }

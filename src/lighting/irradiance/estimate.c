@@ -41,7 +41,8 @@ static const double REC709[3] = {0.2126, 0.7152, 0.0722};
 
 static aur_result read_options(const aur_irradiance_options *given, aur_irradiance_options *o,
                                aur_error *error) {
-    *o = aur_irradiance_options_default();
+    o->size = sizeof(aur_irradiance_options);
+    aur_irradiance_options_init(o, NULL);
     const aur_result result = aur_options_read(given, sizeof *o, o, "aur_irradiance_options", error);
     if (result != AUR_OK)
         return result;
@@ -261,4 +262,9 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     aur_sampler_destroy(w.sampler);
     free(w.path.classes);
     return result;
+}
+
+aur_result aur_irradiance_options_init(aur_irradiance_options *options, aur_error *error) {
+    static const aur_irradiance_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_irradiance_options", error);
 }

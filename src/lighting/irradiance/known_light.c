@@ -31,7 +31,8 @@ static aur_result find_map(const aur_scene *scene, const aur_irradiance_options 
 
 static aur_result solve(const aur_scene *scene, const aur_irradiance_options *o, aur_known_light *known,
                         aur_error *error) {
-    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity_options options = {.size = sizeof options};
+    aur_radiosity_options_init(&options, NULL);
     options.seed = o->seed;
     options.bounces = BOUNCES;
     options.threads = o->threads;

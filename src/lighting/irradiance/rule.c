@@ -32,7 +32,8 @@ static aur_result fill(const char *set, const aur_directions_options *options, d
 aur_result aur_sensor_rule_create(const char *set, size_t count, uint64_t seed, const aur_warnings *warnings,
                                   aur_sensor_rule *rule, aur_error *error) {
     *rule = (aur_sensor_rule){.count = count};
-    aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_HEMISPHERE, &options, NULL);
     options.seed = seed;
     options.warnings = *warnings;
     double *const xyz = malloc(3 * count * sizeof *xyz);

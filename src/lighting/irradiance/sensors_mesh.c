@@ -82,7 +82,8 @@ static aur_result stand_on_vertices(const aur_mesh *mesh, const char *path, aur_
 
 aur_result aur_sensors_take_mesh(const char *path, const aur_sensors_options *options, aur_sensors *sensors,
                                  aur_error *error) {
-    aur_facets_options load = aur_facets_options_default();
+    aur_facets_options load = {.size = sizeof load};
+    aur_facets_options_init(&load, NULL);
     aur_facets *facets = NULL;
     load.warnings = options->warnings;
     aur_result result = aur_facets_load_uncut(path, &load, &facets, error);

@@ -67,7 +67,8 @@ static void lift(double distance, aur_sensors *sensors) {
 aur_result aur_sensors_read(const char *path, const aur_sensors_options *given, aur_sensors **sensors,
                             aur_error *error) {
     *sensors = NULL;
-    aur_sensors_options options = aur_sensors_options_default();
+    aur_sensors_options options = {.size = sizeof options};
+    aur_sensors_options_init(&options, NULL);
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_sensors_options", error);
     if (result == AUR_OK && !isfinite(options.lift))
         result =
@@ -90,4 +91,9 @@ aur_result aur_sensors_read(const char *path, const aur_sensors_options *given, 
         lift(options.lift, made);
     *sensors = made;
     return AUR_OK;
+}
+
+aur_result aur_sensors_options_init(aur_sensors_options *options, aur_error *error) {
+    static const aur_sensors_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_sensors_options", error);
 }

@@ -37,7 +37,8 @@ static uint32_t direction_key(double u, double v) {
 }
 
 aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double *points, aur_error *error) {
-    aur_pointset_options options = aur_pointset_options_default(count);
+    aur_pointset_options options = {.size = sizeof options};
+    aur_pointset_options_init(count, &options, NULL);
     options.dimension = DIMENSIONS;
     options.scramble = AUR_SCRAMBLE_OWEN;
     options.seed = seed;

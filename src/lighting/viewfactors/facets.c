@@ -190,7 +190,8 @@ static aur_result make_rows(aur_facets *facets, const aur_facets_options *option
 static aur_result load(const char *path, const aur_facets_options *given, bool uncut, aur_facets **made,
                        aur_error *error) {
     *made = NULL;
-    aur_facets_options options = aur_facets_options_default();
+    aur_facets_options options = {.size = sizeof options};
+    aur_facets_options_init(&options, NULL);
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_facets_options", error);
     const aur_overlap_rule rule = uncut                ? AUR_OVERLAPS_STAY
                                   : options.both_sides ? AUR_OVERLAPS_CUT
@@ -208,7 +209,8 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
         free(facets);
         return aur_fail_memory(error);
     }
-    aur_scene_options scene = aur_scene_options_default();
+    aur_scene_options scene = {.size = sizeof scene};
+    aur_scene_options_init(&scene, NULL);
     scene.warnings = options.warnings;
     scene.definition_count = options.definition_count;
     scene.confine = options.confine;
@@ -299,4 +301,9 @@ void aur_patch_corners(const aur_facets *facets, size_t patch, double corners[3]
     memcpy(swap, corners[1], sizeof swap);
     memcpy(corners[1], corners[2], sizeof swap);
     memcpy(corners[2], swap, sizeof swap);
+}
+
+aur_result aur_facets_options_init(aur_facets_options *options, aur_error *error) {
+    static const aur_facets_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_facets_options", error);
 }

@@ -229,7 +229,8 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
                                       const aur_view_factors_options *given, const aur_facets_light *sources,
                                       double *radiosity, double *half_widths, double *sky, aur_error *error) {
     aur_view_factors_options options;
-    aur_facets_light light = aur_facets_light_default();
+    aur_facets_light light = {.size = sizeof light};
+    aur_facets_light_init(&light, NULL);
     aur_result result = aur_view_factors_read_options(given, &options, error);
     if (result == AUR_OK)
         result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
@@ -268,4 +269,9 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
     free(s.sun);
     free(numbers);
     return result;
+}
+
+aur_result aur_facets_light_init(aur_facets_light *light, aur_error *error) {
+    static const aur_facets_light defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, light, "aur_facets_light", error);
 }

@@ -21,7 +21,8 @@ static size_t usual_half_planes(const aur_view_factors_options *options) {
 
 aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
                                          aur_view_factors_options *options, aur_error *error) {
-    *options = aur_view_factors_options_default();
+    options->size = sizeof(aur_view_factors_options);
+    aur_view_factors_options_init(options, NULL);
     const aur_result result =
         aur_options_read(given, sizeof *options, options, "aur_view_factors_options", error);
     if (result != AUR_OK)
@@ -256,4 +257,9 @@ aur_result aur_view_factors_describe(const aur_view_factors *factors,
                                      aur_view_factors_description *description, aur_error *error) {
     const aur_view_factors_description *const own = &factors->description;
     return aur_description_write(own, sizeof *own, description, "aur_view_factors_description", error);
+}
+
+aur_result aur_view_factors_options_init(aur_view_factors_options *options, aur_error *error) {
+    static const aur_view_factors_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_view_factors_options", error);
 }

@@ -57,6 +57,7 @@ aur_result aur_check_smoothness(double smoothness, aur_error *error) {
 }
 
 aur_result aur_weights_options_init(aur_weights_options *options, aur_error *error) {
-    const aur_weights_options own = aur_weights_options_default();
-    return aur_description_write(&own, sizeof own, options, "aur_weights_options", error);
+    static const aur_weights_options defaults = {
+        .size = sizeof defaults, .regularization = AUR_REGULARIZATION_DEFAULT, .sum_constraint = true};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_weights_options", error);
 }

@@ -130,7 +130,8 @@ static aur_result print_json(const aur_ask *ask, const char *output, aur_error *
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
                            const cli_surroundings *beside, aur_ask **made, aur_image **image,
                            aur_error *error) {
-    aur_ask_options own = aur_ask_options_default();
+    aur_ask_options own = {.size = sizeof own};
+    aur_ask_options_init(&own, NULL);
     own.error = wish->error;
     own.bias = wish->bias;
     own.seconds = wish->seconds;

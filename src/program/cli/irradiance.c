@@ -188,7 +188,8 @@ static int run(const cli_call *call) {
     given->columns.size = sizeof given->columns;
     if (cli_given(call, "illuminance") != NULL)
         set_illuminance(given);
-    aur_scene_options load = aur_scene_options_default();
+    aur_scene_options load = {.size = sizeof load};
+    aur_scene_options_init(&load, NULL);
     load.definition_count = given->definitions.count;
     load.definitions = given->definitions.items;
     load.confine = given->definitions.confine;

@@ -143,8 +143,10 @@ static int check_set(const char *set) {
     aur_points *points = NULL;
     if (set == NULL)
         return CLI_SUCCESS;
-    const aur_directions_options some = aur_directions_options_default(16, AUR_DOMAIN_SPHERE);
-    const aur_points_request request = aur_points_request_default(&some);
+    aur_directions_options some = {.size = sizeof some};
+    aur_directions_options_init(16, AUR_DOMAIN_SPHERE, &some, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&some, &request, NULL);
     const aur_result result = aur_points_generate(set, &request, &points, &error);
     aur_points_destroy(points);
     const bool wrong = result == AUR_ERROR_NAME || result == AUR_ERROR_FORMAT || result == AUR_ERROR_OPEN;

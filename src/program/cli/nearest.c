@@ -35,7 +35,8 @@ static int find(const nearest_command *wanted, const aur_points_view *points,
     if (points->domain != queries->domain || points->dimension != queries->dimension)
         return cli_bad_usage("nearest: the points are on the %s and the queries on the %s: give --domain",
                              aur_domain_name(points->domain), aur_domain_name(queries->domain));
-    aur_nearest_options how = aur_nearest_options_default();
+    aur_nearest_options how = {.size = sizeof how};
+    aur_nearest_options_init(&how, NULL);
     how.neighbours = wanted->neighbours;
     how.threads = wanted->common.threads;
     how.progress = cli_progress(wanted->common.quiet);

@@ -95,7 +95,8 @@ static aur_result load(const char *text, const cli_points *from, size_t count, a
     aur_directions_options options = from->options;
     options.size = sizeof options;
     options.count = count;
-    aur_points_request request = aur_points_request_default(&options);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     request.natural_domain = from->natural_domain;
     const bool cube = from->natural_domain || domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
     request.dimension = cube ? from->dimension : 0;

@@ -138,7 +138,8 @@ static report_table *tabulate(const aur_points_view *points, double cap_degrees,
 }
 
 static int find_cells(const voronoi_command *wanted, const aur_points_view *points, aur_error *error) {
-    aur_measure_options how = aur_measure_options_default();
+    aur_measure_options how = {.size = sizeof how};
+    aur_measure_options_init(&how, NULL);
     how.cap_degrees = wanted->from.options.cap_degrees;
     how.threads = wanted->common.threads;
     static const cli_phase phases[] = {

@@ -37,7 +37,8 @@ static aur_result prepare_lobes(weights_job *task, aur_error *error) {
         aur_lobe lobe = k == 0 ? points->lobe : arguments->mirror;
         if (k == 1 && lobe.kind == AUR_LOBE_GGX)
             lobe.view_degrees = arguments->degrees;
-        aur_density density = aur_density_default();
+        aur_density density = {.size = sizeof density};
+        aur_density_init(&density, NULL);
         aur_result result = aur_density_from_lobe(&lobe, task->result->domain, &density, error);
         if (result != AUR_OK)
             return result;

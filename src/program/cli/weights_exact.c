@@ -7,7 +7,8 @@
 aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_weights_result *result,
                                  aur_error *error) {
     const aur_directions_options *const points = &arguments->points.options;
-    aur_exact_options options = aur_exact_options_default(result->domain);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(result->domain, &options, NULL);
     options.cap_degrees = points->cap_degrees;
     options.lobe = points->lobe;
     options.degree = arguments->degree;
@@ -42,7 +43,8 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
 aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weights_result *result,
                                 aur_error *error) {
     const aur_directions_options *const points = &arguments->points.options;
-    aur_measure_options options = aur_measure_options_default();
+    aur_measure_options options = {.size = sizeof options};
+    aur_measure_options_init(&options, NULL);
     options.cap_degrees = points->cap_degrees;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);

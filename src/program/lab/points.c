@@ -3,9 +3,11 @@
 #include <math.h>
 
 aur_result lab_points_make(const lab_points *points, aur_points **made, aur_error *error) {
-    aur_directions_options set = aur_directions_options_default(points->size, points->domain);
+    aur_directions_options set = {.size = sizeof set};
+    aur_directions_options_init(points->size, points->domain, &set, NULL);
     set.map = points->map;
-    aur_points_request request = aur_points_request_default(&set);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&set, &request, NULL);
     request.first = points->first;
     request.count = points->count;
     return aur_points_generate(points->set, &request, made, error);
@@ -17,7 +19,8 @@ aur_result lab_figure(const lab_points *points, const char *metric, size_t threa
     const aur_result result = lab_points_make(points, &made, error);
     if (result != AUR_OK)
         return result;
-    aur_measure_options how = aur_measure_options_default();
+    aur_measure_options how = {.size = sizeof how};
+    aur_measure_options_init(&how, NULL);
     how.threads = threads;
     const aur_result measured = aur_measure(metric, aur_points_look(made), &how, value, error);
     aur_points_destroy(made);

@@ -204,7 +204,8 @@ static aur_result keep_options(aur_ask *ask, aur_renderer *renderer, const aur_r
 
 static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render_options *given,
                           aur_error *error) {
-    aur_render_options own = aur_render_options_default();
+    aur_render_options own = {.size = sizeof own};
+    aur_render_options_init(&own, NULL);
     aur_result result = aur_options_read(given, sizeof own, &own, "aur_render_options", error);
     if (result == AUR_OK)
         result = aur_ask_choose(aur_renderer_scene(renderer), own.integrator, &ask->trial.integrator,
@@ -252,7 +253,8 @@ aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *rend
     if (ask == NULL)
         return aur_fail_memory(error);
     atomic_init(&ask->cancelled, false);
-    ask->wish = aur_ask_options_default();
+    ask->wish.size = sizeof(aur_ask_options);
+    aur_ask_options_init(&ask->wish, NULL);
     aur_result result = aur_options_read(options, sizeof ask->wish, &ask->wish, "aur_ask_options", error);
     if (result == AUR_OK)
         result = check_wish(&ask->wish, error);
@@ -361,4 +363,9 @@ const char *aur_ask_integrator(const aur_ask *ask) {
 
 aur_result aur_ask_develop(const aur_ask *ask, bool errors, aur_image **image, aur_error *error) {
     return aur_replicas_develop(&ask->trial.replicas, errors, image, error);
+}
+
+aur_result aur_ask_options_init(aur_ask_options *options, aur_error *error) {
+    static const aur_ask_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_ask_options", error);
 }

@@ -184,7 +184,8 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     const aur_stopwatch start = aur_stopwatch_start();
     const uint64_t before = aur_rays_traced;
     aur_render_options *const own = &render->settings;
-    *own = aur_render_options_default();
+    own->size = sizeof(aur_render_options);
+    aur_render_options_init(own, NULL);
     aur_result result = aur_options_read(options, sizeof *own, own, "aur_render_options", error);
     if (result == AUR_OK)
         result = prepare(render, error);
@@ -461,4 +462,9 @@ aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options 
     }
     aur_render_destroy(render);
     return result;
+}
+
+aur_result aur_render_options_init(aur_render_options *options, aur_error *error) {
+    static const aur_render_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_render_options", error);
 }

@@ -94,7 +94,7 @@ aur_result aur_image_find_writer(const char *path, const char *format, const aur
 
 static aur_result write_image(const char *path, const aur_image *image,
                               const aur_image_write_options *options, aur_error *error) {
-    aur_image_target target = {.name = path, .options = aur_image_write_options_default()};
+    aur_image_target target = {.name = path, .options = {.size = sizeof target.options}};
     aur_image_write_options *const own = &target.options;
     aur_result result = aur_options_read(options, sizeof *own, own, "aur_image_write_options", error);
     if (result != AUR_OK)
@@ -125,4 +125,9 @@ static aur_result write_image(const char *path, const aur_image *image,
 aur_result aur_image_write(const char *path, const aur_image *image, const aur_image_write_options *options,
                            aur_error *error) {
     return aur_fail_in(error, write_image(path, image, options, error), path);
+}
+
+aur_result aur_image_write_options_init(aur_image_write_options *options, aur_error *error) {
+    static const aur_image_write_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_image_write_options", error);
 }

@@ -146,7 +146,8 @@ static aur_result read_solution(aur_word_reader *in, const aur_scene *scene, con
 aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const aur_radiosity_options *options,
                               aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
-    aur_radiosity_options own = aur_radiosity_options_default();
+    aur_radiosity_options own = {.size = sizeof own};
+    aur_radiosity_options_init(&own, NULL);
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_radiosity_options", error);
     if (result != AUR_OK)
         return result;

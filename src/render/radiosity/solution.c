@@ -68,7 +68,8 @@ static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *e
 aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
                                 aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
-    aur_radiosity_options wanted = aur_radiosity_options_default();
+    aur_radiosity_options wanted = {.size = sizeof wanted};
+    aur_radiosity_options_init(&wanted, NULL);
     aur_result result = aur_options_read(options, sizeof wanted, &wanted, "aur_radiosity_options", error);
     if (result == AUR_OK)
         result = check_options(&wanted, error);
@@ -325,4 +326,10 @@ aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_err
     if (result == AUR_OK)
         warn_of_ends(radiosity);
     return result;
+}
+
+aur_result aur_radiosity_options_init(aur_radiosity_options *options, aur_error *error) {
+    static const aur_radiosity_options defaults = {
+        .size = sizeof defaults, .bounces = 6, .randomizations = 1};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_radiosity_options", error);
 }

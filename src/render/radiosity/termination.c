@@ -63,7 +63,11 @@ aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity
     return result;
 }
 
-aur_result aur_radiosity_options_init(aur_radiosity_options *options, aur_error *error) {
-    const aur_radiosity_options own = aur_radiosity_options_default();
-    return aur_description_write(&own, sizeof own, options, "aur_radiosity_options", error);
+aur_result aur_radiosity_termination_init(double epsilon, aur_radiosity_termination *rule, aur_error *error) {
+    static const aur_radiosity_termination defaults = {.size = sizeof defaults};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, rule, "aur_radiosity_termination", error);
+    if (result == AUR_OK)
+        rule->epsilon = epsilon;
+    return result;
 }

@@ -168,7 +168,8 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
 static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
                        bool keep_points, aur_overlap_rule rule, aur_scene **scene, aur_error *error) {
     *scene = NULL;
-    aur_scene_options options = aur_scene_options_default();
+    aur_scene_options options = {.size = sizeof options};
+    aur_scene_options_init(&options, NULL);
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_scene_options", error);
     if (result != AUR_OK)
         return result;
@@ -329,4 +330,9 @@ const double *aur_scene_origin(const aur_scene *scene) {
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper) {
     *lower = scene->lower;
     *upper = scene->upper;
+}
+
+aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error) {
+    static const aur_scene_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_scene_options", error);
 }

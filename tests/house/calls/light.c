@@ -44,7 +44,8 @@ static void pictures(void) {
     aur_image_count_odd(image, 1, odd);
     require(odd[0] + odd[1] + odd[2] == 0 && aur_image_notes(image)[0] == '\0',
             "values that are as they should be");
-    aur_image_write_options options = aur_image_write_options_default();
+    aur_image_write_options options = {.size = sizeof options};
+    aur_image_write_options_init(&options, NULL);
     const aur_row *row;
     accept(aur_image_find_writer("calls.png", NULL, &row, &error), &error);
     require(aur_row_find_key(row, "tone") != NULL && aur_row_find_key(row, "half") == NULL, "keys of PNG");
@@ -104,7 +105,8 @@ static void pictures(void) {
 
 static aur_scene *scenes(void) {
     aur_scene *scene = NULL;
-    const aur_scene_options options = aur_scene_options_default();
+    aur_scene_options options = {.size = sizeof options};
+    aur_scene_options_init(&options, NULL);
     refuse(aur_scene_load("no such folder/calls.xml", &options, &scene, &error), AUR_ERROR_OPEN, &error);
     refuse(aur_scene_load_memory("calls", 3, "<a>", &options, &scene, &error), AUR_ERROR_FORMAT, &error);
     accept(aur_scene_load_memory("calls", sizeof scene_text - 1, scene_text, &options, &scene, &error),
@@ -139,7 +141,8 @@ static void renders(const aur_scene *scene) {
     require(aur_render_table_at(0) != NULL && aur_render_table_at(1000) == NULL, "aur_render_table_at");
     aur_renderer *renderer = NULL;
     accept(aur_renderer_create(scene, &renderer, &error), &error);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     aur_render *render = NULL;
     options.integrator = "nothing";
     refuse(aur_render_create(renderer, &options, &render, &error), AUR_ERROR_NAME, &error);
@@ -189,7 +192,8 @@ static void renders(const aur_scene *scene) {
 static void asks(const aur_scene *scene) {
     aur_renderer *renderer = NULL;
     accept(aur_renderer_create(scene, &renderer, &error), &error);
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     aur_ask *ask = NULL;
     wish.error = -1.0;
     refuse(aur_ask_create(renderer, NULL, &wish, &ask, &error), AUR_ERROR_ARGUMENT, &error);
@@ -215,16 +219,19 @@ static void asks(const aur_scene *scene) {
 }
 
 static void radiosity_solutions(const aur_scene *scene) {
+    aur_sensors_options sensors = {.size = sizeof sensors};
+    accept(aur_sensors_options_init(&sensors, &error), &error);
     aur_radiosity_options options = {.size = sizeof options};
     accept(aur_radiosity_options_init(&options, &error), &error);
-    require(options.bounces == aur_radiosity_options_default().bounces, "the options of radiosity");
+    require(options.bounces == 6 && options.randomizations == 1, "the options of radiosity");
     aur_radiosity *radiosity = NULL;
     options.bounces = 0;
     refuse(aur_radiosity_create(scene, &options, &radiosity, &error), AUR_ERROR_ARGUMENT, &error);
     options.bounces = 3;
     accept(aur_radiosity_create(scene, &options, &radiosity, &error), &error);
     accept(aur_radiosity_trace(radiosity, 64, &error), &error);
-    aur_radiosity_termination rule = aur_radiosity_termination_default(0.5);
+    aur_radiosity_termination rule = {.size = sizeof rule};
+    aur_radiosity_termination_init(0.5, &rule, NULL);
     rule.interval = 64;
     bool converged = false;
     accept(aur_radiosity_terminate(radiosity, &rule, &converged, &error), &error);
@@ -252,7 +259,8 @@ static void irradiances(const aur_scene *scene) {
     remove("calls.pts");
     const aur_sensors_view *const view = aur_sensors_look(sensors);
     require(view->count == 1 && view->normals[2] == 1.0, "aur_sensors_look");
-    aur_irradiance_options options = aur_irradiance_options_default();
+    aur_irradiance_options options = {.size = sizeof options};
+    aur_irradiance_options_init(&options, NULL);
     aur_irradiance result;
     options.error = 2.0;
     refuse(aur_irradiance_estimate(scene, view, &options, sizeof result, &result, &error), AUR_ERROR_ARGUMENT,
@@ -281,7 +289,8 @@ static void years(const aur_scene *scene) {
     const aur_weather_view view = {.size = sizeof view, .count = 8760, .hours = hours};
     const aur_sensors_view sensors = {
         .size = sizeof sensors, .count = 1, .positions = position, .normals = normal};
-    aur_daylight_options options = aur_daylight_options_default();
+    aur_daylight_options options = {.size = sizeof options};
+    aur_daylight_options_init(&options, NULL);
     aur_daylight result;
     aur_daylight_summary summary = {.size = sizeof summary};
     options.subdivision = 7;

@@ -46,7 +46,8 @@ static void names(void) {
 }
 
 static void prepared_sets(void) {
-    aur_pointset_options options = aur_pointset_options_default(COUNT);
+    aur_pointset_options options = {.size = sizeof options};
+    aur_pointset_options_init(COUNT, &options, NULL);
     aur_pointset *set = NULL;
     refuse(aur_pointset_create("nothing", &options, &set, &error), AUR_ERROR_NAME, &error);
     accept(aur_pointset_create("sobol", &options, &set, &error), &error);
@@ -111,7 +112,8 @@ static void neighbours(void) {
     const double axes[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0}, query[] = {-2.0, 0.1, 0.0},
                  nowhere[] = {0.0, 0.0, 0.0};
     aur_points_view points = aur_points_view_of(AUR_DOMAIN_AXES, 2, 3, axes);
-    aur_nearest_options options = aur_nearest_options_default();
+    aur_nearest_options options = {.size = sizeof options};
+    aur_nearest_options_init(&options, NULL);
     aur_nearest *nearest = NULL;
     size_t indices[2];
     options.neighbours = 2;
@@ -128,7 +130,8 @@ static void neighbours(void) {
 }
 
 static void rotations(void) {
-    aur_rotations_options options = aur_rotations_options_default(4);
+    aur_rotations_options options = {.size = sizeof options};
+    aur_rotations_options_init(4, &options, NULL);
     aur_rotations *set = NULL;
     aur_rotation rotation;
     aur_symmetry symmetry;
@@ -208,7 +211,8 @@ static void directions(void) {
     refuse(aur_fibonacci_nearest(&fibonacci, 1, north, 0, indices, &error), AUR_ERROR_CAPACITY, &error);
     refuse(aur_fibonacci_neighbours(&fibonacci, buffer + 3 * COUNT - 3, COUNT + 1, 2, indices, &error),
            AUR_ERROR_ARGUMENT, &error);
-    const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(COUNT, AUR_DOMAIN_SPHERE, &options, NULL);
     aur_directions *set = NULL;
     refuse(aur_directions_create("nothing", &options, &set, &error), AUR_ERROR_NAME, &error);
     accept(aur_directions_create("spherical-fibonacci", &options, &set, &error), &error);
@@ -222,13 +226,16 @@ static void directions(void) {
 
 /* Made, written, read again and measured. */
 static void points_and_measures(void) {
-    const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_SPHERE);
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(COUNT, AUR_DOMAIN_SPHERE, &options, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     aur_points *points = NULL;
     refuse(aur_points_generate("nothing", &request, &points, &error), AUR_ERROR_NAME, &error);
     accept(aur_points_generate("spherical-fibonacci", &request, &points, &error), &error);
     accept(aur_points_write("calls.csv", AUR_POINTS_CSV, aur_points_look(points), NULL, &error), &error);
-    aur_points_write_options writing = aur_points_write_options_default();
+    aur_points_write_options writing = {.size = sizeof writing};
+    aur_points_write_options_init(&writing, NULL);
     writing.digits = 18;
     refuse(aur_points_write_as("calls.txt", AUR_POINTS_CSV, aur_points_look(points), &writing, &error),
            AUR_ERROR_ARGUMENT, &error);
@@ -294,7 +301,8 @@ static aur_result mean(void *user, const aur_estimate_points *points, double *va
 }
 
 static void estimates(void) {
-    aur_estimate_options options = aur_estimate_options_default(2, 1);
+    aur_estimate_options options = {.size = sizeof options};
+    aur_estimate_options_init(2, 1, &options, NULL);
     aur_estimated found;
     aur_estimate_report report = {.size = sizeof report};
     accept(aur_estimate(mean, NULL, &options, &found, &report, &error), &error);
@@ -303,24 +311,31 @@ static void estimates(void) {
     refuse(aur_estimate(mean, NULL, &options, &found, NULL, &error), AUR_ERROR_ARGUMENT, &error);
 }
 
-/* Functions that fill options give what the inline ones do, and keep the size that they were told. */
+/* Functions that fill options give the defaults, and keep the caller's size; a size that is not set is
+ * refused. */
 static void defaults(void) {
     aur_estimate_options estimate = {.size = sizeof estimate};
-    const aur_estimate_options wanted = aur_estimate_options_default(3, 2);
     aur_exact_options exact = {.size = sizeof exact};
     aur_integrate_options integrate = {.size = sizeof integrate};
     aur_weights_options solve = {.size = sizeof solve};
     aur_weight_table_grid grid = {.size = sizeof grid};
+    aur_points_origin origin = {.size = sizeof origin};
+    aur_worst_case_options worst = {.size = sizeof worst};
     accept(aur_estimate_options_init(3, 2, &estimate, &error), &error);
     accept(aur_exact_options_init(AUR_DOMAIN_SPHERE, &exact, &error), &error);
     accept(aur_integrate_options_init(AUR_DOMAIN_SPHERE, &integrate, &error), &error);
     accept(aur_weights_options_init(&solve, &error), &error);
     accept(aur_weight_table_grid_init(&grid, &error), &error);
-    require(memcmp(&estimate, &wanted, sizeof estimate) == 0 && exact.degree == AUR_DEGREE_LARGEST &&
-                integrate.replicates == 8 && solve.sum_constraint && grid.angle_count == 64,
-            "the functions that fill options");
-    grid.size = 0;
-    refuse(aur_weight_table_grid_init(&grid, &error), AUR_ERROR_ARGUMENT, &error);
+    accept(aur_points_origin_init(&origin, &error), &error);
+    accept(aur_worst_case_options_init(&worst, &error), &error);
+    require(estimate.size == sizeof estimate && estimate.dimension == 3 && estimate.values == 2 &&
+                estimate.replicates == 16 && estimate.confidence == 0.95,
+            "aur_estimate_options_init");
+    require(exact.domain == AUR_DOMAIN_SPHERE && integrate.replicates == 8 && solve.sum_constraint &&
+                grid.angle_count == 64,
+            "what functions fill");
+    exact.size = 0;
+    refuse(aur_exact_options_init(AUR_DOMAIN_SPHERE, &exact, &error), AUR_ERROR_ARGUMENT, &error);
 }
 
 int main(void) {

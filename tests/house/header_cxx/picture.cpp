@@ -9,7 +9,7 @@ int main(int, char **arguments) {
     if (box.describe().shapes == 0)
         return std::puts("a scene without shapes"), 1;
     renderer maker(box);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = aureole::options<aur_render_options>(aur_render_options_init);
     options.width = options.height = 8;
     options.samples_per_pixel = 1;
     const image picture = maker.render(options);

@@ -45,14 +45,15 @@ int main() {
     require(thrown([&] { even.fill(0, part, span<double>(pair, 2)); }) == AUR_ERROR_CAPACITY,
             "too few weights");
 
-    aur_directions_options options = aur_directions_options_default(128, AUR_DOMAIN_SPHERE);
+    aur_directions_options options =
+        aureole::options<aur_directions_options>(aur_directions_options_init, 128, AUR_DOMAIN_SPHERE);
     const points made("spherical-fibonacci", options);
     require(made.size() == 128 && made.weights().empty() && made.coordinates()[5] == xyz[5], "points");
     require(measure("energy", made.view()) == measure("energy", view_of(AUR_DOMAIN_SPHERE, 3, xyz)),
             "measures");
     require(thrown([] { points::read("nowhere.csv"); }) == AUR_ERROR_OPEN, "a file that is not there");
 
-    aur_density density = aur_density_default();
+    aur_density density = aureole::options<aur_density>(aur_density_init);
     density.kind = AUR_DENSITY_SPHERE;
     const potential whole(density, 1.5);
     const std::vector<double> optimal = optimal_weights(xyz, whole);
@@ -60,7 +61,8 @@ int main() {
     require(worst_case_error(xyz, whole, optimal) < worst_case_error(xyz, whole),
             "optimal weights are better");
 
-    aur_integrate_options tolerance = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+    aur_integrate_options tolerance =
+        aureole::options<aur_integrate_options>(aur_integrate_options_init, AUR_DOMAIN_SPHERE);
     tolerance.relative = 1e-3;
     double largest = 0.0;
     const aur_integral found = integrate(

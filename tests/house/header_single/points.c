@@ -23,8 +23,12 @@ static void same(const char *what, size_t count, const double *expected, const d
 static void take(const char *set, aur_domain domain, size_t dimension, aur_scramble scramble,
                  double *points) {
     aur_error error;
-    aur_directions_options options = aur_directions_options_default(COUNT, domain);
-    aur_points_request request = aur_points_request_default(&options);
+    aur_directions_options options;
+    options.size = sizeof options;
+    aur_directions_options_init(COUNT, domain, &options, NULL);
+    aur_points_request request;
+    request.size = sizeof request;
+    aur_points_request_init(&options, &request, NULL);
     aur_points *made = NULL;
     options.scramble = scramble;
     options.seed = 11;

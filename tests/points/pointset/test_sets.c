@@ -275,7 +275,8 @@ static void options_can_grow(void **state) {
         int wish;
     } newer;
     memset(&newer, 0, sizeof newer);
-    newer.known = aur_pointset_options_default(4);
+    newer.known.size = sizeof(aur_pointset_options);
+    aur_pointset_options_init(4, &newer.known, NULL);
     newer.known.size = sizeof newer;
     aur_pointset *set = NULL;
     assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_OK);

@@ -28,7 +28,8 @@ static void test_means(void **state) {
     (void)state;
     static const char *const sets[] = {NULL, "fibonacci-lattice", "halton", "random"};
     for (size_t k = 0; k < 4; ++k) {
-        aur_estimate_options options = aur_estimate_options_default(2, 2);
+        aur_estimate_options options = {.size = sizeof options};
+        aur_estimate_options_init(2, 2, &options, NULL);
         aur_estimated found[2];
         aur_estimate_report report = {.size = sizeof report};
         uint64_t evaluations = 0;
@@ -48,7 +49,8 @@ static void test_means(void **state) {
 /* No error is asked: one level of all points; an error out of reach: as many levels as fit. */
 static void test_reasons(void **state) {
     (void)state;
-    aur_estimate_options options = aur_estimate_options_default(2, 2);
+    aur_estimate_options options = {.size = sizeof options};
+    aur_estimate_options_init(2, 2, &options, NULL);
     aur_estimated found[2];
     aur_estimate_report report = {.size = sizeof report};
     uint64_t evaluations = 0;
@@ -74,7 +76,8 @@ static void test_coverage(void **state) {
         aur_moments values = {0};
         double squares = 0.0;
         for (uint64_t seed = 0; seed < SEEDS; ++seed) {
-            aur_estimate_options options = aur_estimate_options_default(2, 2);
+            aur_estimate_options options = {.size = sizeof options};
+            aur_estimate_options_init(2, 2, &options, NULL);
             aur_estimated found[2];
             uint64_t evaluations = 0;
             options.set = "random";
@@ -107,7 +110,8 @@ static void test_refusals(void **state) {
     aur_estimated found;
     aur_error error;
     bool fails = true;
-    aur_estimate_options options = aur_estimate_options_default(1, 1);
+    aur_estimate_options options = {.size = sizeof options};
+    aur_estimate_options_init(1, 1, &options, NULL);
     assert_int_equal(aur_estimate(wrong, &fails, &options, &found, NULL, &error), AUR_ERROR_OPEN);
     assert_string_equal(error.message, "its own reason");
     fails = false;

@@ -12,7 +12,8 @@
 #include "points/quadrature/exact/system.h"
 
 static double *points_of(const char *set, size_t count, aur_domain domain, double exponent, double cap) {
-    aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     options.lobe.exponent = exponent;
     options.cap_degrees = cap;
     aur_directions *directions;
@@ -66,7 +67,8 @@ static void golden(void **state) {
     (void)state;
     enum { N = 1000 };
     double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N];
-    const aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     aur_exact_report report;
     aur_error error;
     assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
@@ -95,7 +97,8 @@ static void monomials(void **state) {
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         double *const xyz =
             points_of("spherical-fibonacci", N, cases[k].domain, cases[k].exponent, cases[k].cap);
-        aur_exact_options options = aur_exact_options_default(cases[k].domain);
+        aur_exact_options options = {.size = sizeof options};
+        aur_exact_options_init(cases[k].domain, &options, NULL);
         options.cap_degrees = cases[k].cap;
         options.lobe.exponent = cases[k].exponent;
         options.degree = cases[k].degree;
@@ -126,7 +129,8 @@ static void designs(void **state) {
         icosahedron[3 * i + (i / 4 + 1) % 3] = one;
         icosahedron[3 * i + (i / 4 + 2) % 3] = two;
     }
-    const aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     aur_exact_report report;
     aur_error error;
     assert_int_equal(aur_weights_exact(6, xyz, &options, 14, weights, &report, &error), AUR_OK);
@@ -276,7 +280,8 @@ static void many_points(void **state) {
     enum { N = 2600 };
     double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
     double *const weights = malloc(2 * N * sizeof *weights);
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.degree = 40;
     aur_exact_report report;
     aur_error error;
@@ -294,7 +299,8 @@ static void many_points(void **state) {
 static void bad_input(void **state) {
     (void)state;
     double xyz[15] = {0, 0, 1, 0, 0, -1, 0, 0, 1, 1, 0, 0, 0, 0, 1.1}, weights[5];
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     aur_exact_report report;
     aur_error error;
     assert_int_equal(aur_weights_exact(0, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
@@ -324,12 +330,15 @@ static void bad_input(void **state) {
     assert_non_null(strstr(error.message, "degree 2"));
     options.degree = AUR_EXACT_DEGREE_MAX + 1;
     assert_int_equal(aur_weights_exact(4, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
-    options = aur_exact_options_default(AUR_DOMAIN_HEMISPHERE);
+    options.size = sizeof(aur_exact_options);
+    aur_exact_options_init(AUR_DOMAIN_HEMISPHERE, &options, NULL);
     assert_int_equal(aur_weights_exact(4, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "point 2 "));
-    options = aur_exact_options_default(AUR_DOMAIN_DISK);
+    options.size = sizeof(aur_exact_options);
+    aur_exact_options_init(AUR_DOMAIN_DISK, &options, NULL);
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
-    options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.size = sizeof(aur_exact_options);
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.lobe.exponent = 1.0;
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
     options.lobe.exponent = NAN;
@@ -376,7 +385,8 @@ static void reports(void **state) {
     enum { N = 300, DEGREE = 24 };
     double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N],
                   storage[4 * N];
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     aur_exact_report report;
     aur_exact_found found = {0};
     aur_error error;
@@ -402,7 +412,8 @@ static void negative(void **state) {
     (void)state;
     enum { N = 200 };
     double *const xyz = points_of("random", N, AUR_DOMAIN_SPHERE, 0.0, 0.0), weights[N];
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.degree = 11;
     aur_exact_report report;
     aur_error error;
@@ -422,7 +433,8 @@ static void nested(void **state) {
     const size_t counts[LEVELS] = {64, 128, 256, 512};
     double *const xyz = points_of("esfg:base=64", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
     double weights[LEVELS * N];
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.degree = 4;
     aur_exact_report reports[LEVELS];
     aur_error error;
@@ -503,7 +515,8 @@ static void stops_within_a_step(void **state) {
     double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
     double *const weights = malloc(N * sizeof *weights);
     assert_non_null(weights);
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     countdown all = {0};
     aur_exact_report report;
     aur_error error;

@@ -51,7 +51,8 @@ static void ggx_nodes(void **state) {
         aur_error error;
         assert_int_equal(aur_exact_ggx_nodes(&lobes[k], 8, &nodes, &error), AUR_OK);
         assert_int_equal(aur_exact_ggx_nodes(&lobes[k], 24, &more, &error), AUR_OK);
-        aur_density density = aur_density_default();
+        aur_density density = {.size = sizeof density};
+        aur_density_init(&density, NULL);
         density.alpha = lobes[k].alpha;
         density.view_degrees = lobes[k].view_degrees;
         for (size_t j = 0; j < sizeof powers / sizeof powers[0]; ++j) {
@@ -76,7 +77,8 @@ static void check_hidden(size_t count, const double *xyz, const double *weights,
 
 /* Areas of the cells of what lies above the surface, times the lobe there. */
 static void check_cells(size_t count, const double *xyz, const aur_lobe *lobe) {
-    aur_density density = aur_density_default();
+    aur_density density = {.size = sizeof density};
+    aur_density_init(&density, NULL);
     density.alpha = lobe->alpha;
     density.view_degrees = lobe->view_degrees;
     double above[900], areas[300], whole[300], sum = 0.0;
@@ -111,14 +113,16 @@ static void ggx(void **state) {
     double weights[N];
     aur_error error;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        aur_directions_options points = aur_directions_options_default(N, AUR_DOMAIN_HEMISPHERE);
+        aur_directions_options points = {.size = sizeof points};
+        aur_directions_options_init(N, AUR_DOMAIN_HEMISPHERE, &points, NULL);
         points.lobe = cases[k].lobe;
         aur_directions *directions;
         double xyz[3 * N];
         assert_int_equal(aur_directions_create("spherical-fibonacci", &points, &directions, &error), AUR_OK);
         assert_int_equal(aur_directions_points(directions, 0, N, 3 * N, xyz, NULL, &error), AUR_OK);
         aur_directions_destroy(directions);
-        aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_HEMISPHERE);
+        aur_exact_options options = {.size = sizeof options};
+        aur_exact_options_init(AUR_DOMAIN_HEMISPHERE, &options, NULL);
         options.lobe = cases[k].lobe;
         aur_exact_report report;
         assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
@@ -145,7 +149,8 @@ static void ggx(void **state) {
                 }
         free(nodes.xyz);
     }
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_HEMISPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_HEMISPHERE, &options, NULL);
     options.lobe = cases[0].lobe;
     const double below[6] = {0.0, 0.6, -0.8, 0.0, 1.0, 0.0};
     assert_int_equal(aur_weights_exact(1, below, &options, N, weights, NULL, &error), AUR_ERROR_ARGUMENT);
@@ -157,7 +162,8 @@ static void ggx(void **state) {
     assert_true(weights[0] == 0.0 && weights[1] == 1.0);
     options.degree = AUR_EXACT_GGX_DEGREE_MAX + 1;
     assert_int_equal(aur_weights_exact(2, below, &options, N, weights, NULL, &error), AUR_ERROR_ARGUMENT);
-    options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.size = sizeof(aur_exact_options);
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.lobe = cases[0].lobe;
     assert_int_equal(aur_weights_exact(2, below, &options, N, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
 }

@@ -75,7 +75,8 @@ static void closed_forms(void **state) {
     aur_error error;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         integrand f = {.value = cases[k].value};
-        aur_integrate_options options = aur_integrate_options_default(cases[k].domain);
+        aur_integrate_options options = {.size = sizeof options};
+        aur_integrate_options_init(cases[k].domain, &options, NULL);
         options.cap_degrees = cases[k].cap;
         options.exponent = cases[k].exponent;
         options.has_axis = cases[k].to > cases[k].from;
@@ -95,7 +96,8 @@ static void closed_forms(void **state) {
 static void polynomials(void **state) {
     (void)state;
     integrand f = {.value = height};
-    aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.relative = 1e-13;
     aur_integral integral = {.size = sizeof integral}, again = {.size = sizeof again};
     aur_error error;
@@ -109,7 +111,8 @@ static void polynomials(void **state) {
 static void ends(void **state) {
     (void)state;
     integrand f = {.value = half};
-    aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.relative = 1e-9;
     options.evaluations = 10000; /* 8 * 1024 are the largest level */
     aur_integral integral = {.size = sizeof integral};
@@ -140,7 +143,8 @@ static void coverage(void **state) {
         size_t held = 0;
         for (uint64_t seed = 0; seed < SEEDS; ++seed) {
             integrand f = {.value = half};
-            aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+            aur_integrate_options options = {.size = sizeof options};
+            aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
             options.confidence = confidences[k];
             options.seed = seed;
             options.evaluations = 64 * options.replicates;
@@ -160,7 +164,8 @@ static void difference(void **state) {
     aur_integral levels[2];
     for (size_t k = 0; k < 2; ++k) {
         integrand f = {.value = half};
-        aur_integrate_options options = aur_integrate_options_default(AUR_DOMAIN_HEMISPHERE);
+        aur_integrate_options options = {.size = sizeof options};
+        aur_integrate_options_init(AUR_DOMAIN_HEMISPHERE, &options, NULL);
         options.relative = 1e-12;
         options.evaluations = (uint64_t)(512 << k);
         levels[k] = (aur_integral){.size = sizeof levels[k]};
@@ -181,7 +186,8 @@ static void refuse(const aur_integrate_options *options, aur_result result) {
 
 static void bad_options(void **state) {
     (void)state;
-    const aur_integrate_options good = aur_integrate_options_default(AUR_DOMAIN_HEMISPHERE);
+    aur_integrate_options good = {.size = sizeof good};
+    aur_integrate_options_init(AUR_DOMAIN_HEMISPHERE, &good, NULL);
     aur_integrate_options bad = good;
     bad.domain = AUR_DOMAIN_SQUARE;
     refuse(&bad, AUR_ERROR_UNSUPPORTED);

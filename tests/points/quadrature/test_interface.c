@@ -21,7 +21,8 @@ static void assert_refused(aur_result result, aur_result expected, const aur_err
 }
 
 static aur_potential *cosine_potential(void) {
-    aur_density density = aur_density_default();
+    aur_density density = {.size = sizeof density};
+    aur_density_init(&density, NULL);
     density.exponent = 1.0;
     aur_potential *potential;
     assert_int_equal(aur_potential_create(&density, 0.0, &potential, NULL), AUR_OK);
@@ -30,7 +31,8 @@ static aur_potential *cosine_potential(void) {
 
 static void fill_points(double xyz[3 * COUNT]) {
     aur_directions *directions;
-    const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(COUNT, AUR_DOMAIN_HEMISPHERE, &options, NULL);
     assert_int_equal(aur_directions_create("spherical-fibonacci", &options, &directions, NULL), AUR_OK);
     assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, NULL, NULL), AUR_OK);
     aur_directions_destroy(directions);
@@ -39,7 +41,8 @@ static void fill_points(double xyz[3 * COUNT]) {
 static void test_densities(void **state) {
     (void)state;
     aur_error error;
-    aur_density density = aur_density_default();
+    aur_density density = {.size = sizeof density};
+    aur_density_init(&density, NULL);
     const aur_lobe cosine = {.exponent = 1.0}, ggx = {.kind = AUR_LOBE_GGX, .alpha = 0.3};
     assert_int_equal(aur_density_from_lobe(&ggx, AUR_DOMAIN_HEMISPHERE, &density, NULL), AUR_OK);
     assert_true(density.kind == AUR_DENSITY_GGX && density.alpha == 0.3);
@@ -127,7 +130,9 @@ static void test_weights(void **state) {
     assert_int_equal(aur_worst_case_error(COUNT, xyz, NULL, potential, NULL, &value, NULL), AUR_OK);
     assert_relative(value, report.equal_error, 1e-9);
 
-    aur_weights_options unset = aur_weights_options_default(), negative = unset;
+    aur_weights_options unset = {.size = sizeof unset};
+    aur_weights_options_init(&unset, NULL);
+    aur_weights_options negative = unset;
     unset.size = 0;
     negative.regularization = -1.0;
     const double off[3] = {0.0, 0.0, 1.1};
@@ -163,8 +168,10 @@ static void test_rules(void **state) {
     (void)state;
     aur_error error;
     double xyz[3 * COUNT], weights[COUNT];
-    aur_directions_options points = aur_directions_options_default(COUNT, AUR_DOMAIN_HEMISPHERE);
-    aur_rule_options options = aur_rule_options_default(&points);
+    aur_directions_options points = {.size = sizeof points};
+    aur_directions_options_init(COUNT, AUR_DOMAIN_HEMISPHERE, &points, NULL);
+    aur_rule_options options = {.size = sizeof options};
+    aur_rule_options_init(&points, &options, NULL);
     assert_int_equal(aur_rule_make(&options, 3 * COUNT, xyz, weights, NULL), AUR_OK);
     assert_near(weights[0], 1.0 / COUNT, 1e-16);
     options.optimal = true;
@@ -189,7 +196,8 @@ static void test_rules(void **state) {
 }
 
 static aur_oswa_options pair(void) {
-    aur_oswa_options options = aur_oswa_options_default(COUNT, MIRROR_COUNT);
+    aur_oswa_options options = {.size = sizeof options};
+    aur_oswa_options_init(COUNT, MIRROR_COUNT, &options, NULL);
     options.lobe.exponent = 1.0;
     options.mirror_lobe.exponent = 20.0;
     options.clipped = true;

@@ -127,16 +127,19 @@ static void test_smooth_rates(void **state) {
     (void)state;
     const double smoothness[] = {2.5, 3.5};
     for (size_t s = 0; s < 2; ++s) {
-        aur_density density = aur_density_default();
+        aur_density density = {.size = sizeof density};
+        aur_density_init(&density, NULL);
         density.kind = AUR_DENSITY_SPHERE;
         aur_potential *const potential = create(&density, smoothness[s]);
         double error[2], optimal[2];
         for (size_t k = 0; k < 2; ++k) {
             const size_t count = k == 0 ? 64 : 256;
             double xyz[3 * 256], weights[256];
-            aur_directions_options points = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
+            aur_directions_options points = {.size = sizeof points};
+            aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &points, NULL);
             aur_directions *directions;
-            aur_weights_options options = aur_weights_options_default();
+            aur_weights_options options = {.size = sizeof options};
+            aur_weights_options_init(&options, NULL);
             options.regularization = 1e-10;
             assert_int_equal(aur_directions_create("spherical-fibonacci", &points, &directions, NULL),
                              AUR_OK);

@@ -203,7 +203,8 @@ static void test_many_densities(void **state) {
 /* One call makes what the pieces make. */
 static void test_rule(void **state) {
     (void)state;
-    aur_directions_options points = aur_directions_options_default(64, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options points = {.size = sizeof points};
+    aur_directions_options_init(64, AUR_DOMAIN_HEMISPHERE, &points, NULL);
     points.lobe.exponent = 20.0;
     const aur_rule_options optimal = {
         .size = sizeof optimal, .points = &points, .optimal = true, .weights = &plain};

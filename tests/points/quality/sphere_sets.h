@@ -25,7 +25,8 @@ static inline void set_direction(own_points *points, size_t index, double z, dou
 
 /* As the library makes them, so that a measure is tried on the points that it will be asked about. */
 static inline own_points spherical_fibonacci(size_t count, aur_domain domain) {
-    const aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     own_points points = sphere_points(count);
     points.domain = domain;
     aur_directions *directions = NULL;

@@ -13,8 +13,10 @@ typedef struct golden {
 } golden;
 
 static double measured(const golden *g) {
-    const aur_directions_options options = aur_directions_options_default(g->count, g->domain);
-    const aur_points_request request = aur_points_request_default(&options);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(g->count, g->domain, &options, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&options, &request, NULL);
     aur_points *points;
     aur_error error = {0};
     if (aur_points_generate(g->set, &request, &points, &error) != AUR_OK)

@@ -13,7 +13,8 @@ enum { COUNT = AUR_SPLIT_COUNT, MANY = 16384 };
 
 static double measured(const char *metric, const own_points *points, double accuracy, size_t threads,
                        double *bound) {
-    aur_measure_options options = aur_measure_options_default();
+    aur_measure_options options = {.size = sizeof options};
+    aur_measure_options_init(&options, NULL);
     options.accuracy = accuracy;
     options.threads = threads;
     const aur_points_view view = seen(points);
@@ -113,7 +114,8 @@ static void what_is_too_much_is_summed_exactly(void **state) {
     const double few = measured("energy", &points, 0.0, 0, &bound);
     assert_true(measured("energy", &points, 1e-3, 0, &bound) == few && bound == 0.0);
     const aur_points_view view = seen(&points);
-    aur_measure_options options = aur_measure_options_default();
+    aur_measure_options options = {.size = sizeof options};
+    aur_measure_options_init(&options, NULL);
     aur_error error;
     const double bad[] = {-1.0, 1.0, NAN};
     for (size_t i = 0; i < 3; ++i) {

@@ -139,7 +139,8 @@ static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
 }
 
 static aur_series *cells_of_cap(const own_points *points, double degrees, size_t threads) {
-    aur_measure_options options = aur_measure_options_default();
+    aur_measure_options options = {.size = sizeof options};
+    aur_measure_options_init(&options, NULL);
     options.cap_degrees = degrees;
     options.threads = threads;
     aur_series *series;
@@ -300,7 +301,8 @@ static void caps_agree_with_what_is_known(void **state) {
         {"covering", "above 0 and at most 90 degrees, not nan", NAN},
         {"covering", "degrees from +z, outside the cap of 10 degrees", 10.0}};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
-        aur_measure_options options = aur_measure_options_default();
+        aur_measure_options options = {.size = sizeof options};
+        aur_measure_options_init(&options, NULL);
         options.cap_degrees = refused[i].cap;
         aur_error error = {0};
         double value;
@@ -328,7 +330,8 @@ static const double corner_error = 1e-12;
 static void check_corners(const own_points *points, aur_domain domain, size_t threads) {
     aur_points_view view = seen(points);
     view.domain = domain;
-    aur_measure_options options = aur_measure_options_default();
+    aur_measure_options options = {.size = sizeof options};
+    aur_measure_options_init(&options, NULL);
     options.threads = threads;
     aur_series *cells, *corners;
     assert_int_equal(aur_measure_series("voronoi", &view, &options, &cells, NULL), AUR_OK);

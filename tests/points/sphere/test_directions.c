@@ -320,9 +320,11 @@ static void options_can_grow(void **state) {
         int wish;
     } newer;
     memset(&newer, 0, sizeof newer);
-    newer.known = aur_directions_options_default(4, AUR_DOMAIN_SPHERE);
+    newer.known.size = sizeof(aur_directions_options);
+    aur_directions_options_init(4, AUR_DOMAIN_SPHERE, &newer.known, NULL);
     newer.known.size = sizeof newer;
-    const aur_points_request request = aur_points_request_default(&newer.known);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&newer.known, &request, NULL);
     aur_points *points;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL), AUR_OK);
     assert_int_equal(aur_points_look(points)->count, 4);
@@ -383,8 +385,8 @@ static void sets_say_their_sizes(void **state) {
         const aur_set_description *const set = aur_set_find(some[s]);
         uint64_t last = 0;
         for (size_t i = 0; i < 40 && set->size_at(i) != 0; ++i) {
-            const aur_directions_options of_size =
-                aur_directions_options_default(set->size_at(i), AUR_DOMAIN_SPHERE);
+            aur_directions_options of_size = {.size = sizeof of_size};
+            aur_directions_options_init(set->size_at(i), AUR_DOMAIN_SPHERE, &of_size, NULL);
             aur_directions *directions = NULL;
             assert_true(set->size_at(i) > last);
             last = set->size_at(i);
@@ -396,7 +398,8 @@ static void sets_say_their_sizes(void **state) {
     const aur_set_description *const pixels = aur_set_find("healpix");
     assert_int_equal(pixels->size_at((1 << 24) - 1), pixels->maximum_size);
     assert_int_equal(pixels->size_at(1 << 24), 0);
-    const aur_pointset_options options = aur_pointset_options_default(1073741824); /* of 2 dimensions */
+    aur_pointset_options options = {.size = sizeof options};
+    aur_pointset_options_init(1073741824, &options, NULL); /* of 2 dimensions */
     aur_pointset *pointset;
     assert_int_equal(aur_pointset_create("lcg", &options, &pointset, NULL), AUR_ERROR_ARGUMENT);
 }

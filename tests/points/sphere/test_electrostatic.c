@@ -17,7 +17,9 @@ static double coulomb(size_t count, const double *xyz, bool axes) {
 }
 
 static double *charges(const char *set, size_t count, aur_domain domain) {
-    return check_directions(set, aur_directions_options_default(count, domain));
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
+    return check_directions(set, options);
 }
 
 static double rest(const char *set, size_t count, aur_domain domain) {
@@ -132,7 +134,8 @@ static void shells_are_even_together_and_alone(void **state) {
 
 static void refused(const char *set, size_t count, aur_domain domain, double cap, aur_result expected,
                     const char *words) {
-    aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     options.cap_degrees = cap;
     aur_directions *directions;
     aur_error error = {0};

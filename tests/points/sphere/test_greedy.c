@@ -5,7 +5,8 @@
 #include <stdlib.h>
 
 static double *points_of(const char *set, size_t count, aur_domain domain) {
-    const aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     double *const xyz = malloc(3 * count * sizeof *xyz);
     aur_directions *directions = NULL;
     aur_error error = {0};
@@ -73,10 +74,12 @@ static void every_prefix_is_good(void **state) {
 
 static void caps_are_refused(void **state) {
     (void)state;
-    aur_directions_options options = aur_directions_options_default(10, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(10, AUR_DOMAIN_HEMISPHERE, &options, NULL);
     aur_directions *directions;
     assert_int_equal(aur_directions_create("greedy", &options, &directions, NULL), AUR_ERROR_UNSUPPORTED);
-    options = aur_directions_options_default(16385, AUR_DOMAIN_SPHERE);
+    options.size = sizeof(aur_directions_options);
+    aur_directions_options_init(16385, AUR_DOMAIN_SPHERE, &options, NULL);
     assert_int_equal(aur_directions_create("greedy", &options, &directions, NULL), AUR_ERROR_ARGUMENT);
 }
 

@@ -3,7 +3,9 @@
 #include <string.h>
 
 static double *pixels(size_t side) {
-    return check_directions("healpix", aur_directions_options_default(12 * side * side, AUR_DOMAIN_SPHERE));
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(12 * side * side, AUR_DOMAIN_SPHERE, &options, NULL);
+    return check_directions("healpix", options);
 }
 
 /* Rings of the published scheme: for k = 2 the latitudes z = 11/12, 2/3, 1/3, 0, ... with 4, 8, 8, 8, ...
@@ -53,7 +55,8 @@ static void pixels_are_symmetric_and_equal(void **state) {
 
 static void other_sizes_are_refused(void **state) {
     (void)state;
-    aur_directions_options options = aur_directions_options_default(100, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(100, AUR_DOMAIN_SPHERE, &options, NULL);
     aur_directions *directions;
     aur_error error = {0};
     assert_int_equal(aur_directions_create("healpix", &options, &directions, &error), AUR_ERROR_ARGUMENT);

@@ -39,7 +39,8 @@ static void the_nearest_are_those_of_a_linear_search(void **state) {
         }
         const aur_points_view view = aur_points_view_of(domains[k], POINTS, dimension, points);
         aur_nearest *nearest;
-        aur_nearest_options options = aur_nearest_options_default();
+        aur_nearest_options options = {.size = sizeof options};
+        aur_nearest_options_init(&options, NULL);
         options.neighbours = WANTED;
         options.threads = 1;
         assert_int_equal(aur_nearest_create(&view, &nearest, NULL), AUR_OK);
@@ -71,7 +72,8 @@ static void both_ends_are_one_axis(void **state) {
     const double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, query[3] = {0.1, -0.2, -3.0};
     const aur_points_view view = aur_points_view_of(AUR_DOMAIN_AXES, 3, 3, axes);
     aur_nearest *nearest;
-    aur_nearest_options options = aur_nearest_options_default();
+    aur_nearest_options options = {.size = sizeof options};
+    aur_nearest_options_init(&options, NULL);
     options.neighbours = 3;
     size_t indices[3];
     assert_int_equal(aur_nearest_create(&view, &nearest, NULL), AUR_OK);

@@ -39,7 +39,8 @@ static double worst_mean(size_t degree, size_t count, const double *xyz, const d
  * P_l is smaller by sqrt(2 l + 1), which leaves room for rounding. One degree more is not exact. */
 static void check_exact(const char *set, const aur_reference *reference) {
     const size_t count = reference->count;
-    const aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &options, NULL);
     aur_directions *directions;
     assert_int_equal(aur_directions_create(set, &options, &directions, NULL), AUR_OK);
     double *const xyz = malloc(3 * count * sizeof *xyz), *const weights = malloc(count * sizeof *weights);
@@ -83,7 +84,8 @@ static void lebedev_rules_are_exact(void **state) {
 /* Weights of the rule with 14 points: 1/15 on the axes and 3/40 on the diagonals of the cube. */
 static void fourteen_points_have_known_weights(void **state) {
     (void)state;
-    const aur_directions_options options = aur_directions_options_default(14, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(14, AUR_DOMAIN_SPHERE, &options, NULL);
     aur_directions *directions;
     assert_int_equal(aur_directions_create("lebedev", &options, &directions, NULL), AUR_OK);
     double xyz[42], weights[14];
@@ -106,8 +108,8 @@ static void other_sizes_are_refused(void **state) {
                  {"t-design", 17, "8 or 18"},
                  {"t-design", 1, "from 4"}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
-        const aur_directions_options options =
-            aur_directions_options_default(wrong[k].count, AUR_DOMAIN_SPHERE);
+        aur_directions_options options = {.size = sizeof options};
+        aur_directions_options_init(wrong[k].count, AUR_DOMAIN_SPHERE, &options, NULL);
         aur_directions *directions;
         aur_error error = {0};
         assert_int_equal(aur_directions_create(wrong[k].set, &options, &directions, &error),

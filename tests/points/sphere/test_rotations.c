@@ -20,7 +20,9 @@ static double *made(const char *set, aur_rotations_options options) {
 }
 
 static double *plain(const char *set, size_t count) {
-    return made(set, aur_rotations_options_default(count));
+    aur_rotations_options options = {.size = sizeof options};
+    aur_rotations_options_init(count, &options, NULL);
+    return made(set, options);
 }
 
 static void super_fibonacci_is_the_published_formula(void **state) {
@@ -112,7 +114,8 @@ static void lifted_grids_have_their_directions(void **state) {
     double *const whole = plain("esfg-rotations:levels=2", COUNT);
     double *const part = plain("esfg-rotations:levels=2", 8 * BASE * TURNS);
     assert_memory_equal(whole, part, sizeof *whole * 4 * 8 * BASE * TURNS);
-    const aur_directions_options options = aur_directions_options_default(DIRECTIONS, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(DIRECTIONS, AUR_DOMAIN_SPHERE, &options, NULL);
     aur_directions *directions = NULL;
     double xyz[3 * DIRECTIONS];
     assert_int_equal(aur_directions_create("esfg:base=20,levels=2", &options, &directions, NULL), AUR_OK);
@@ -192,7 +195,8 @@ static void lifted_points_are_uniform(void **state) {
 
 static void scrambling_turns_all_alike_or_moves_the_cube(void **state) {
     (void)state;
-    aur_rotations_options options = aur_rotations_options_default(64);
+    aur_rotations_options options = {.size = sizeof options};
+    aur_rotations_options_init(64, &options, NULL);
     double *const before = plain("sobol", 64);
     options.scramble = AUR_SCRAMBLE_ROTATE3D;
     options.seed = 4;
@@ -281,7 +285,8 @@ static void symmetries_are_groups_with_zones(void **state) {
 
 static void refused(const char *set, size_t count, aur_scramble scramble, aur_result expected,
                     const char *words) {
-    aur_rotations_options options = aur_rotations_options_default(count);
+    aur_rotations_options options = {.size = sizeof options};
+    aur_rotations_options_init(count, &options, NULL);
     options.scramble = scramble;
     aur_rotations *rotations;
     aur_error error = {0};

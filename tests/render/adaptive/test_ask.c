@@ -30,7 +30,8 @@ static int tear_down(void **state) {
 }
 
 static aur_render_options small(size_t threads) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = 40;
     options.height = 24;
     options.threads = threads;
@@ -77,7 +78,8 @@ static void assert_same_picture(const aur_ask *a, const aur_ask *b) {
 /* The upper end of the interval is below what was asked, and one thread makes the bits of three. */
 static void test_error(void **state) {
     const fixture *const f = *state;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.2;
     aur_render_options one = small(1), three = small(3);
     one.integrator = three.integrator = "path";
@@ -112,7 +114,8 @@ static double square_distance(const aur_ask *a, const aur_ask *b) {
  * as far from path tracing's as the two intervals allow, and who names it with its bias has the same bits. */
 static void test_choice(void **state) {
     const fixture *const f = *state;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.02;
     aur_render_options chosen = small(1), named = small(3), paths = small(0);
     chosen.width = named.width = paths.width = 96;
@@ -181,7 +184,8 @@ static void test_progress(void **state) {
     aur_render_options options = small(1);
     options.integrator = "path";
     options.progress = (aur_progress){keep_progress, &record};
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.06;
     assert_int_equal(aur_ask_create(f->renderer, &options, &wish, &record.asked, NULL), AUR_OK);
     assert_int_equal(aur_ask_run(record.asked, NULL), AUR_OK);
@@ -206,7 +210,7 @@ static void test_rounds_and_rays(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small(0);
     options.integrator = "path:max_depth=-1";
-    aur_ask_options rounds = aur_ask_options_default(), seconds = rounds, rays = rounds;
+    aur_ask_options rounds = {.size = sizeof rounds}, seconds = rounds, rays = rounds;
     seconds.seconds = 0.05;
     aur_ask *const by_clock = ask(f, &options, &seconds);
     rounds.rounds = report_of(by_clock).rounds;
@@ -230,7 +234,8 @@ static void test_rays_make_the_pattern(void **state) {
     chosen.width = chosen.height = paths.width = paths.height = 96;
     chosen.filter = paths.filter = "box";
     paths.integrator = "path";
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.rays = 8000000;
     fixture fresh, other;
     aur_ask *const a = ask_anew(&fresh, f, &chosen, &wish), *const b = ask(f, &paths, &wish);
@@ -271,7 +276,8 @@ static void test_cancelled_picture_is_kept(void **state) {
     aur_render_options options = small(1);
     size_t calls = 0;
     options.progress = (aur_progress){stop_at_once, &calls};
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.1;
     aur_ask *asked = NULL;
     aur_error error = {0};

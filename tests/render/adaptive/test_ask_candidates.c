@@ -31,12 +31,14 @@ static const char lit_floor[] =
     "</shape>";
 
 static aur_ask *ask(aur_renderer *renderer, const char *integrator, size_t threads) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = 72; /* fewer than 64 a side are not tried in fewer pixels */
     options.filter = "box";
     options.threads = threads;
     options.integrator = integrator;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.005;
     aur_ask *asked = NULL;
     assert_int_equal(aur_ask_create(renderer, &options, &wish, &asked, NULL), AUR_OK);

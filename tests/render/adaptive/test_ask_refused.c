@@ -17,7 +17,8 @@ static void paths_go_on_where_no_photon_is_stored(void **state) {
     aur_renderer *renderer = NULL;
     aur_scene *const scene = must_load_body(lone_lamp);
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = 72;
     options.filter = "box";
     aur_error error = {0};
@@ -25,7 +26,8 @@ static void paths_go_on_where_no_photon_is_stored(void **state) {
     aur_render *refused = NULL;
     assert_int_equal(aur_render_create(renderer, &options, &refused, &error), AUR_ERROR_UNSUPPORTED);
     options.integrator = NULL;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.001; /* so small that final gathering is tried */
     aur_ask *asked = NULL;
     assert_int_equal(aur_ask_create(renderer, &options, &wish, &asked, NULL), AUR_OK);
@@ -56,7 +58,8 @@ static void a_trial_is_stopped_while_it_is_made(void **state) {
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     enum { REPLICAS = 4 };
     size_t stopped = 0, calls = 1, left = 0;
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = 16;
     options.sampler = "sobol";
     options.progress = (aur_progress){count_down, &left};

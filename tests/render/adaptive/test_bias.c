@@ -9,7 +9,8 @@ enum { WIDTH = 32, HEIGHT = 32, REPLICAS = 4 };
 
 static void replicas_of(aur_renderer *renderer, const char *integrator, size_t samples, uint64_t seed,
                         aur_replicas *replicas) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.integrator = integrator;
     options.sampler = "sobol";
     options.width = WIDTH;

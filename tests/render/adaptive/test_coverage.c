@@ -10,12 +10,14 @@ enum { SIDE = 6, RUNS = 600 };
 
 /* Two rounds of a path tracer that ends paths at random; the root mean square of what the image is off 1. */
 static double error_of(aur_renderer *renderer, uint64_t seed, aur_ask_report *report) {
-    aur_render_options render = aur_render_options_default();
+    aur_render_options render = {.size = sizeof render};
+    aur_render_options_init(&render, NULL);
     render.width = render.height = SIDE;
     render.integrator = "path:rr_depth=1";
     render.threads = 1;
     render.seed = seed;
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.0;
     wish.rounds = 2;
     wish.confidence = 0.5;

@@ -103,7 +103,8 @@ static void knows_its_integrator(void **state) {
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.width = options.height = SIDE;
         options.sampler = "sobol";
         options.filter = "box";
@@ -127,11 +128,13 @@ static void meets_lamps(void **state) {
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.filter = "box";
     options.integrator = "path";
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.3;
     const double lamp = radiance * share_of_lamp();
     for (size_t seed = 0; seed < 8; ++seed) {

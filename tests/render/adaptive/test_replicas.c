@@ -18,7 +18,8 @@ static void begin(fixture *f, size_t samples) {
     assert_int_equal(
         aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
     assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.integrator = "path";
     options.width = WIDTH;
     options.height = HEIGHT;
@@ -66,7 +67,8 @@ static void test_tiles_have_their_means(void **state) {
     assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
                      AUR_OK);
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = 64;
     options.crop_x0 = X0;
     options.crop_y0 = Y0;

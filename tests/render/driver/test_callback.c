@@ -21,7 +21,8 @@ typedef struct preview {
 
 static aur_image *render(aur_renderer *renderer, const char *integrator, size_t samples,
                          aur_progress progress) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.samples_per_pixel = samples;
     options.integrator = integrator;
@@ -109,10 +110,12 @@ static void renders_previews_of_an_error(void **state) {
     (void)state;
     fixture f = prepare();
     preview shown = {.renderer = f.previews, .truth = f.truth, .most = 2};
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.progress = (aur_progress){show, &shown};
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.rounds = 2;
     aur_ask *ask;
     assert_int_equal(aur_ask_create(f.outer, &options, &wish, &ask, NULL), AUR_OK);

@@ -14,7 +14,8 @@ static aur_render_statistics statistics_of(const char *integrator, const char *b
     aur_renderer *renderer;
     aur_image *image;
     aur_render_statistics statistics = {.size = sizeof statistics};
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.samples_per_pixel = SAMPLES;
     options.integrator = integrator;

@@ -50,7 +50,8 @@ static inline void keep_message(void *user, const char *message) {
 }
 
 static inline aur_radiosity_options options_of(aur_radiosity_directions directions, size_t bounces) {
-    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity_options options = {.size = sizeof options};
+    aur_radiosity_options_init(&options, NULL);
     options.directions = directions;
     options.bounces = bounces;
     return options;

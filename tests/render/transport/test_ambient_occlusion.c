@@ -168,7 +168,8 @@ static void to_an_error(void **state) {
     for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; ++i) {
         const aur_render_options options = {
             .size = sizeof options, .integrator = patterns[i], .width = 24, .height = 16};
-        aur_ask_options wish = aur_ask_options_default();
+        aur_ask_options wish = {.size = sizeof wish};
+        aur_ask_options_init(&wish, NULL);
         aur_renderer *renderer = NULL;
         aur_ask *ask = NULL;
         aur_image *image = NULL;

@@ -154,7 +154,8 @@ static void close_stage(stage *s) {
 
 /* RGB of all pixels; what rays it took. */
 static uint64_t render(const stage *s, const char *integrator, size_t seed, float pixels[3 * PIXELS]) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.filter = "box";
     options.sampler = "sobol";
@@ -307,7 +308,8 @@ static void tells_of_numbers_out_of_range(void **state) {
     stage s = open_stage(glossy, "", sky);
     static const char *const wrong[] = {"path:candidates=0", "path:candidates=65", "path:candidates=1.5"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = wrong[i];
         aur_image *image = NULL;
         aur_error error = {0};

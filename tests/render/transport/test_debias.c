@@ -39,7 +39,8 @@ static void render_seeds(const aur_scene *scene, const char *integrator, size_t 
     aur_renderer *renderer;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     for (size_t s = 0; s < SEEDS; ++s) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = integrator;
         options.gather = &lab_finalgather;
         options.sampler = "sobol";
@@ -127,7 +128,8 @@ enum { PICTURE = 24 };
 static aur_image *render_picture(aur_renderer *renderer, const char *form, const char *keys) {
     char integrator[512];
     snprintf(integrator, sizeof integrator, "finalgather-lab:photons=300%s%s", form, keys);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.integrator = integrator;
     options.gather = &lab_finalgather;
     options.width = options.height = PICTURE;
@@ -184,7 +186,8 @@ static void refuses_other_bias(void **state) {
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         char integrator[128];
         snprintf(integrator, sizeof integrator, "finalgather-lab:debias=true,%s", keys[i]);
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = integrator;
         options.gather = &lab_finalgather;
         options.width = options.height = 2;
@@ -240,7 +243,8 @@ static void idle_keys_are_told(void **state) {
     aur_scene *scene = must_load_body(ROOM);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         size_t count = 0;
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = cases[i].integrator;
         options.gather = &lab_finalgather;
         options.width = options.height = 2;

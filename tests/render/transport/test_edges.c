@@ -31,7 +31,8 @@ static void keeps_the_mean_of_a_small_lamp(void **state) {
         &scene);
     double mean = 0.0;
     for (size_t s = 0; s < SEEDS; ++s) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = "finalgather-lab:incident=emitters";
         options.gather = &lab_finalgather;
         options.sampler = "random";
@@ -74,7 +75,8 @@ static void finds_edges_where_only_some_pixels_go_on(void **state) {
                    &scene);
     double squares = 0.0;
     for (size_t s = 0; s < RUNS; ++s) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = "finalgather-lab:incident=emitters,edges=64,split=4";
         options.gather = &lab_finalgather;
         options.sampler = "random";
@@ -129,7 +131,8 @@ static void finds_edges_that_a_wide_filter_sees(void **state) {
                    &scene);
     double squares = 0.0, mean = 0.0;
     for (size_t s = 0; s < RUNS; ++s) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = "finalgather-lab:incident=emitters,edges=64,split=4";
         options.gather = &lab_finalgather;
         options.sampler = "random";

@@ -4,6 +4,7 @@
 
 #include <aureole/render.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "../../../bench/error_pattern.h"
 
@@ -16,14 +17,16 @@ static void open_pattern(const char *scene_path, const char *integrator, const s
     aur_image *images[2];
     aur_error error = {0};
     static const aur_definition definition = {"integrator", "path"};
-    aur_scene_options load = aur_scene_options_default();
+    aur_scene_options load = {.size = sizeof load};
+    aur_scene_options_init(&load, NULL);
     load.definitions = &definition;
     load.definition_count = strstr(scene_path, "keller") != NULL ? 1 : 0;
     if (aur_scene_load(scene_path, &load, &scene, &error) != AUR_OK)
         fail_msg("%s", error.message);
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     for (size_t k = 0; k < 2; ++k) {
-        aur_render_options options = aur_render_options_default();
+        aur_render_options options = {.size = sizeof options};
+        aur_render_options_init(&options, NULL);
         options.integrator = integrator;
         options.sampler = "sobol";
         options.filter = "box";

@@ -25,7 +25,8 @@ static double share_of_lamp(void) {
 }
 
 static aur_render_options options_of(const char *integrator, const char *filter, uint64_t seed) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.integrator = integrator;
     options.gather = &lab_finalgather;

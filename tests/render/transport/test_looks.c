@@ -21,7 +21,8 @@ static const char body[] =
     "<translate z='12'/></transform><bsdf type='diffuse'><rgb name='reflectance' value='.5'/></bsdf></shape>";
 
 static aur_render_options options_of(const char *integrator, size_t seed) {
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.filter = "box";
     options.sampler = "sobol";

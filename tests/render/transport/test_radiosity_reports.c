@@ -105,8 +105,8 @@ static void structs_may_grow(void **state) {
     struct {
         aur_radiosity_options options;
         uint64_t later;
-    } larger = {aur_radiosity_options_default(), 0};
-    larger.options.size = sizeof larger;
+    } larger = {{.size = sizeof larger}, 0};
+    aur_radiosity_options_init(&larger.options, NULL);
     larger.options.bounces = 3;
     assert_int_equal(aur_radiosity_create(scene, &larger.options, &radiosity, &error), AUR_OK);
     assert_int_equal(describe(radiosity).dimension, 10);

@@ -13,7 +13,8 @@ static void render(const aur_scene *scene, const char *integrator, size_t sample
                    size_t threads, float pixels[PIXELS][3]) {
     aur_renderer *renderer;
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
     options.integrator = integrator;
     options.sampler = "sobol";
     options.filter = "box";

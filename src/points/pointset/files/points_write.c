@@ -213,7 +213,8 @@ static aur_result check_options(aur_points_format format, const aur_points_write
 
 aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *points,
                             const aur_points_origin *origin, aur_error *error) {
-    aur_points_write_options options = aur_points_write_options_default();
+    aur_points_write_options options = {.size = sizeof options};
+    aur_points_write_options_init(&options, NULL);
     options.origin = origin;
     return aur_points_write_as(path, format, points, &options, error);
 }
@@ -222,8 +223,10 @@ aur_result aur_points_write_as(const char *path, aur_points_format format, const
                                const aur_points_write_options *given_options, aur_error *error) {
     if (aur_points_format_name(format) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown format %d", (int)format);
-    aur_points_write_options options = aur_points_write_options_default();
-    aur_points_origin own = aur_points_origin_default();
+    aur_points_write_options options = {.size = sizeof options};
+    aur_points_write_options_init(&options, NULL);
+    aur_points_origin own = {.size = sizeof own};
+    aur_points_origin_init(&own, NULL);
     aur_file_writer writer;
     aur_points_view view;
     const aur_points_view *const points = &view;
@@ -252,4 +255,14 @@ aur_result aur_points_write_as(const char *path, aur_points_format format, const
         return result;
     }
     return aur_file_commit(&writer, error);
+}
+
+aur_result aur_points_origin_init(aur_points_origin *origin, aur_error *error) {
+    static const aur_points_origin defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, origin, "aur_points_origin", error);
+}
+
+aur_result aur_points_write_options_init(aur_points_write_options *options, aur_error *error) {
+    static const aur_points_write_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_points_write_options", error);
 }

@@ -79,7 +79,8 @@ static aur_result parse(const char *text, aur_parameters *keys, aur_error *error
 aur_result aur_pointset_create(const char *text, const aur_pointset_options *options, aur_pointset **pointset,
                                aur_error *error) {
     *pointset = NULL;
-    aur_pointset_options own = aur_pointset_options_default(0);
+    aur_pointset_options own = {.size = sizeof own};
+    aur_pointset_options_init(0, &own, NULL);
     aur_parameters keys;
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_pointset_options", error);
     if (result == AUR_OK)
@@ -120,4 +121,13 @@ size_t aur_pointset_dimension(const aur_pointset *pointset) {
 
 uint64_t aur_pointset_size(const aur_pointset *pointset) {
     return pointset->size;
+}
+
+aur_result aur_pointset_options_init(uint64_t count, aur_pointset_options *options, aur_error *error) {
+    static const aur_pointset_options defaults = {.size = sizeof defaults};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_pointset_options", error);
+    if (result == AUR_OK)
+        options->count = count;
+    return result;
 }

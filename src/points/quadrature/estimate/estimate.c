@@ -128,7 +128,8 @@ static aur_result estimate(work *w, aur_error *error) {
 
 aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,
                         aur_estimated *results, aur_estimate_report *report, aur_error *error) {
-    aur_estimate_options own = aur_estimate_options_default(0, 0);
+    aur_estimate_options own = {.size = sizeof own};
+    aur_estimate_options_init(0, 0, &own, NULL);
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_estimate_options", error);
     if (result == AUR_OK)
         result = check(&own, error);
@@ -152,6 +153,17 @@ aur_result aur_estimate(aur_functional functional, void *user, const aur_estimat
 
 aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
                                      aur_error *error) {
-    const aur_estimate_options own = aur_estimate_options_default(dimension, values);
-    return aur_description_write(&own, sizeof own, options, "aur_estimate_options", error);
+    static const aur_estimate_options defaults = {.size = sizeof defaults,
+                                                  .relative = 0.01,
+                                                  .confidence = 0.95,
+                                                  .replicates = 16,
+                                                  .first = 16,
+                                                  .evaluations = UINT64_C(1) << 20};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_estimate_options", error);
+    if (result == AUR_OK) {
+        options->dimension = dimension;
+        options->values = values;
+    }
+    return result;
 }

@@ -315,7 +315,8 @@ static aur_result weigh_axes(size_t count, const double *xyz, const aur_exact_op
 
 aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
                              size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
-    aur_exact_options own = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options own = {.size = sizeof own};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &own, NULL);
     double lowest = -1.0;
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
     const bool axes = own.domain == AUR_DOMAIN_AXES;
@@ -356,6 +357,10 @@ aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_op
 }
 
 aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error) {
-    const aur_exact_options own = aur_exact_options_default(domain);
-    return aur_description_write(&own, sizeof own, options, "aur_exact_options", error);
+    static const aur_exact_options defaults = {.size = sizeof defaults, .degree = AUR_DEGREE_LARGEST};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_exact_options", error);
+    if (result == AUR_OK)
+        options->domain = domain;
+    return result;
 }

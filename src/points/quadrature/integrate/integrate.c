@@ -108,7 +108,8 @@ static aur_result weigh(const integration *work, size_t count, aur_error *error)
     double *const xyz = malloc(3 * count * sizeof *xyz);
     if (xyz == NULL)
         return aur_fail_memory(error);
-    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
     options.threads = 1;
     options.degree = (size_t)sqrt((double)count / 2.2) - 1;
     aur_result result = aur_directions_points(grid, 0, count, 3 * count, xyz, NULL, error);
@@ -159,7 +160,8 @@ static aur_result integrate(integration *work, aur_integral *integral, aur_error
 
 aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate_options *options,
                          aur_integral *integral, aur_error *error) {
-    aur_integrate_options own = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
+    aur_integrate_options own = {.size = sizeof own};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &own, NULL);
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_integrate_options", error);
     if (result == AUR_OK)
         result = check(&own, error);
@@ -185,6 +187,14 @@ aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate
 }
 
 aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options, aur_error *error) {
-    const aur_integrate_options own = aur_integrate_options_default(domain);
-    return aur_description_write(&own, sizeof own, options, "aur_integrate_options", error);
+    static const aur_integrate_options defaults = {.size = sizeof defaults,
+                                                   .relative = 0.01,
+                                                   .confidence = 0.95,
+                                                   .replicates = 8,
+                                                   .evaluations = UINT64_C(1) << 22};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_integrate_options", error);
+    if (result == AUR_OK)
+        options->domain = domain;
+    return result;
 }

@@ -22,14 +22,16 @@ double aur_cap_height(const aur_integrate_options *options) {
 }
 
 static aur_result make_grid(aur_replicates *replicates, size_t capacity, aur_error *error) {
-    const aur_directions_options options = aur_directions_options_default(capacity, AUR_DOMAIN_SPHERE);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(capacity, AUR_DOMAIN_SPHERE, &options, NULL);
     for (size_t r = 0; r < replicates->options.replicates; ++r)
         aur_rotation_uniform(aur_hash3(replicates->options.seed, 0x7475726e, r), &replicates->rotations[r]);
     return aur_directions_create("esfg:base=64", &options, &replicates->grid, error);
 }
 
 static aur_result make_sets(aur_replicates *replicates, size_t capacity, aur_error *error) {
-    aur_pointset_options options = aur_pointset_options_default(capacity);
+    aur_pointset_options options = {.size = sizeof options};
+    aur_pointset_options_init(capacity, &options, NULL);
     options.dimension = replicates->options.has_axis ? 3 : 2;
     options.scramble = AUR_SCRAMBLE_OWEN;
     aur_result result = AUR_OK;

@@ -8,7 +8,8 @@
 /* Fibonacci points that follow a lobe about +z, or the even ones of the whole sphere. */
 static aur_result draw(size_t count, aur_domain domain, const aur_lobe *lobe, double *columns,
                        aur_error *error) {
-    aur_directions_options options = aur_directions_options_default(count, domain);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, domain, &options, NULL);
     options.lobe = *lobe;
     aur_directions *directions;
     aur_result result = aur_directions_create("spherical-fibonacci", &options, &directions, error);

@@ -231,7 +231,8 @@ aur_result aur_potential_density(const aur_potential *potential, size_t count, c
 
 aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,
                                  aur_error *error) {
-    aur_density own = aur_density_default();
+    aur_density own = {.size = sizeof own};
+    aur_density_init(&own, NULL);
     const bool sphere = domain == AUR_DOMAIN_SPHERE, ggx = lobe->kind == AUR_LOBE_GGX;
     if (sphere && (ggx || lobe->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -245,4 +246,9 @@ aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_de
     own.alpha = lobe->alpha;
     own.view_degrees = lobe->view_degrees;
     return aur_description_write(&own, sizeof own, density, "aur_density", error);
+}
+
+aur_result aur_density_init(aur_density *density, aur_error *error) {
+    static const aur_density defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, density, "aur_density", error);
 }

@@ -102,8 +102,10 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
 
 aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
                                  aur_weights_options *weights, aur_error *error) {
-    *own = aur_oswa_options_default(0, 0);
-    *weights = aur_weights_options_default();
+    own->size = sizeof(aur_oswa_options);
+    aur_oswa_options_init(0, 0, own, NULL);
+    weights->size = sizeof(aur_weights_options);
+    aur_weights_options_init(weights, NULL);
     aur_result result = aur_options_read(given, sizeof *own, own, "aur_oswa_options", error);
     if (result == AUR_OK)
         result = aur_weights_options_read(own->weights, weights, error);
@@ -265,7 +267,8 @@ aur_result aur_oswa_angle_init(const aur_oswa *oswa, aur_oswa_view view, aur_osw
         return result;
     if (is_ggx(oswa)) {
         const aur_lobe lobe = ggx_at(view);
-        aur_density density = aur_density_default();
+        aur_density density = {.size = sizeof density};
+        aur_density_init(&density, NULL);
         result = aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
         if (result == AUR_OK)
             result = aur_potential_create(&density, oswa->options.smoothness, &angle->potential, error);
@@ -453,4 +456,16 @@ uint64_t aur_oswa_hash(const aur_oswa *oswa) {
             hash = aur_hash2(hash, (uint64_t)(int64_t)llround(oswa->uniform[which][i] * 0x1p40));
     }
     return hash;
+}
+
+aur_result aur_oswa_options_init(size_t count, size_t mirror_count, aur_oswa_options *options,
+                                 aur_error *error) {
+    static const aur_oswa_options defaults = {.size = sizeof defaults};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_oswa_options", error);
+    if (result == AUR_OK) {
+        options->count = count;
+        options->mirror_count = mirror_count;
+    }
+    return result;
 }

@@ -30,7 +30,8 @@ static aur_result check_grid(const aur_weight_table_grid *grid, const aur_oswa *
 aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_weight_table_grid *given,
                                    bool solves, aur_weight_table **table, aur_error *error) {
     *table = NULL;
-    aur_weight_table_grid grid = aur_weight_table_grid_default();
+    aur_weight_table_grid grid = {.size = sizeof grid};
+    aur_weight_table_grid_init(&grid, NULL);
     aur_result result = aur_options_read(given, sizeof grid, &grid, "aur_weight_table_grid", error);
     if (result != AUR_OK)
         return result;
@@ -274,7 +275,8 @@ double aur_weight_table_mass(const aur_weight_table *table, double radians, doub
     return way > 0.0 ? mass + way * ((double)mass_at(table, roughness + 1, radians) - mass) : mass;
 }
 
-aur_result aur_weight_table_grid_init(aur_weight_table_grid *options, aur_error *error) {
-    const aur_weight_table_grid own = aur_weight_table_grid_default();
-    return aur_description_write(&own, sizeof own, options, "aur_weight_table_grid", error);
+aur_result aur_weight_table_grid_init(aur_weight_table_grid *grid, aur_error *error) {
+    static const aur_weight_table_grid defaults = {
+        .size = sizeof defaults, .angle_count = 64, .roughness_count = 1, .rotation_count = 16};
+    return aur_description_write(&defaults, sizeof defaults, grid, "aur_weight_table_grid", error);
 }

@@ -364,7 +364,8 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     if (size < sizeof magic - 1 + HASH_BYTES || memcmp(data, magic, sizeof magic - 1) != 0)
         return refuse(in, "this is not a weight table");
     size -= HASH_BYTES;
-    header h = {.options = aur_oswa_options_default(0, 0), .weights = aur_weights_options_default()};
+    header h = {.options = {.size = sizeof h.options}, .weights = {.size = sizeof h.weights}};
+    aur_weights_options_init(&h.weights, NULL);
     aur_result result = read_header(in, size, &h);
     if (result == AUR_OK && expected != NULL)
         result = compare(in, &h, expected);

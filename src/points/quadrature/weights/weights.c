@@ -190,7 +190,8 @@ aur_result aur_weights_solve(size_t count, const double *xyz, size_t potential_c
                              const aur_potential *const *potentials, const aur_weights_options *options,
                              size_t capacity, double *weights, aur_weights_report *reports, double *condition,
                              aur_error *error) {
-    aur_weights_options own = aur_weights_options_default();
+    aur_weights_options own = {.size = sizeof own};
+    aur_weights_options_init(&own, NULL);
     aur_result result = aur_weights_options_read(options, &own, error);
     if (result == AUR_OK)
         result = check(count, xyz, potential_count, potentials, error);

@@ -34,7 +34,8 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
                                 double *value, aur_error *error) {
     if (count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a worst-case error needs at least one point");
-    aur_worst_case_options own = aur_worst_case_options_default();
+    aur_worst_case_options own = {.size = sizeof own};
+    aur_worst_case_options_init(&own, NULL);
     aur_result result = aur_options_read(given, sizeof own, &own, "aur_worst_case_options", error);
     if (result == AUR_OK)
         result = aur_check_directions(count, xyz, error);
@@ -72,4 +73,9 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
     }
     free(storage);
     return result;
+}
+
+aur_result aur_worst_case_options_init(aur_worst_case_options *options, aur_error *error) {
+    static const aur_worst_case_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_worst_case_options", error);
 }

@@ -27,7 +27,8 @@ static aur_result wce(const aur_measure_request *request, double *value, aur_err
     const aur_points_view *const points = request->points;
     double smoothness;
     aur_lobe lobe;
-    aur_density density = aur_density_default();
+    aur_density density = {.size = sizeof density};
+    aur_density_init(&density, NULL);
     aur_potential *potential = NULL;
     aur_result result = parse(request->parameter, &smoothness, &lobe, error);
     if (result == AUR_OK)

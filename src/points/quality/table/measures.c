@@ -136,7 +136,8 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
     aur_points_view *const points = &p->points;
     *p = (prepared){.request = {.points = points, .arena = &p->arena, .bound = &p->bound}};
     aur_measure_options *const own = &p->request.options;
-    *own = aur_measure_options_default();
+    own->size = sizeof(aur_measure_options);
+    aur_measure_options_init(own, NULL);
     aur_result result = aur_options_read(options, sizeof *own, own, "aur_measure_options", error);
     if (result == AUR_OK && !(own->accuracy >= 0.0 && own->accuracy < 1.0))
         result =
@@ -204,4 +205,9 @@ aur_result aur_measure_series(const char *metric, const aur_points_view *points,
         aur_series_destroy(made);
     aur_arena_release(&p.arena);
     return result;
+}
+
+aur_result aur_measure_options_init(aur_measure_options *options, aur_error *error) {
+    static const aur_measure_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_measure_options", error);
 }

@@ -194,7 +194,8 @@ static aur_result open_set(const char *set, const aur_directions_options *option
 aur_result aur_directions_create(const char *set, const aur_directions_options *options,
                                  aur_directions **directions, aur_error *error) {
     *directions = NULL;
-    aur_directions_options own = aur_directions_options_default(0, AUR_DOMAIN_HEMISPHERE);
+    aur_directions_options own = {.size = sizeof own};
+    aur_directions_options_init(0, AUR_DOMAIN_HEMISPHERE, &own, NULL);
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_directions_options", error);
     if (result == AUR_OK)
         result = check_options(&own, error);
@@ -343,4 +344,16 @@ aur_result aur_directions_points(const aur_directions *directions, uint64_t firs
     const aur_output weights_to = {.capacity = capacity / 3, .doubles = weights};
     return aur_directions_generate(directions, first, count, &to, weights != NULL ? &weights_to : NULL,
                                    error);
+}
+
+aur_result aur_directions_options_init(uint64_t count, aur_domain domain, aur_directions_options *options,
+                                       aur_error *error) {
+    static const aur_directions_options defaults = {.size = sizeof defaults};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_directions_options", error);
+    if (result == AUR_OK) {
+        options->count = count;
+        options->domain = domain;
+    }
+    return result;
 }

@@ -229,8 +229,10 @@ static aur_result generate(const job *j, aur_points **points) {
 aur_result aur_points_generate(const char *set, const aur_points_request *given, aur_points **points,
                                aur_error *error) {
     *points = NULL;
-    aur_directions_options options = aur_directions_options_default(0, AUR_DOMAIN_SQUARE);
-    aur_points_request request = aur_points_request_default(NULL);
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(0, AUR_DOMAIN_SQUARE, &options, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(NULL, &request, NULL);
     aur_result result = aur_options_read(given, sizeof request, &request, "aur_points_request", error);
     if (result == AUR_OK)
         result = aur_options_read(request.options, sizeof options, &options, "aur_directions_options", error);
@@ -245,5 +247,15 @@ aur_result aur_points_generate(const char *set, const aur_points_request *given,
         aur_points_destroy(*points);
         *points = NULL;
     }
+    return result;
+}
+
+aur_result aur_points_request_init(const aur_directions_options *options, aur_points_request *request,
+                                   aur_error *error) {
+    static const aur_points_request defaults = {.size = sizeof defaults};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, request, "aur_points_request", error);
+    if (result == AUR_OK)
+        request->options = options;
     return result;
 }

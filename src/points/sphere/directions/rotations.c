@@ -58,7 +58,8 @@ static aur_result open_set(const char *set, const aur_rotations_options *options
 aur_result aur_rotations_create(const char *set, const aur_rotations_options *options,
                                 aur_rotations **rotations, aur_error *error) {
     *rotations = NULL;
-    aur_rotations_options own = aur_rotations_options_default(0);
+    aur_rotations_options own = {.size = sizeof own};
+    aur_rotations_options_init(0, &own, NULL);
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_rotations_options", error);
     if (result != AUR_OK)
         return result;
@@ -103,5 +104,14 @@ aur_result aur_rotations_points(const aur_rotations *rotations, uint64_t first, 
     }
     for (size_t i = 0; i < count && rotations->turned && result == AUR_OK; ++i)
         aur_quaternion_multiply(rotations->turn, wxyz + 4 * i, wxyz + 4 * i);
+    return result;
+}
+
+aur_result aur_rotations_options_init(uint64_t count, aur_rotations_options *options, aur_error *error) {
+    static const aur_rotations_options defaults = {.size = sizeof defaults};
+    const aur_result result =
+        aur_description_write(&defaults, sizeof defaults, options, "aur_rotations_options", error);
+    if (result == AUR_OK)
+        options->count = count;
     return result;
 }

@@ -136,7 +136,8 @@ static aur_result find_some(void *context, size_t item) {
 
 aur_result aur_nearest_find(const aur_nearest *nearest, const aur_nearest_options *options, size_t count,
                             const double *queries, size_t *indices, double *distances, aur_error *error) {
-    aur_nearest_options own = aur_nearest_options_default();
+    aur_nearest_options own = {.size = sizeof own};
+    aur_nearest_options_init(&own, NULL);
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_nearest_options", error);
     if (result != AUR_OK)
         return result;
@@ -159,4 +160,9 @@ aur_result aur_nearest_find(const aur_nearest *nearest, const aur_nearest_option
                          "query %zu has no place: its coordinates are not finite, or all zero", b.refused[i]);
     free(b.refused);
     return result;
+}
+
+aur_result aur_nearest_options_init(aur_nearest_options *options, aur_error *error) {
+    static const aur_nearest_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_nearest_options", error);
 }
