@@ -31,6 +31,7 @@ render/scene/importers/xml
 render/scene/importers/rad render/scene/importers/model
 render/scene/importers/meshes render/scene/importers/nodes
 render/scene/materials
+render/scene/plugin
 render/image
 points/quality/table
 points/quality/sphere points/quality/square points/quality/spectrum

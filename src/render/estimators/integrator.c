@@ -1,10 +1,11 @@
 /* The table of integrators: a new one is one file, which defines aur_integrator_<name>, and one line here. */
 #include "render/film/integrator.h"
 
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "points/base/error.h"
+#include "render/scene/plugin/plugin.h"
 
 #define INTEGRATORS(ROW)                                                                                     \
     ROW(path)                                                                                                \
@@ -56,61 +57,74 @@ static aur_result refuse_moved(const aur_moved_key *moved, const aur_parameters 
     return AUR_OK;
 }
 
-/* An integrator whose keys have been read. */
-static aur_result begin(aur_parameters *parameters, const aur_gather_integrator *gather, aur_integrator **out,
-                        aur_error *error) {
-    *out = NULL;
-    const aur_row *row;
-    aur_result result = find(parameters, gather, &row, error);
-    if (result != AUR_OK)
-        return result;
-    const bool is_callers = gather != NULL && row == &gather->row;
-    const aur_integrator_descriptor *const descriptor =
-        is_callers ? &aur_integrator_final_gather : (const aur_integrator_descriptor *)row;
-    result = is_callers ? AUR_OK : refuse_moved(descriptor->moved, parameters, error);
-    if (result != AUR_OK)
-        return result;
-    aur_integrator *const integrator = calloc(1, sizeof *integrator);
-    if (integrator == NULL)
-        return aur_fail_memory(error);
-    integrator->descriptor = descriptor;
-    integrator->data = calloc(1, descriptor->size + 1);
-    if (integrator->data != NULL && descriptor->initial != NULL)
+/* What an integrator is filled from. */
+typedef struct source {
+    const aur_row *row; /* whose keys are read: the descriptor's, or the caller's after those */
+    const aur_integrator_context *context; /* NULL: the keys are read and nothing is made */
+} source;
+
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    const source *const from = context;
+    aur_integrator *const integrator = object;
+    const aur_integrator_descriptor *const descriptor = integrator->descriptor;
+    aur_result result = AUR_OK;
+    if (descriptor->initial != NULL)
         memcpy(integrator->data, descriptor->initial, descriptor->size);
-    result = integrator->data != NULL ? AUR_OK : aur_fail_memory(error);
-    if (result == AUR_OK && is_callers)
+    if (from->row != &descriptor->row)
         result = aur_keys_read(descriptor->row.key_count, descriptor->row.keys, parameters, integrator->data,
                                error);
     if (result == AUR_OK)
-        result = aur_row_read(row, parameters, integrator->data, error);
-    if (result == AUR_OK)
-        *out = integrator;
-    else
-        aur_integrator_destroy(integrator);
-    return result;
+        result = aur_row_read(from->row, parameters, integrator->data, error);
+    if (result != AUR_OK || from->context == NULL)
+        return result;
+    aur_integrator_context own = *from->context;
+    own.create = aur_integrator_create;
+    integrator->scene = own.scene;
+    return descriptor->create != NULL ? descriptor->create(parameters, &own, integrator, error) : AUR_OK;
+}
+
+static void release(void *object) {
+    aur_integrator *const integrator = object;
+    if (integrator->descriptor->release != NULL)
+        integrator->descriptor->release(integrator);
+}
+
+static const aur_plugin_kind kind = {.table = &aur_integrator_table,
+                                     .size = sizeof(aur_integrator),
+                                     .data = offsetof(aur_integrator, data),
+                                     .data_size = offsetof(aur_integrator_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
+static aur_result create(aur_parameters *parameters, const aur_gather_integrator *gather,
+                         const aur_integrator_context *context, aur_integrator **integrator,
+                         aur_error *error) {
+    source from = {.context = context};
+    *integrator = NULL;
+    aur_result result = find(parameters, gather, &from.row, error);
+    if (result != AUR_OK)
+        return result;
+    const bool is_callers = gather != NULL && from.row == &gather->row;
+    const aur_row *const row = is_callers ? &aur_integrator_final_gather.row : from.row;
+    if (!is_callers)
+        result = refuse_moved(((const aur_integrator_descriptor *)row)->moved, parameters, error);
+    return result == AUR_OK ? aur_plugin_create_row(&kind, row, parameters, &from, integrator, error)
+                            : result;
 }
 
 aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrator_context *context,
-                                 aur_integrator **out, aur_error *error) {
-    aur_result result = begin(parameters, context->gather, out, error);
-    if (result != AUR_OK)
-        return result;
-    (*out)->scene = context->scene;
-    aur_integrator_context own = *context;
-    own.create = aur_integrator_create;
-    if ((*out)->descriptor->create != NULL)
-        result = (*out)->descriptor->create(parameters, &own, *out, error);
-    if (result != AUR_OK) {
-        aur_integrator_destroy(*out);
-        *out = NULL;
-    }
-    return result;
+                                 aur_integrator **integrator, aur_error *error) {
+    return create(parameters, context->gather, context, integrator, error);
 }
 
 aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
                                 aur_error *error) {
     aur_integrator *integrator;
-    const aur_result result = begin(parameters, gather, &integrator, error);
+    const aur_result result = create(parameters, gather, NULL, &integrator, error);
     aur_integrator_destroy(integrator);
     return result;
+}
+
+void aur_integrator_destroy(aur_integrator *integrator) {
+    aur_plugin_destroy(&kind, integrator);
 }

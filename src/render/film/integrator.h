@@ -120,11 +120,4 @@ aur_integrator_factory aur_integrator_create;
 aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
                                 aur_error *error);
 
-static inline void aur_integrator_destroy(aur_integrator *integrator) {
-    if (integrator == NULL)
-        return;
-    if (integrator->data != NULL && integrator->descriptor->release != NULL)
-        integrator->descriptor->release(integrator);
-    free(integrator->data);
-    free(integrator);
-}
+void aur_integrator_destroy(aur_integrator *integrator);

@@ -18,6 +18,7 @@ typedef struct aur_light_query {
 
 typedef struct aur_emitter_descriptor {
     aur_row row;      /* first, so that a row of the table is its descriptor */
+    size_t size;      /* of what emitter->data points to: zeroed before `create`, freed in the end */
     bool needs_shape; /* stands inside a <shape> */
     bool is_far;      /* infinitely far: its power grows with the scene's section */
     bool adds;        /* an environment that may stand beside others: radiances add up */

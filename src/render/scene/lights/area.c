@@ -66,9 +66,7 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
         return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
                            "emitter 'area': its shape has no area, so it gives no light");
     emitter->extent = AUR_PI * shape->area;
-    area_light *const light = emitter->data = calloc(1, sizeof *light);
-    if (light == NULL)
-        return aur_fail_memory_at(error, emitter->location);
+    area_light *const light = emitter->data;
     light->shape = shape;
     light->is_mesh = emitter->needs_choice = shape->curved == NULL && !shape->parallelogram;
     if (shape->parallelogram) {
@@ -205,6 +203,7 @@ static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur
 
 const aur_emitter_descriptor aur_emitter_area = {
     .row = {.name = "area", .summary = "a shape that emits from the side of its normal", AUR_ROW_KEYS(keys)},
+    .size = sizeof(area_light),
     .needs_shape = true,
     .create = create,
     .prepare = prepare,

@@ -31,9 +31,7 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     if (!(shape->area > 0.0))
         return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
                            "emitter 'directionalarea': its shape has no area, so it gives no light");
-    beam *const self = emitter->data = calloc(1, sizeof *self);
-    if (self == NULL)
-        return aur_fail_memory_at(error, emitter->location);
+    beam *const self = emitter->data;
     self->shape = shape;
     self->origin = round ? shape->center : aur_mesh_position(&shape->mesh, 0);
     const aur_vector x =
@@ -91,6 +89,7 @@ const aur_emitter_descriptor aur_emitter_directionalarea = {
             .summary = "a rectangle or disk that shines along its normal only",
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(beam),
     .needs_shape = true,
     .create = create,
     .prepare = prepare,

@@ -71,9 +71,7 @@ static aur_result read_picture(const aur_parameters *parameters, const aur_param
 }
 
 static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_envmap *const self = emitter->data = calloc(1, sizeof *self);
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+    aur_envmap *const self = emitter->data;
     envmap_keys p = {.filename = NULL};
     const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
     aur_transform to_local;
@@ -279,6 +277,7 @@ const aur_emitter_descriptor aur_emitter_envmap = {
     .row = {.name = "envmap",
             .summary = "a latitude-longitude picture around the scene, +y up",
             AUR_ROW_KEYS(envmap_keys_table)},
+    .size = sizeof(aur_envmap),
     .is_far = true,
     .create = create_envmap,
     .prepare = prepare_envmap,

@@ -56,9 +56,7 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
                             aur_error *error) {
     const aur_row *const row = &emitter->descriptor->row;
     *p = (point_keys){.beam = -1.0};
-    point_light *const self = emitter->data = calloc(1, sizeof *self);
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+    point_light *const self = emitter->data;
     aur_result result = aur_colors_read(row, parameters, p, error);
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &p->to_world, &self->to_local, error);
@@ -190,6 +188,7 @@ static bool emit_spot(const aur_emitter *emitter, const float u[5], aur_ray *ray
 
 const aur_emitter_descriptor aur_emitter_point = {
     .row = {.name = "point", .summary = "a point that shines evenly", AUR_ROW_KEYS(point_table)},
+    .size = sizeof(point_light),
     .create = create_point,
     .prepare = prepare,
     .sample = sample_place,
@@ -198,6 +197,7 @@ const aur_emitter_descriptor aur_emitter_point = {
 
 const aur_emitter_descriptor aur_emitter_spot = {
     .row = {.name = "spot", .summary = "a point that shines in a cone about +z", AUR_ROW_KEYS(spot_table)},
+    .size = sizeof(point_light),
     .create = create_spot,
     .prepare = prepare,
     .sample = sample_place,
@@ -236,6 +236,7 @@ const aur_emitter_descriptor aur_emitter_directional = {
     .row = {.name = "directional",
             .summary = "parallel light along +z or `direction`",
             AUR_ROW_KEYS(directional_table)},
+    .size = sizeof(point_light),
     .is_far = true,
     .create = create_directional,
     .sample = sample_directional,

@@ -33,9 +33,7 @@ static const aur_key keys[] = {
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     projector_keys p = {.fov = 0.0};
-    projector *const self = emitter->data = calloc(1, sizeof *self);
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+    projector *const self = emitter->data;
     aur_result result = aur_colors_read(&emitter->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &p.to_world, &self->to_local, error);
@@ -109,6 +107,7 @@ static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur
 
 const aur_emitter_descriptor aur_emitter_projector = {
     .row = {.name = "projector", .summary = "a picture thrown into the scene", AUR_ROW_KEYS(keys)},
+    .size = sizeof(projector),
     .create = create,
     .prepare = prepare,
     .sample = sample,

@@ -166,9 +166,7 @@ static aur_result read_scale(const sky_keys *p, aur_parameters *parameters, sky_
 }
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    sky_light *const self = emitter->data = calloc(1, sizeof *self);
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+    sky_light *const self = emitter->data;
     sky_keys p = {.coefficients = NULL};
     aur_result result = aur_colors_read(&emitter->descriptor->row, parameters, &p, error);
     const aur_color *const colors[] = {&p.irradiance, &p.zenith_radiance, &p.ground, &p.ground_albedo};
@@ -318,6 +316,7 @@ const aur_emitter_descriptor aur_emitter_sky = {
     .row = {.name = "sky",
             .summary = "daylight of a uniform, overcast, general (ISO 15469) or all-weather (Perez) sky",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(sky_light),
     .is_far = true,
     .create = create,
     .prepare = prepare,

@@ -57,9 +57,7 @@ static aur_result read_radiance(const sun_keys *p, aur_parameters *parameters, a
 }
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    sun_light *const self = emitter->data = calloc(1, sizeof *self);
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+    sun_light *const self = emitter->data;
     sun_keys p = {.half_angle = 0.0};
     aur_sun_position position;
     aur_result result = aur_colors_read(&emitter->descriptor->row, parameters, &p, error);
@@ -123,6 +121,7 @@ const aur_emitter_descriptor aur_emitter_sun = {
     .row = {.name = "sun",
             .summary = "a disk of the sky, by default the sun; adds to any other environment",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(sun_light),
     .is_far = true,
     .adds = true,
     .create = create,

@@ -1,7 +1,8 @@
 /* Every light by name. One new light is one new file and one line here. */
-#include <stdlib.h>
+#include <stddef.h>
 
 #include "render/scene/emitter.h"
+#include "render/scene/plugin/plugin.h"
 
 #define EMITTERS(ROW)                                                                                        \
     ROW(area)                                                                                                \
@@ -36,37 +37,33 @@ static const aur_row common = {
 const aur_table aur_emitter_table = {
     .kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows), .common = &common};
 
-aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error) {
-    *emitter = NULL;
-    const aur_row *row;
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    (void)context;
+    aur_emitter *const emitter = object;
     emitter_keys unused;
-    aur_result result = aur_table_find(&aur_emitter_table, parameters, &row, error);
-    if (result == AUR_OK)
-        result = aur_keys_read(common.key_count, common.keys, parameters, &unused, error);
-    if (result != AUR_OK)
-        return result;
-    aur_emitter *const made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return aur_fail_memory_at(error, parameters->location);
-    made->descriptor = (const aur_emitter_descriptor *)row;
-    made->location = parameters->location;
-    made->shape = UINT32_MAX;
-    result = made->descriptor->create(parameters, made, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
-    if (result != AUR_OK) {
-        aur_emitter_destroy(made);
-        return result;
-    }
-    *emitter = made;
-    return AUR_OK;
+    emitter->location = parameters->location;
+    emitter->shape = UINT32_MAX;
+    const aur_result result = aur_keys_read(common.key_count, common.keys, parameters, &unused, error);
+    return result == AUR_OK ? emitter->descriptor->create(parameters, emitter, error) : result;
+}
+
+static void release(void *object) {
+    aur_emitter *const emitter = object;
+    if (emitter->descriptor->release != NULL)
+        emitter->descriptor->release(emitter);
+}
+
+static const aur_plugin_kind kind = {.table = &aur_emitter_table,
+                                     .size = sizeof(aur_emitter),
+                                     .data = offsetof(aur_emitter, data),
+                                     .data_size = offsetof(aur_emitter_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
+aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error) {
+    return aur_plugin_create(&kind, parameters, NULL, emitter, error);
 }
 
 void aur_emitter_destroy(aur_emitter *emitter) {
-    if (emitter == NULL)
-        return;
-    if (emitter->data != NULL && emitter->descriptor->release != NULL)
-        emitter->descriptor->release(emitter);
-    free(emitter->data);
-    free(emitter);
+    aur_plugin_destroy(&kind, emitter);
 }

@@ -6,12 +6,6 @@
 
 #include "render/scene/materials/sampling.h"
 
-void aur_bsdf_destroy(aur_bsdf *bsdf) {
-    if (bsdf != NULL)
-        free(bsdf->data);
-    free(bsdf);
-}
-
 size_t aur_bsdf_add_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe) {
     if (bsdf->lobe_count < AUR_BSDF_LOBE_CAPACITY)
         bsdf->lobes[bsdf->lobe_count] = *lobe;

@@ -1,9 +1,10 @@
 /* The table of materials, and making them by name: a new one is one file, which defines aur_bsdf_<name>, and
  * one line here. */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "render/scene/materials/texture.h"
+#include "render/scene/plugin/plugin.h"
 
 #define MATERIALS(ROW)                                                                                       \
     ROW(diffuse)                                                                                             \
@@ -101,10 +102,9 @@ static void summarise(aur_bsdf *bsdf) {
     bsdf->scatters_from_behind = bsdf->scatters[1] != 0;
 }
 
-static aur_result fill(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    bsdf->data = calloc(1, bsdf->descriptor->size);
-    if (bsdf->data == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    (void)context;
+    aur_bsdf *const bsdf = object;
     aur_result result = aur_colors_read(&bsdf->descriptor->row, parameters, bsdf->data, error);
     if (result == AUR_OK)
         result = count_asked(parameters, bsdf, error);
@@ -114,26 +114,24 @@ static aur_result fill(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *er
         result = aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                              "bsdf '%s' has %zu lobes that differ, and at most %d can be rendered",
                              parameters->plugin, bsdf->lobe_count, (int)AUR_BSDF_LOBE_CAPACITY);
-    return result;
-}
-
-aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
-    *bsdf = NULL;
-    const aur_row *row;
-    aur_result result = aur_table_find(&aur_bsdf_table, parameters, &row, error);
     if (result != AUR_OK)
         return result;
-    aur_bsdf *const made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return aur_fail_memory_at(error, parameters->location);
-    made->descriptor = (const aur_bsdf_descriptor *)row;
-    result = fill(parameters, made, error);
-    if (result != AUR_OK) {
-        aur_bsdf_destroy(made);
-        return result;
-    }
-    inherit(parameters, made);
-    summarise(made);
-    *bsdf = made;
+    inherit(parameters, bsdf);
+    summarise(bsdf);
     return AUR_OK;
+}
+
+static const aur_plugin_kind kind = {.table = &aur_bsdf_table,
+                                     .size = sizeof(aur_bsdf),
+                                     .data = offsetof(aur_bsdf, data),
+                                     .data_size = offsetof(aur_bsdf_descriptor, size),
+                                     .fill = fill,
+                                     .release = NULL};
+
+aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
+    return aur_plugin_create(&kind, parameters, NULL, bsdf, error);
+}
+
+void aur_bsdf_destroy(aur_bsdf *bsdf) {
+    aur_plugin_destroy(&kind, bsdf);
 }

@@ -2,15 +2,6 @@
 
 #include <stdlib.h>
 
-void aur_texture_destroy(aur_texture *texture) {
-    if (texture == NULL)
-        return;
-    if (texture->data != NULL && texture->descriptor->release != NULL)
-        texture->descriptor->release(texture);
-    free(texture->data);
-    free(texture);
-}
-
 aur_result aur_colors_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error) {
     aur_result result = aur_row_read(row, parameters, fields, error);
     for (size_t i = 0; i < row->key_count && result == AUR_OK; ++i) {

@@ -1,9 +1,10 @@
 /* The table of textures, and making them by name: a new one is one file, which defines aur_texture_<name>,
  * and one line here. */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "render/scene/materials/texture.h"
+#include "render/scene/plugin/plugin.h"
 
 #define TEXTURES(ROW)                                                                                        \
     ROW(bitmap)                                                                                              \
@@ -33,28 +34,35 @@ void aur_attributes_add(aur_attributes *attributes, const aur_attributes *others
     add_attribute(&attributes->face, others->face, &attributes->too_many);
 }
 
-aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
-    *texture = NULL;
-    const aur_row *row;
-    aur_result result = aur_table_find(&aur_texture_table, parameters, &row, error);
-    if (result != AUR_OK)
-        return result;
-    aur_texture *const made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return aur_fail_memory_at(error, parameters->location);
-    made->descriptor = (const aur_texture_descriptor *)row;
-    made->data = calloc(1, made->descriptor->size);
-    result = made->data != NULL ? made->descriptor->create(parameters, made, error)
-                                : aur_fail_memory_at(error, parameters->location);
-    if (result != AUR_OK) {
-        aur_texture_destroy(made);
-        return result;
-    }
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    (void)context;
+    aur_texture *const texture = object;
+    const aur_result result = texture->descriptor->create(parameters, texture, error);
     for (size_t i = 0; i < parameters->count; ++i)
         if (parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
             strcmp(parameters->items[i].object_kind, "texture") == 0)
-            aur_attributes_add(&made->attributes,
+            aur_attributes_add(&texture->attributes,
                                &((const aur_texture *)parameters->items[i].object)->attributes);
-    *texture = made;
-    return AUR_OK;
+    return result;
+}
+
+static void release(void *object) {
+    aur_texture *const texture = object;
+    if (texture->descriptor->release != NULL)
+        texture->descriptor->release(texture);
+}
+
+static const aur_plugin_kind kind = {.table = &aur_texture_table,
+                                     .size = sizeof(aur_texture),
+                                     .data = offsetof(aur_texture, data),
+                                     .data_size = offsetof(aur_texture_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
+aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
+    return aur_plugin_create(&kind, parameters, NULL, texture, error);
+}
+
+void aur_texture_destroy(aur_texture *texture) {
+    aur_plugin_destroy(&kind, texture);
 }

@@ -1,8 +1,9 @@
 /* Every medium by name. One new medium is one new file and one line here. */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "render/scene/medium.h"
+#include "render/scene/plugin/plugin.h"
 
 #define MEDIA(ROW)                                                                                           \
     ROW(homogeneous)                                                                                         \
@@ -36,55 +37,42 @@ const aur_table aur_medium_table = {.kind = "medium",
                                     AUR_TABLE_ROWS(rows),
                                     .common = &common};
 
-static aur_result read_common(aur_parameters *parameters, aur_medium *medium, aur_error *error) {
+/* Its own row's keys are read by `create`: one of them may make another medium of it. */
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    (void)context;
+    aur_medium *const medium = object;
     medium_keys p = {.phase = NULL};
+    medium->location = parameters->location;
     const aur_result result = aur_keys_read(common.key_count, common.keys, parameters, &p, error);
     if (result != AUR_OK)
         return result;
     medium->samples_emitters = p.sample_emitters;
     medium->phase = &aur_phase_uniform;
-    if (p.phase == NULL)
-        return AUR_OK;
-    if (p.phase->kind != AUR_PARAMETER_OBJECT || strcmp(p.phase->object_kind, "phase") != 0)
+    if (p.phase != NULL &&
+        (p.phase->kind != AUR_PARAMETER_OBJECT || strcmp(p.phase->object_kind, "phase") != 0))
         return aur_parameters_fail_value(parameters, p.phase, "a <phase>", error);
-    medium->phase = p.phase->object;
-    return AUR_OK;
+    if (p.phase != NULL)
+        medium->phase = p.phase->object;
+    return medium->descriptor->create(parameters, medium, error);
 }
 
+static void release(void *object) {
+    aur_medium *const medium = object;
+    if (medium->descriptor->release != NULL)
+        medium->descriptor->release(medium);
+}
+
+static const aur_plugin_kind kind = {.table = &aur_medium_table,
+                                     .size = sizeof(aur_medium),
+                                     .data = offsetof(aur_medium, data),
+                                     .data_size = offsetof(aur_medium_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
 aur_result aur_medium_create(aur_parameters *parameters, aur_medium **medium, aur_error *error) {
-    *medium = NULL;
-    const aur_row *row;
-    aur_result result = aur_table_find(&aur_medium_table, parameters, &row, error);
-    if (result != AUR_OK)
-        return result;
-    const aur_medium_descriptor *const descriptor = (const aur_medium_descriptor *)row;
-    aur_medium *const made = calloc(1, sizeof *made);
-    if (made != NULL)
-        made->data = calloc(1, descriptor->size);
-    if (made == NULL || made->data == NULL) {
-        free(made);
-        return aur_fail_memory_at(error, parameters->location);
-    }
-    made->descriptor = descriptor;
-    made->location = parameters->location;
-    result = read_common(parameters, made, error);
-    if (result == AUR_OK)
-        result = descriptor->create(parameters, made, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
-    if (result != AUR_OK) {
-        aur_medium_destroy(made);
-        return result;
-    }
-    *medium = made;
-    return AUR_OK;
+    return aur_plugin_create(&kind, parameters, NULL, medium, error);
 }
 
 void aur_medium_destroy(aur_medium *medium) {
-    if (medium == NULL)
-        return;
-    if (medium->descriptor->release != NULL)
-        medium->descriptor->release(medium);
-    free(medium->data);
-    free(medium);
+    aur_plugin_destroy(&kind, medium);
 }

@@ -1,8 +1,9 @@
 /* Every phase function by name. One new phase function is one new file and one line here. */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "render/scene/phase.h"
+#include "render/scene/plugin/plugin.h"
 
 #define PHASES(ROW)                                                                                          \
     ROW(isotropic)                                                                                           \
@@ -38,41 +39,35 @@ static aur_result count_asked(const aur_parameters *parameters, aur_phase *phase
                      parameters->plugin, phase->asked, (int)MOST_ASKED - 1);
 }
 
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    (void)context;
+    aur_phase *const phase = object;
+    const aur_row *const row = &phase->descriptor->row;
+    aur_result result = aur_keys_read(row->key_count, row->keys, parameters, phase->data, error);
+    if (result == AUR_OK)
+        result = count_asked(parameters, phase, error);
+    return result == AUR_OK && phase->descriptor->create != NULL
+               ? phase->descriptor->create(parameters, phase, error)
+               : result;
+}
+
+static void release(void *object) {
+    aur_phase *const phase = object;
+    if (phase->descriptor->release != NULL)
+        phase->descriptor->release(phase);
+}
+
+static const aur_plugin_kind kind = {.table = &aur_phase_table,
+                                     .size = sizeof(aur_phase),
+                                     .data = offsetof(aur_phase, data),
+                                     .data_size = offsetof(aur_phase_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
 aur_result aur_phase_create(aur_parameters *parameters, aur_phase **phase, aur_error *error) {
-    *phase = NULL;
-    const aur_row *row;
-    aur_result result = aur_table_find(&aur_phase_table, parameters, &row, error);
-    if (result != AUR_OK)
-        return result;
-    const aur_phase_descriptor *const descriptor = (const aur_phase_descriptor *)row;
-    aur_phase *const made = calloc(1, sizeof *made);
-    if (made != NULL)
-        made->data = calloc(1, descriptor->size + 1);
-    if (made == NULL || made->data == NULL) {
-        free(made);
-        return aur_fail_memory_at(error, parameters->location);
-    }
-    made->descriptor = descriptor;
-    result = count_asked(parameters, made, error);
-    if (result == AUR_OK)
-        result = aur_keys_read(row->key_count, row->keys, parameters, made->data, error);
-    if (result == AUR_OK && descriptor->create != NULL)
-        result = descriptor->create(parameters, made, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
-    if (result != AUR_OK) {
-        aur_phase_destroy(made);
-        return result;
-    }
-    *phase = made;
-    return AUR_OK;
+    return aur_plugin_create(&kind, parameters, NULL, phase, error);
 }
 
 void aur_phase_destroy(aur_phase *phase) {
-    if (phase == NULL)
-        return;
-    if (phase->descriptor->release != NULL)
-        phase->descriptor->release(phase);
-    free(phase->data);
-    free(phase);
+    aur_plugin_destroy(&kind, phase);
 }

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/scene/plugin/plugin.h"
 #include "render/scene/shape.h"
 
 #define SHAPES(ROW)                                                                                          \
@@ -45,40 +46,46 @@ static const aur_row common = {
 const aur_table aur_shape_table = {
     .kind = "shape", .summary = "surfaces", AUR_TABLE_ROWS(rows), .common = &common};
 
-aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *document, aur_shape **shape,
-                            aur_error *error) {
-    *shape = NULL;
-    const aur_row *row;
+/* `context`: the scene's document. */
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    aur_shape *const shape = object;
     aur_shape_keys keys = {.bsdf = NULL};
-    aur_shape_input input = {.parameters = parameters, .document = document};
-    aur_result result = aur_table_find(&aur_shape_table, parameters, &row, error);
-    if (result == AUR_OK)
-        result = aur_keys_read(common.key_count, common.keys, parameters, &keys, error);
+    aur_shape_input input = {.parameters = parameters, .document = (aur_xml_document *)(uintptr_t)context};
+    aur_result result = aur_keys_read(common.key_count, common.keys, parameters, &keys, error);
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &keys.to_world, &input.to_local, error);
     if (result != AUR_OK)
         return result;
     input.to_world = keys.to_world;
     input.flip_normals = keys.flip_normals;
-    aur_shape *const made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return aur_fail_memory_at(error, parameters->location);
-    made->descriptor = (const aur_shape_descriptor *)row;
-    made->location = parameters->location;
-    made->emitter = AUR_NO_EMITTER;
-    made->curved = made->descriptor->curved;
-    made->flipped = keys.flip_normals;
-    result = made->descriptor->create(&input, made, error);
-    if (result == AUR_OK)
-        result = aur_mesh_check(&made->mesh, parameters->location, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
-    if (result != AUR_OK) {
-        aur_shape_destroy(made);
-        return result;
-    }
-    *shape = made;
-    return AUR_OK;
+    shape->location = parameters->location;
+    shape->emitter = AUR_NO_EMITTER;
+    shape->curved = shape->descriptor->curved;
+    shape->flipped = keys.flip_normals;
+    result = shape->descriptor->create(&input, shape, error);
+    return result == AUR_OK ? aur_mesh_check(&shape->mesh, parameters->location, error) : result;
+}
+
+static void release(void *object) {
+    aur_shape *const shape = object;
+    aur_mesh_release(&shape->mesh);
+    aur_shape_release_attributes(shape);
+    free(shape->file);
+    free(shape->curves.places);
+    free(shape->curves.points);
+    free(shape->curves.firsts);
+}
+
+static const aur_plugin_kind kind = {
+    .table = &aur_shape_table, .size = sizeof(aur_shape), .fill = fill, .release = release};
+
+aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *document, aur_shape **shape,
+                            aur_error *error) {
+    return aur_plugin_create(&kind, parameters, document, shape, error);
+}
+
+void aur_shape_destroy(aur_shape *shape) {
+    aur_plugin_destroy(&kind, shape);
 }
 
 static void measure_mesh(aur_shape *shape) {
@@ -117,16 +124,4 @@ aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool kee
     if (result == AUR_OK)
         measure_mesh(shape);
     return result;
-}
-
-void aur_shape_destroy(aur_shape *shape) {
-    if (shape == NULL)
-        return;
-    aur_mesh_release(&shape->mesh);
-    aur_shape_release_attributes(shape);
-    free(shape->file);
-    free(shape->curves.places);
-    free(shape->curves.points);
-    free(shape->curves.firsts);
-    free(shape);
 }

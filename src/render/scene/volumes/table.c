@@ -1,8 +1,9 @@
 /* Every volume by name. One new volume is one new file and one line here. */
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "points/base/text.h"
+#include "render/scene/plugin/plugin.h"
 #include "render/scene/volume.h"
 
 #define VOLUMES(ROW)                                                                                         \
@@ -18,41 +19,33 @@ static const aur_row *const rows[] = {VOLUMES(ADDRESS)};
 const aur_table aur_volume_table = {
     .kind = "volume", .summary = "values that vary over space, for media", AUR_TABLE_ROWS(rows)};
 
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    (void)context;
+    aur_volume *const volume = object;
+    const aur_row *const row = &volume->descriptor->row;
+    const aur_result result = aur_keys_read(row->key_count, row->keys, parameters, volume->data, error);
+    return result == AUR_OK ? volume->descriptor->create(parameters, volume, error) : result;
+}
+
+static void release(void *object) {
+    aur_volume *const volume = object;
+    if (volume->descriptor->release != NULL)
+        volume->descriptor->release(volume);
+}
+
+static const aur_plugin_kind kind = {.table = &aur_volume_table,
+                                     .size = sizeof(aur_volume),
+                                     .data = offsetof(aur_volume, data),
+                                     .data_size = offsetof(aur_volume_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
 aur_result aur_volume_create(aur_parameters *parameters, aur_volume **volume, aur_error *error) {
-    *volume = NULL;
-    const aur_row *row;
-    aur_result result = aur_table_find(&aur_volume_table, parameters, &row, error);
-    if (result != AUR_OK)
-        return result;
-    const aur_volume_descriptor *const descriptor = (const aur_volume_descriptor *)row;
-    aur_volume *const made = calloc(1, sizeof *made);
-    if (made != NULL)
-        made->data = calloc(1, descriptor->size);
-    if (made == NULL || made->data == NULL) {
-        free(made);
-        return aur_fail_memory_at(error, parameters->location);
-    }
-    made->descriptor = descriptor;
-    result = aur_keys_read(row->key_count, row->keys, parameters, made->data, error);
-    if (result == AUR_OK)
-        result = descriptor->create(parameters, made, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
-    if (result != AUR_OK) {
-        aur_volume_destroy(made);
-        return result;
-    }
-    *volume = made;
-    return AUR_OK;
+    return aur_plugin_create(&kind, parameters, NULL, volume, error);
 }
 
 void aur_volume_destroy(aur_volume *volume) {
-    if (volume == NULL)
-        return;
-    if (volume->descriptor->release != NULL)
-        volume->descriptor->release(volume);
-    free(volume->data);
-    free(volume);
+    aur_plugin_destroy(&kind, volume);
 }
 
 void aur_volume_recenter(aur_volume *volume, const double origin[3]) {

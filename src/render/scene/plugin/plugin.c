@@ -1,0 +1,58 @@
+#include "render/scene/plugin/plugin.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A structure of zeros with its descriptor and its data, or NULL. */
+static void *allocate(const aur_plugin_kind *kind, const aur_row *row) {
+    char *const made = calloc(1, kind->size);
+    size_t size = 0;
+    if (made == NULL)
+        return NULL;
+    memcpy(made, &row, sizeof row);
+    if (kind->data_size == 0)
+        return made;
+    memcpy(&size, (const char *)row + kind->data_size, sizeof size);
+    void *const data = calloc(1, size + 1);
+    memcpy(made + kind->data, &data, sizeof data);
+    if (data != NULL)
+        return made;
+    free(made);
+    return NULL;
+}
+
+aur_result aur_plugin_create(const aur_plugin_kind *kind, aur_parameters *parameters, const void *context,
+                             void *object, aur_error *error) {
+    const aur_row *row;
+    void *const none = NULL;
+    memcpy(object, &none, sizeof none);
+    const aur_result result = aur_table_find(kind->table, parameters, &row, error);
+    return result == AUR_OK ? aur_plugin_create_row(kind, row, parameters, context, object, error) : result;
+}
+
+aur_result aur_plugin_create_row(const aur_plugin_kind *kind, const aur_row *row, aur_parameters *parameters,
+                                 const void *context, void *object, aur_error *error) {
+    void *made = allocate(kind, row);
+    aur_result result = made != NULL ? kind->fill(parameters, made, context, error)
+                                     : aur_fail_memory_at(error, parameters->location);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(parameters, error);
+    if (result != AUR_OK) {
+        aur_plugin_destroy(kind, made);
+        made = NULL;
+    }
+    memcpy(object, &made, sizeof made);
+    return result;
+}
+
+void aur_plugin_destroy(const aur_plugin_kind *kind, void *object) {
+    void *data = NULL;
+    if (object == NULL)
+        return;
+    if (kind->release != NULL)
+        kind->release(object);
+    if (kind->data_size != 0)
+        memcpy(&data, (char *)object + kind->data, sizeof data);
+    free(data);
+    free(object);
+}

@@ -1,0 +1,28 @@
+/* Objects that a scene names by their type: each kind has a table of descriptors, and all kinds are created
+ * and destroyed in the same order of steps. */
+#pragma once
+
+#include "points/base/keys.h"
+
+/* A kind of object. Its structure begins with the address of its descriptor, which begins with an aur_row. */
+typedef struct aur_plugin_kind {
+    const aur_table *table; /* of descriptors */
+    size_t size;            /* of the structure */
+    /* Offsets of its `data`, and of the `size` of that in the descriptor; 0: the kind has no data. */
+    size_t data, data_size;
+    /* Reads what the parameters say into a structure of zeros, whose data are zeros too, and makes the rest.
+     * `context` is that of aur_plugin_create. */
+    aur_result (*fill)(aur_parameters *parameters, void *object, const void *context, aur_error *error);
+    /* Frees what the structure and its data point to, also after `fill` has failed; NULL: nothing. */
+    void (*release)(void *object);
+} aur_plugin_kind;
+
+/* Finds the row that parameters->plugin names, allocates, fills, and refuses parameters that nobody has read.
+ * `object` is the address of the pointer, which is NULL after errors. Errors: NAME, MEMORY and those of
+ * `fill`, with the place in the file. */
+aur_result aur_plugin_create(const aur_plugin_kind *kind, aur_parameters *parameters, const void *context,
+                             void *object, aur_error *error);
+/* The same, where the row is known. */
+aur_result aur_plugin_create_row(const aur_plugin_kind *kind, const aur_row *row, aur_parameters *parameters,
+                                 const void *context, void *object, aur_error *error);
+void aur_plugin_destroy(const aur_plugin_kind *kind, void *object); /* NULL is allowed */

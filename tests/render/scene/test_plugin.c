@@ -1,0 +1,108 @@
+/* Objects by the name of their type: the order of steps, on a kind made for this test. */
+#include "check.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/scene/plugin/plugin.h"
+
+typedef struct thing_descriptor {
+    aur_row row;
+    size_t size;
+} thing_descriptor;
+
+typedef struct thing {
+    const thing_descriptor *descriptor;
+    double *data;
+    char *more;
+} thing;
+
+static const thing_descriptor small = {{.name = "small"}, sizeof(double)}, none = {{.name = "none"}, 0};
+static const aur_row *const rows[] = {&small.row, &none.row};
+static const aur_table table = {.kind = "thing", AUR_TABLE_ROWS(rows)};
+static size_t released;
+
+/* Reads 'value', and fails where it is below 0. */
+static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
+    thing *const made = object;
+    const aur_parameter *const item = aur_parameters_find(parameters, "value");
+    made->more = strdup(context);
+    assert_non_null(made->more);
+    if (made->descriptor == &small)
+        assert_true(*made->data == 0.0);
+    if (item != NULL && item->text[0] == '-')
+        return aur_parameters_fail_value(parameters, item, "positive", error);
+    return AUR_OK;
+}
+
+static void release(void *object) {
+    free(((thing *)object)->more);
+    ++released;
+}
+
+static const aur_plugin_kind kind = {.table = &table,
+                                     .size = sizeof(thing),
+                                     .data = offsetof(thing, data),
+                                     .data_size = offsetof(thing_descriptor, size),
+                                     .fill = fill,
+                                     .release = release};
+
+/* An object of the type, with one parameter. */
+static aur_result create(const char *type, const char *name, const char *value, thing **made,
+                         aur_error *error) {
+    const aur_location here = {"a.xml", 7, 3};
+    aur_parameters parameters;
+    assert_int_equal(aur_parameters_init(&parameters, "thing", type, here, error), AUR_OK);
+    assert_int_equal(aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, name, value, here, error),
+                     AUR_OK);
+    const aur_result result = aur_plugin_create(&kind, &parameters, "context", made, error);
+    aur_parameters_release(&parameters);
+    return result;
+}
+
+static void creates_and_destroys(void **state) {
+    (void)state;
+    static const char *const types[] = {"small", "none"};
+    for (size_t i = 0; i < 2; ++i) {
+        thing *made = NULL;
+        released = 0;
+        assert_int_equal(create(types[i], "value", "1", &made, NULL), AUR_OK);
+        assert_ptr_equal(&made->descriptor->row, rows[i]);
+        assert_string_equal(made->more, "context");
+        assert_int_equal(released, 0);
+        aur_plugin_destroy(&kind, made);
+        assert_int_equal(released, 1);
+    }
+    aur_plugin_destroy(&kind, NULL);
+    assert_int_equal(released, 1);
+}
+
+/* What has been made is released once, and nothing where the type is unknown. */
+static void failures_release(void **state) {
+    (void)state;
+    static const struct {
+        const char *type, *name, *value, *message;
+        aur_result result;
+        size_t released;
+    } cases[] = {{"smal", "value", "1", "small", AUR_ERROR_NAME, 0},
+                 {"small", "value", "-1", "must be positive", AUR_ERROR_FORMAT, 1},
+                 {"small", "valu", "1", "valu", AUR_ERROR_NAME, 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        thing *made = (thing *)&released;
+        aur_error error = {0};
+        released = 0;
+        assert_int_equal(create(cases[i].type, cases[i].name, cases[i].value, &made, &error),
+                         cases[i].result);
+        assert_null(made);
+        assert_non_null(strstr(error.message, cases[i].message));
+        assert_int_equal(error.line, 7);
+        assert_int_equal(released, cases[i].released);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(creates_and_destroys),
+                                       cmocka_unit_test(failures_release)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
