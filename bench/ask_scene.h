@@ -2,8 +2,8 @@
  * of two long path-traced pictures with seeds of their own, rendered once and kept beside the program. */
 #pragma once
 
-#include <aureole/ask.h>
-#include <aureole/image.h>
+#include <aureole-render/ask.h>
+#include <aureole-render/image.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

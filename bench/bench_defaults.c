@@ -3,7 +3,7 @@
  * is in the bench `gather-weights`. A ratio below 1 is a default that should not be one, but for what errs
  * less: there the errors' squares are compared too, and the product is what counts.
  * tests/render/transport/test_defaults.c counts the rays of the rows that are faster. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 #include <string.h>
 

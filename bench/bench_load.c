@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 
 #include "bench.h"
 #include "folder.h"

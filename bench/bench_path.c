@@ -1,5 +1,5 @@
 /* Path tracing against Embree alone on the rays that it traced: what shading, sampling and the film cost. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* The radiosity walk against Embree alone on the rays that it traced, whatever makes its points; and what a
  * second thread costs. */
-#include <aureole/radiosity.h>
+#include <aureole-render/radiosity.h>
 #include <stdio.h>
 #include <stdlib.h>
 

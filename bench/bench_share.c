@@ -1,6 +1,6 @@
 /* What sharing gathered light among pixels leaves of the error, and how even that error is: pictures by the
  * same directions with each choice of the key `share`, two seeds each. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 
 #include "bench.h"

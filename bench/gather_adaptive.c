@@ -4,7 +4,7 @@
 #include "gather_adaptive.h"
 #include "program/lab/gather.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <aureole/statistics.h>
 #include <math.h>
 #include <stdio.h>

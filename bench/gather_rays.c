@@ -1,6 +1,6 @@
 #include "gather_rays.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 /* Subjects, the pictures that are their truth, and what other pictures cost and err. */
 #include "study.h"
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

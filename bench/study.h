@@ -7,7 +7,7 @@
  * path tracing. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
 # symbols.sh HEADER...: the public functions that the headers declare (AUR_API, AUR_EXPERIMENTAL), a line each, sorted.
 # symbols.sh --experimental HEADER...: those of them that are AUR_EXPERIMENTAL.
-# symbols.sh --map VERSION HEADER...: the linker's symbol map of the libraries. Public functions have a version that stays;
+# symbols.sh --map LIBRARY VERSION HEADER...: the linker's symbol map of a library. Public functions have a version that stays;
 # experimental ones, and all other names that a library shows, which are for the libraries and the tools of this tree, have one
 # of this release alone, so that no program is bound to another release's.
 set -euo pipefail
-map=
+map= node=
 kinds='AUR_API|AUR_EXPERIMENTAL'
 case $1 in
-  --map) map=$2; shift 2 ;;
+  --map) node=${2^^} map=$3; node=${node//-/_}; shift 3 ;;
   --experimental) kinds=AUR_EXPERIMENTAL; shift ;;
 esac
 names() {
   sed '/^#/d' "${@:2}" | tr '\n' ' ' | grep -oE "($1) [^(;]*\(" | sed -E 's/.*[ *](aur_[a-z0-9_]+)\($/\1/' | sort -u
 }
 [ -n "$map" ] || { names "$kinds" "$@"; exit; }
-printf 'AUREOLE_0 {\n  global:\n'
+printf '%s_0 {\n  global:\n' "$node"
 names AUR_API "$@" | sed 's/.*/    &;/'
-printf '};\nAUREOLE_EXPERIMENTAL_%s {\n  global:\n' "$map"
+printf '};\n%s_EXPERIMENTAL_%s {\n  global:\n' "$node" "$map"
 names AUR_EXPERIMENTAL "$@" | sed 's/.*/    &;/'
-printf '};\nAUREOLE_PRIVATE_%s {\n  global:\n    aur_*;\n  local:\n    *;\n};\n' "$map"
+printf '};\n%s_PRIVATE_%s {\n  global:\n    aur_*;\n  local:\n    *;\n};\n' "$node" "$map"

@@ -4,7 +4,7 @@
  *
  * Prints the matrix of floor, ceiling and four walls; its rows sum to 1, and area times factor is the same
  * both ways. A room with furniture is a mesh: `aureole viewfactors room.obj`, or aur_facets_load. */
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

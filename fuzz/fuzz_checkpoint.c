@@ -1,6 +1,6 @@
 /* Checkpoints, and parts of pictures, which are such files too: read by themselves, gone on from, and merged.
  * Their hashes are made right before. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "render/film/checkpoint.h"
 #include "words.h"

@@ -1,5 +1,5 @@
 /* Pictures of all formats. One in eight is named as a TGA, which nothing else can tell. */
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <openexr.h>
 #include <stb_image_write.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Photon maps as the cache has them. The hash of an entry keeps out what is damaged; what has the right hash
  * even so must not lead beyond the map. */
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 
 #include "fuzz.h"
 #include "render/photons/irradiance_file.h"

@@ -2,7 +2,7 @@
  * are asked too. Small files lie beside them for scenes to name. Two of three may name no other ones;
  * those that ask for $n are told what it is. */
 #define _GNU_SOURCE /* memmem */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 /* Places to measure light at: text, NPY, and meshes, told apart by the ends of their names: on the facets of
  * meshes or on their corners, at them or lifted. The first byte says which. */
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 #include <math.h>
 
 #include "fuzz.h"

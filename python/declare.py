@@ -1,7 +1,7 @@
 """Makes the bridge between Python and the C libraries from their public headers, by cffi.
 
 declare.py native INCLUDE OUT.c   the extension's source: libaureole's functions, types and constants, which the compiler checks
-declare.py library INCLUDE OUT.py the same of libaureole-render, for the library to be opened at run time
+declare.py library INCLUDE OUT.py the same of libaureole-render and libaureole-lighting, for the library to be opened at run time
 
 Nothing is declared by hand: a function that a header gains is there after the next build.
 """
@@ -12,8 +12,10 @@ import sys
 
 import cffi
 
-NATIVE = "core text tables pointset sphere rotations nearest statistics quadrature quality exact integrate estimate".split()
-LIBRARY = "core tables image scene film render ask view_factors irradiance".split()
+NATIVE = [f"aureole/{name}.h" for name in
+          "core text tables pointset sphere rotations nearest statistics quadrature quality exact integrate estimate".split()]
+LIBRARY = ["aureole/core.h", "aureole/tables.h", "aureole-render/image.h", "aureole-render/scene.h", "aureole-render/film.h",
+           "aureole-render/render.h", "aureole-render/ask.h", "aureole-lighting/view_factors.h", "aureole-lighting/irradiance.h"]
 
 # What the libraries call, which cffi writes as C functions that call Python.
 CALLBACKS = """
@@ -50,13 +52,15 @@ def main():
     native = kind == "native"
     names = NATIVE if native else LIBRARY
     ffi = cffi.FFI()
+    if not native:
+        ffi.cdef("typedef struct aur_gather_integrator aur_gather_integrator;")  # integrators of the caller's are for C
     for name in names:
-        ffi.cdef(declarations((include / "aureole" / f"{name}.h").read_text(), native))
+        ffi.cdef(declarations((include / name).read_text(), native))
     if native:
         own = pathlib.Path(__file__).with_name("native.c").read_text()
         ffi.cdef('extern "Python" {' + CALLBACKS + "}")
         ffi.cdef(declarations(own, True))
-        ffi.set_source("aureole._native", "".join(f"#include <aureole/{name}.h>\n" for name in names) + own)
+        ffi.set_source("aureole._native", "".join(f"#include <{name}>\n" for name in names) + own)
         ffi.emit_c_code(out)
     else:
         ffi.set_source("aureole._library", None)

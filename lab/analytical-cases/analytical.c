@@ -1,6 +1,6 @@
 /* Lighting cases of the class of CIE 171:2006, from physics: what `aureole irradiance` makes of each, beside
  * references by two derivations. */
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 #include <aureole/statistics.h>
 #include <aureole/text.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef AUR_LAB_KELLER_STUDY_H
 #define AUR_LAB_KELLER_STUDY_H
 
-#include <aureole/radiosity.h>
+#include <aureole-render/radiosity.h>
 
 #include "program/lab/lab.h"
 

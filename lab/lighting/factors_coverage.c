@@ -1,5 +1,5 @@
 /* How often the intervals of view factors, sky factors and radiosities hold. */
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* How often the intervals of aur_irradiance_estimate and of aur_estimate hold, also of runs that an error
  * asked has stopped. */
+#include <aureole-lighting/irradiance.h>
 #include <aureole/estimate.h>
-#include <aureole/irradiance.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

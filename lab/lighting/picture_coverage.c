@@ -1,6 +1,6 @@
 /* How often the intervals of pictures' errors hold, of fixed rounds and of renders that an error asked has
  * stopped, and those of measures of randomised sets. */
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 #include <aureole/pointset.h>
 #include <aureole/quality.h>
 #include <math.h>

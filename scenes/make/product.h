@@ -1,7 +1,7 @@
 /* What aureole-scenes makes: one row a file in the table of main.c. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 #include "mesh.h"
 

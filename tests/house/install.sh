@@ -30,13 +30,15 @@ fi
 
 mkdir consumer
 cat >consumer/consumer.c <<'C'
-#include <aureole/render.h>
+#include <aureole-lighting/daylight.h>
+#include <aureole-render/render.h>
+#include <aureole/image.h> /* the old name */
 #include <aureole/sphere.h>
 #include <stdio.h>
 
 int main(void) {
     printf("aureole %s\n", aur_version());
-    return aur_set_at(aur_set_count()) != NULL;
+    return aur_set_at(aur_set_count()) != NULL || aur_reflected_name(AUR_REFLECTED_BY_PATHS) == NULL;
 }
 C
 cat >consumer/CMakeLists.txt <<'CMAKE'
@@ -44,7 +46,7 @@ cmake_minimum_required(VERSION 3.22)
 project(consumer LANGUAGES C)
 find_package(aureole 0.1 REQUIRED)
 add_executable(consumer consumer.c)
-target_link_libraries(consumer PRIVATE Aureole::render)
+target_link_libraries(consumer PRIVATE Aureole::lighting)
 CMAKE
 cmake -S consumer -B consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 || { cat cmake.log; exit 1; }
 cmake --build consumer/build >cmake.log 2>&1 || { cat cmake.log; exit 1; }
@@ -77,6 +79,7 @@ for header in bare-prefix/include/aureole/*.h; do
   echo "#include <aureole/$(basename "$header")>" | cc -std=c17 -fsyntax-only -Ibare-prefix/include -x c - || exit 1
 done
 [ "$(ls bare-prefix/include/aureole/*.h | wc -l)" -ge 15 ] || { echo "headers of libaureole are missing"; exit 1; }
+[ ! -e bare-prefix/include/aureole-render ] && [ ! -e bare-prefix/include/aureole/image.h ] || { echo "headers of the renderer are installed without it"; exit 1; }
 [ ! -e bare-prefix/bin ] || { echo "a program is installed"; exit 1; }
 
 export PKG_CONFIG_PATH
@@ -86,7 +89,7 @@ sanitizers=()
 nm -D "$(find "$prefix" -name 'libaureole.so.0')" | grep -q __asan_init && sanitizers=(-fsanitize=address,undefined)
 libraries=$(pkg-config --variable=libdir aureole)
 # shellcheck disable=SC2046 # the flags are words
-cc "${sanitizers[@]}" consumer/consumer.c -o consumer/by-pkg-config $(pkg-config --cflags --libs aureole-render)
+cc "${sanitizers[@]}" consumer/consumer.c -o consumer/by-pkg-config $(pkg-config --cflags --libs aureole-lighting)
 [ "$(LD_LIBRARY_PATH=$libraries consumer/by-pkg-config)" = "$version" ] || { echo "the pkg-config consumer does not run"; exit 1; }
 
 # The README's example is compiled as it stands, and prints what the README says.

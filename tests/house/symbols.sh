@@ -7,28 +7,29 @@ build=$(dirname "$1")
 source_tree=$2
 [ -e "$build/libaureole.so" ] || { echo "skipped: the libraries are static"; exit 77; }
 status=0
-bash "$source_tree/cmake/symbols.sh" "$source_tree"/include/aureole/*.h >public.txt
-[ "$(wc -l <public.txt)" -gt 100 ] || { echo "only $(wc -l <public.txt) public functions were read"; exit 1; }
-for library in aureole aureole-render aureole-lighting; do
-  nm -D --defined-only --with-symbol-versions "$build/lib$library.so" | awk '$2 != "A" { print $3 }' >"$library.txt"
-done
-cat aureole.txt aureole-render.txt aureole-lighting.txt >shown.txt
-bash "$source_tree/cmake/symbols.sh" --experimental "$source_tree"/include/aureole/*.h >experimental.txt
-[ "$(wc -l <experimental.txt)" -gt 50 ] || { echo "only $(wc -l <experimental.txt) experimental functions were read"; exit 1; }
 release=$(sed -nE 's/#define AUREOLE_VERSION_(MAJOR|MINOR|PATCH) //p' "$source_tree/include/aureole/version.h" | paste -sd.)
-comm -23 public.txt experimental.txt >stable.txt
 shown() {
-  sed -n "s/@@$1\$//p" shown.txt | sort | diff "$2" - ||
+  sed -n "s/@@$1\$//p" "$library.txt" | sort | diff "$2" - ||
     { echo "$1: < declared and not shown, or > shown twice or declared by no header"; status=1; }
 }
-shown AUREOLE_0 stable.txt
-shown "AUREOLE_EXPERIMENTAL_$release" experimental.txt
-grep -vE "^aur_[a-z0-9_]+@@AUREOLE_(0|EXPERIMENTAL_$release|PRIVATE_$release)$" shown.txt && { echo "names that are not the libraries' own"; status=1; }
+for library in aureole aureole-render aureole-lighting; do
+  nm -D --defined-only --with-symbol-versions "$build/lib$library.so" | awk '$2 != "A" { print $3 }' >"$library.txt"
+  bash "$source_tree/cmake/symbols.sh" "$source_tree/include/$library"/*.h >declared.txt
+  bash "$source_tree/cmake/symbols.sh" --experimental "$source_tree/include/$library"/*.h >experimental.txt
+  comm -23 declared.txt experimental.txt >stable.txt
+  cat declared.txt >>public.txt
+  node=${library^^} node=${node//-/_}
+  shown "${node}_0" stable.txt
+  shown "${node}_EXPERIMENTAL_$release" experimental.txt
+  grep -vE "^aur_[a-z0-9_]+@@${node}_(0|EXPERIMENTAL_$release|PRIVATE_$release)$" "$library.txt" && { echo "names that are not the library's own"; status=1; }
+done
+[ "$(wc -l <public.txt)" -gt 250 ] || { echo "only $(wc -l <public.txt) public functions were read"; exit 1; }
+cat aureole.txt aureole-render.txt aureole-lighting.txt >shown.txt
 sed 's/@.*//' shown.txt | sort | uniq -d | grep . && { echo "two libraries have these"; status=1; }
 
 # A private name is one that another library needs; points/base shows all of its names.
 nm -D --undefined-only "$build"/libaureole-{render,lighting}.so | awk '{ sub(/@.*/, "", $NF); print $NF }' | sort -u >needed.txt
-sed -n 's/@@AUREOLE_PRIVATE_.*//p' aureole-render.txt aureole-lighting.txt | sort | comm -23 - needed.txt | grep . &&
+sed -n 's/@@AUREOLE_[A-Z_]*PRIVATE_.*//p' aureole-render.txt aureole-lighting.txt | sort | comm -23 - needed.txt | grep . &&
   { echo "these are AUR_INTERNAL, and no other library needs them"; status=1; }
 
 # Every struct of options has a function that fills its defaults, which bindings can call: no inline code does.

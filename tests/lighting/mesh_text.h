@@ -1,7 +1,7 @@
 /* OBJ files that tests write, and what they ask of the matrix. */
 #pragma once
 
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 /* Patches of the sky, products with their coefficients, and years of weather with known sums. */
-#include <aureole/daylight.h>
+#include <aureole-lighting/daylight.h>
 #include <stdlib.h>
 
 #include "check.h"

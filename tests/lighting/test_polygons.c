@@ -1,5 +1,5 @@
 /* View factors of two polygons against the closed forms of Howell's catalogue and other laws. */
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <string.h>
 
 #include "check.h"

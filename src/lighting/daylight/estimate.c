@@ -1,5 +1,5 @@
 /* A year at all sensors: coefficients of each, times the radiances of the hours. */
-#include <aureole/daylight.h>
+#include <aureole-lighting/daylight.h>
 #include <aureole/statistics.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* What the sky and the sun send in each hour of a year of weather. */
 #pragma once
 
-#include <aureole/daylight.h>
+#include <aureole-lighting/daylight.h>
 
 #include "lighting/daylight/patches.h"
 

@@ -1,7 +1,7 @@
 /* All hours of all sensors as a file. */
 #pragma once
 
-#include <aureole/daylight.h>
+#include <aureole-lighting/daylight.h>
 
 /* values[sensors][2][hours]: illuminance and its standard error, lux, NaN where the weather does not tell.
  * The name ends in .npy (that array, float64) or .csv (a line an hour and sensor). Errors: NAME (another

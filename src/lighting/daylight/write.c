@@ -1,5 +1,5 @@
 /* Measures of a year as files. */
-#include <aureole/daylight.h>
+#include <aureole-lighting/daylight.h>
 #include <aureole/text.h>
 #include <stdlib.h>
 

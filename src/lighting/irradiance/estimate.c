@@ -1,6 +1,6 @@
 /* The estimate of irradiance at all sensors: how many directions each of them has, and what its
  * randomisations say together. */
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 #include <stdlib.h>
 #include <string.h>
 

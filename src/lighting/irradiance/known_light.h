@@ -4,7 +4,7 @@
  * whatever is known. */
 #pragma once
 
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 
 #include "render/path/path_group.h"
 #include "render/photons/irradiance.h"

@@ -1,7 +1,7 @@
 /* What one sensor sees: light along sixteen randomisations of a rule at once, one a lane. */
 #pragma once
 
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 
 #include "lighting/irradiance/closed_lights.h"
 #include "lighting/irradiance/known_light.h"

@@ -1,7 +1,7 @@
 /* Sensors: points that look in directions. */
 #pragma once
 
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 
 #include "points/base/error.h"
 

@@ -1,7 +1,7 @@
 /* Numbers of sensors, a row a sensor, as files. */
 #pragma once
 
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 
 enum { AUR_SENSOR_COLUMNS = 64, AUR_SENSOR_NAME = 48 };
 

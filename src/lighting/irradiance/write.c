@@ -1,5 +1,5 @@
 /* Results of sensors as files. */
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 #include <aureole/text.h>
 #include <stdlib.h>
 

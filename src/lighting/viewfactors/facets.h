@@ -2,7 +2,7 @@
  * to. */
 #pragma once
 
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 
 #include "points/base/polygon.h"
 #include "render/scene/scene.h"

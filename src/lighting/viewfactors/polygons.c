@@ -1,5 +1,5 @@
 /* The view factor of two polygons that a caller gives. */
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <stdlib.h>
 #include <string.h>
 

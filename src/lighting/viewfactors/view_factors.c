@@ -1,5 +1,5 @@
 /* The view factors of facets: rays, closed forms, and the balance of both. */
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* What a result is made of. */
 #pragma once
 
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 
 struct aur_view_factors {
     size_t rows;

@@ -1,7 +1,7 @@
 /* What `aureole render` keeps of a long render: checkpoints to go on from. */
 #pragma once
 
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 #include "program/cli/options.h"
 

@@ -1,5 +1,5 @@
 /* aureole compare: figures of the difference between a reference and pictures. */
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <math.h>
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /* A year of weather at sensors: the part of `aureole irradiance` that --weather asks for. */
 #pragma once
 
-#include <aureole/daylight.h>
+#include <aureole-lighting/daylight.h>
 
 #include "program/cli/options.h"
 

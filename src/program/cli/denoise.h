@@ -1,7 +1,7 @@
 /* `aureole render --denoise`: Open Image Denoise (Intel), where its library is found when it is asked for. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "program/cli/options.h"
 

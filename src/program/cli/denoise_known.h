@@ -2,7 +2,7 @@
  * the values of pixels may be from the truth. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 /* The first three channels of `image` less bright light that is seen directly, of which the first three
  * channels of `lights` tell: denoisers spread a lamp beyond its rim. */

@@ -1,7 +1,7 @@
 /* The error of a picture against a reference while it is rendered. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 typedef struct cli_errors cli_errors;
 

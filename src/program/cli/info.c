@@ -1,8 +1,8 @@
 /* aureole info: what is in a scene, a picture, a file of points or a table of weights. */
-#include <aureole/image.h>
+#include <aureole-render/image.h>
+#include <aureole-render/render.h>
+#include <aureole-render/scene.h>
 #include <aureole/quadrature.h>
-#include <aureole/render.h>
-#include <aureole/scene.h>
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* aureole irradiance: how much light arrives at points. */
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The parts of `aureole irradiance`. */
 #pragma once
 
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 
 /* Draws the luminance of each sensor at its place, seen along the axis in which the sensors spread least:
  * cells where they stand on a grid, else dots. `unit` is the word at the scale; NULL: "luminance". Errors:

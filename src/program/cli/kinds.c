@@ -1,6 +1,6 @@
 #include "program/cli/kinds.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <ctype.h>
 #include <string.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 /* aureole manual: the manual pages, in the language of man (troff). They are made of the same rows as
  * `aureole help`: one page for the program, one a verb, one of what scenes are made of, one of sets and
  * measures. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <aureole/text.h>
 #include <limits.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* aureole merge: the parts of a picture, rendered one by one, to the picture. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <string.h>
 
 #include "program/cli/options.h"

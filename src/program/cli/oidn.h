@@ -1,7 +1,7 @@
 /* Open Image Denoise, loaded while the program runs: its C interface, version 1.4 or 2. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 typedef struct cli_oidn cli_oidn;
 

@@ -2,7 +2,7 @@
  * documentation go by these rows. A new option is one row, and its use. */
 #pragma once
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 #include <aureole/tables.h>
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* What the verbs that read pictures share. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 #include "program/cli/options.h"
 

@@ -1,5 +1,5 @@
 /* aureole points: writes points of any set on any domain. */
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <aureole/rotations.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* aureole render: a scene to a picture. */
+#include <aureole-render/render.h>
 #include <aureole/ranks.h>
-#include <aureole/render.h>
 #include <aureole/text.h>
 #include <limits.h>
 #include <math.h>

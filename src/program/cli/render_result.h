@@ -1,7 +1,7 @@
 /* What is said of a render when it ends, and where its files go. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 /* On standard error: samples, rays and times, and what each of several processes did, all of which call it.
  */

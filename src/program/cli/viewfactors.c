@@ -1,6 +1,6 @@
 /* aureole viewfactors: how much of what leaves each facet arrives at each other one. */
+#include <aureole-lighting/view_factors.h>
 #include <aureole/text.h>
-#include <aureole/view_factors.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* The parts of the verb viewfactors. */
 #pragma once
 
-#include <aureole/view_factors.h>
+#include <aureole-lighting/view_factors.h>
 #include <stdbool.h>
 
 #include "program/report/report.h"

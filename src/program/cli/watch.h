@@ -1,7 +1,7 @@
 /* What `aureole render` shows of a picture while it is rendered. */
 #pragma once
 
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 #include "program/cli/options.h"
 #include "program/watch/watch.h"

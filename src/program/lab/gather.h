@@ -2,7 +2,7 @@
  * it too. */
 #pragma once
 
-#include <aureole/gather.h>
+#include <aureole-render/gather.h>
 
 extern const aur_gather_integrator lab_finalgather;
 /* A table of it alone, for help. */

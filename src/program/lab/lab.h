@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdbool.h>
 
 #include "program/report/plot.h"

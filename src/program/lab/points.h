@@ -1,7 +1,7 @@
 /* Points of a set, for experiments that measure them or show them. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <aureole/quality.h>
 
 typedef struct lab_points {

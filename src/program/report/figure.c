@@ -1,7 +1,7 @@
 /* Where everything of a figure stands on its sheet. */
 #include "program/report/figure.h"
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Pages that need nothing beside them: the styles and scripts of src/program/report/page/ stand in each. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 #include "program/report/report.h"
 

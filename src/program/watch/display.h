@@ -3,7 +3,7 @@
  * to it. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 typedef struct watch_display watch_display;
 

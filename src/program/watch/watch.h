@@ -2,7 +2,7 @@
  * picture. None of it changes the picture. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 typedef struct watch_session watch_session;
 

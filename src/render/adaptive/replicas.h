@@ -2,7 +2,7 @@
  * their differences say how good it is. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "render/adaptive/interval.h"
 

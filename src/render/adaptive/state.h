@@ -1,7 +1,7 @@
 /* The inside of an asking. */
 #pragma once
 
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 #include "points/base/cache.h"
 #include "render/adaptive/choose.h"

@@ -1,6 +1,6 @@
 /* The driver: a film in tiles, each done by one thread from its pixels' own random numbers, so that neither
  * threads nor the order of tiles can change it. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include <inttypes.h>
 #include <stdatomic.h>

@@ -1,7 +1,7 @@
 /* What rooms above, and other files of this one, know of a renderer and of its renders. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "render/film/checkpoint.h"
 

@@ -1,7 +1,7 @@
 /* What a render is to do. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "render/scene/scene.h"
 

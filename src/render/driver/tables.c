@@ -1,5 +1,5 @@
 /* The tables of libaureole-render: a line a table. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "render/film/integrator.h"
 #include "render/image/format.h"

@@ -62,18 +62,18 @@ static const aur_key keys[] = {
 };
 
 /* What the public interface has, and what is studied elsewhere. */
-#define OF_WALK "'walk=paper' has the paper's; aur_radiosity_options has each (aureole/radiosity.h)"
-#define OF_END "aur_radiosity_terminate has it (aureole/radiosity.h)"
+#define OF_WALK "'walk=paper' has the paper's; aur_radiosity_options has each (aureole-render/radiosity.h)"
+#define OF_END "aur_radiosity_terminate has it (aureole-render/radiosity.h)"
 #define OF_PATTERN "gather rays have equal weights; 'finalgather-lab' has it"
 static const aur_moved_key moved[] = {
     {"scramble",
      "with 'randomizations' above 1 the sequence is Owen-scrambled; aur_radiosity_options has others "
-     "(aureole/radiosity.h)"},
+     "(aureole-render/radiosity.h)"},
     {"directions", OF_WALK},
     {"emission", OF_WALK},
     {"interval", OF_END},
     {"window", OF_END},
-    {"variant", "aur_radiosity_options has it (aureole/radiosity.h)"},
+    {"variant", "aur_radiosity_options has it (aureole-render/radiosity.h)"},
     {"map", OF_PATTERN},
     {"pattern_scramble", "gather rays have equal weights; 'finalgather-lab' has it as 'scramble'"},
     {"weights", OF_PATTERN},

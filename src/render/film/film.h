@@ -1,7 +1,7 @@
 /* The inside of a film: sums of samples for each pixel, and how far each tile has come. */
 #pragma once
 
-#include <aureole/film.h>
+#include <aureole-render/film.h>
 
 #include <pthread.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
  * integrator.c. */
 #pragma once
 
-#include <aureole/gather.h>
-#include <aureole/render.h>
+#include <aureole-render/gather.h>
+#include <aureole-render/render.h>
 
 #include <stdlib.h>
 

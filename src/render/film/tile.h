@@ -2,7 +2,7 @@
  * sums. */
 #pragma once
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include <stdatomic.h>
 

@@ -1,7 +1,7 @@
 /* What final gathering is asked for: defaults, and what excludes what. */
 #pragma once
 
-#include <aureole/gather.h>
+#include <aureole-render/gather.h>
 
 /* Every default; of those that follow from other options, what stands for them. */
 #define AUR_GATHER_OPTIONS_INITIAL                                                                           \

@@ -1,7 +1,7 @@
 /* The inside of a picture. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 enum { AUR_NOTES_CAPACITY = 512 };
 

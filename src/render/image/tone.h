@@ -1,7 +1,7 @@
 /* Between radiance and what a screen is sent. */
 #pragma once
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 #include "points/base/internal.h"
 

@@ -2,7 +2,7 @@
  * times, each decision by two coordinates of point i; every triangle that it meets receives its power. */
 #pragma once
 
-#include <aureole/radiosity.h>
+#include <aureole-render/radiosity.h>
 
 #include "render/radiosity/scene.h"
 #include "render/scene/distribution.h"

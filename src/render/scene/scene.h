@@ -1,7 +1,7 @@
 /* What transport sees of a scene: rays and what they hit, lights, the camera, and the film's settings. */
 #pragma once
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 
 #include "points/base/internal.h"
 #include "points/base/keys.h"

@@ -1,11 +1,11 @@
 /* Calls each function of image.h, scene.h, film.h, render.h, ask.h, radiosity.h, irradiance.h and daylight.h,
  * most of them with bad input too.
  */
-#include <aureole/ask.h>
-#include <aureole/daylight.h>
-#include <aureole/radiosity.h>
-#include <aureole/render.h>
-#include <aureole/view_factors.h>
+#include <aureole-lighting/daylight.h>
+#include <aureole-lighting/view_factors.h>
+#include <aureole-render/ask.h>
+#include <aureole-render/radiosity.h>
+#include <aureole-render/render.h>
 
 #include "calls.h"
 

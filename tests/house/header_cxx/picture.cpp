@@ -1,5 +1,5 @@
 // render.hpp: pictures, scenes, renders.
-#include <aureole/render.hpp>
+#include <aureole-render/render.hpp>
 
 #include <cstdio>
 

@@ -2,9 +2,9 @@
  * points lost their columns and scenes did not load. */
 #include "check.h"
 
+#include <aureole-render/render.h>
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
-#include <aureole/render.h>
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>

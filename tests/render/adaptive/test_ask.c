@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 typedef struct fixture {
     aur_scene *scene;

@@ -1,7 +1,7 @@
 /* Rendering to an error chooses the candidates of path tracing by trial. */
 #include "render/scene/scene_text.h"
 
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 /* A sky that is brighter at the horizon, with one spot that has some half of its power. */
 static void write_sky(void) {

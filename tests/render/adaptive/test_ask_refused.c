@@ -3,7 +3,7 @@
 
 #include "render/adaptive/trial.h"
 
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 /* A lamp that shines at nothing but the camera: no photon is stored. */
 static const char lone_lamp[] =

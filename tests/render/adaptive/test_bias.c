@@ -3,7 +3,7 @@
 #include "check.h"
 
 #include "render/adaptive/bias.h"
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 enum { WIDTH = 32, HEIGHT = 32, REPLICAS = 4 };
 

@@ -1,7 +1,7 @@
 /* Intervals of the error of an image: in a closed furnace, whose radiance is 1 everywhere, the error is
  * known. */
-#include <aureole/ask.h>
-#include <aureole/render.h>
+#include <aureole-render/ask.h>
+#include <aureole-render/render.h>
 #include <math.h>
 
 #include "check.h"

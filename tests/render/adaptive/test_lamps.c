@@ -11,7 +11,7 @@
 #include "render/film/integrator.h"
 #include "render/scene/scene_text.h"
 #include "render/vertex/lamps.h"
-#include <aureole/ask.h>
+#include <aureole-render/ask.h>
 
 /* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
  * ninth of the pixel that it is in. Behind it a dim square fills the picture. */

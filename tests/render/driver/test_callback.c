@@ -1,8 +1,8 @@
 /* A progress callback may call the library: core.h. */
 #include "check.h"
 
-#include <aureole/ask.h>
-#include <aureole/render.h>
+#include <aureole-render/ask.h>
+#include <aureole-render/render.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

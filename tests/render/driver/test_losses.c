@@ -1,7 +1,7 @@
 /* What a render counts of samples that are left out or cut, and what it says of them. */
 #include "render/scene/scene_text.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 enum { SIDE = 8, SAMPLES = 16 };
 

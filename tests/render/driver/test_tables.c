@@ -1,7 +1,7 @@
 /* Every row of every table: its keys are told whole, and their defaults are values that may be given. */
 #include "check.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <string.h>
 
 static void check_key(const aur_table *table, const aur_row *row, const aur_key *key) {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "render/image/image.h"
 

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "points/base/random.h"
 #include "program/lab/gather.h"

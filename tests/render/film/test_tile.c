@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <string.h>
 
 #include "render/image/image.h"

@@ -1,7 +1,7 @@
 /* The room that tests of radiosity trace, and how they do it. */
 #pragma once
 
-#include <aureole/radiosity.h>
+#include <aureole-render/radiosity.h>
 
 #include "render/scene/scene_text.h"
 

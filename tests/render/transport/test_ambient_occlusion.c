@@ -1,8 +1,8 @@
 /* Ambient occlusion against closed forms, and what must not change it. */
 #include "../scene/scene_text.h"
 
-#include <aureole/ask.h>
-#include <aureole/render.h>
+#include <aureole-render/ask.h>
+#include <aureole-render/render.h>
 
 #include "render/image/image.h"
 #include "render/scene/scene.h"

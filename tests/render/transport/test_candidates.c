@@ -7,7 +7,7 @@
 #include "points/base/random.h"
 #include "render/vertex/candidates.h"
 #include "short.h"
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 static const float LARGEST = 0x1.fffffep-1f; /* below 1 */
 

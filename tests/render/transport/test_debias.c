@@ -3,7 +3,7 @@
  * light leaks through, glossy walls and glass. */
 #include "render/scene/scene_text.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <aureole/statistics.h>
 
 #include "program/lab/gather.h"

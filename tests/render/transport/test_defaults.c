@@ -3,7 +3,7 @@
 #include "check.h"
 #include "program/lab/gather.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 
 typedef struct default_row {

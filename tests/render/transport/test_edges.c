@@ -6,7 +6,7 @@
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 enum { SEEDS = 3000, SAMPLES = 4 };
 

@@ -2,7 +2,7 @@
  * must make no pattern in the picture, nor add up over its parts. */
 #include "check.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "check.h"
 #include "render/scene/scene_text.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <string.h>
 
 #include "program/lab/gather.h"

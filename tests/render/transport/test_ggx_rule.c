@@ -1,6 +1,6 @@
 /* GGX lobes of the gather: directions and weights are those of the table, sums are the lobe's mass, materials
  * say which of their lobes are GGX, and pictures have path tracing's mean whatever the threads. */
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -8,7 +8,7 @@
 #include "render/driver/renderer.h"
 #include "render/film/integrator.h"
 #include "render/scene/scene_text.h"
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 /* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
  * ninth of the pixel that it is in. */

@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "render/scene/scene_text.h"
-#include <aureole/film.h>
-#include <aureole/render.h>
+#include <aureole-render/film.h>
+#include <aureole-render/render.h>
 
 /* A sphere of radius .2 and radiance 100 at a distance of 10, 45 degrees across 32 pixels, before a square
  * that it lights: its image has a diameter of 1.5 pixels. */

@@ -1,6 +1,6 @@
 #include "render/scene/scene_text.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #include "points/base/random.h"
 #include "render/image/image.h"

@@ -3,7 +3,7 @@
 #include "render/scene/scene_text.h"
 #include "render/scene/vol_file.h"
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 #include <aureole/statistics.h>
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 
 #include "render/scene/importers/nodes/node.h"
 

@@ -1,6 +1,6 @@
 #include "render/scene/importers/model/named_files.h"
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

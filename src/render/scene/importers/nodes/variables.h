@@ -1,7 +1,7 @@
 /* The $names of a scene: -D and <default>. */
 #pragma once
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 
 #include "points/base/arena.h"
 #include "points/base/error.h"

@@ -6,7 +6,7 @@
  * id. */
 #pragma once
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 
 #include "render/scene/importers/model/model.h"
 #include "render/scene/importers/nodes/node.h"

@@ -5,10 +5,10 @@
 #ifndef AUREOLE_RENDER_H
 #define AUREOLE_RENDER_H
 
-#include <aureole/film.h>
-#include <aureole/gather.h>
-#include <aureole/image.h>
-#include <aureole/scene.h>
+#include <aureole-render/film.h>
+#include <aureole-render/gather.h>
+#include <aureole-render/image.h>
+#include <aureole-render/scene.h>
 #include <aureole/tables.h>
 #include <stdbool.h>
 

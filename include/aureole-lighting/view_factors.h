@@ -4,7 +4,7 @@
 #ifndef AUREOLE_VIEW_FACTORS_H
 #define AUREOLE_VIEW_FACTORS_H
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus

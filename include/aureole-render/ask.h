@@ -5,7 +5,7 @@
 #ifndef AUREOLE_ASK_H
 #define AUREOLE_ASK_H
 
-#include <aureole/render.h>
+#include <aureole-render/render.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -8,7 +8,7 @@
 #ifndef AUREOLE_IRRADIANCE_H
 #define AUREOLE_IRRADIANCE_H
 
-#include <aureole/scene.h>
+#include <aureole-render/scene.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus

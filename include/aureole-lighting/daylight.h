@@ -8,7 +8,7 @@
 #ifndef AUREOLE_DAYLIGHT_H
 #define AUREOLE_DAYLIGHT_H
 
-#include <aureole/irradiance.h>
+#include <aureole-lighting/irradiance.h>
 
 #ifdef __cplusplus
 extern "C" {

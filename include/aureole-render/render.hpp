@@ -2,8 +2,8 @@
 #ifndef AUREOLE_RENDER_HPP
 #define AUREOLE_RENDER_HPP
 
+#include <aureole-render/render.h>
 #include <aureole/aureole.hpp>
-#include <aureole/render.h>
 
 namespace aureole {
 

@@ -5,7 +5,7 @@
 #ifndef AUREOLE_FILM_H
 #define AUREOLE_FILM_H
 
-#include <aureole/image.h>
+#include <aureole-render/image.h>
 
 #ifdef __cplusplus
 extern "C" {

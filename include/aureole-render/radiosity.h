@@ -9,8 +9,8 @@
 #ifndef AUREOLE_RADIOSITY_H
 #define AUREOLE_RADIOSITY_H
 
+#include <aureole-render/scene.h>
 #include <aureole/pointset.h>
-#include <aureole/scene.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
