@@ -78,8 +78,8 @@ AUR_API aur_result aur_fail(aur_error *error, aur_result result, const char *for
     AUR_PRINTF(3, 4);
 
 /* Called now and then, from any thread but by one at a time for each call of the library, with 0 <= done <=
- * total. A non-zero return asks the work to stop; it then ends with AUR_ERROR_CANCELLED. The callback may
- * call the library. */
+ * total; total is 0 while it is not known how much there is to do. A non-zero return asks the work to stop;
+ * it then ends with AUR_ERROR_CANCELLED. The callback may call the library. */
 typedef int (*aur_progress_function)(void *user, const char *what, uint64_t done, uint64_t total);
 
 typedef struct aur_progress {

@@ -11,5 +11,17 @@ typedef struct aur_progress_span {
     uint64_t reported; /* of 10000: the most so far, so that the whole never goes back */
 } aur_progress_span;
 
+/* The share that is done of work whose whole is estimated again and again. It never falls, and what is
+ * missing of it shrinks in proportion to what is thought to be left, so that its rate of now tells the time
+ * left. */
+typedef struct aur_progress_share {
+    double done, share;
+} aur_progress_share;
+
+/* Reports that so much work is done, and so much thought to be left; INFINITY: nobody knows, and the share
+ * waits. Returns what the callback, which is not NULL, returns. */
+int aur_progress_tell(const aur_progress *progress, const char *what, aur_progress_share *share, double done,
+                      double left);
+
 /* For the pieces; without a function where the whole has none. */
 aur_progress aur_progress_within(aur_progress_span *span);

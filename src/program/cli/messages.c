@@ -79,6 +79,12 @@ static void draw(double elapsed) {
     if (isfinite(estimate->left))
         format_seconds(estimate->left, left);
     const double percent = 100.0 * estimate->share;
+    if (!isfinite(estimate->left) && estimate->share == 0.0) { /* nothing is known but the time */
+        fprintf(stderr, bar.draws ? "\r\033[K%s  %s" : "aureole: %s, %s\n", estimate->what, spent);
+        bar.shown = bar.draws;
+        fflush(stderr);
+        return;
+    }
     if (!bar.draws) {
         fprintf(stderr, "aureole: %s, %.0f %%, %s, %s left\n", estimate->what, percent, spent, left);
         return;
@@ -94,7 +100,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         return 1;
     const double time = now();
     cli_estimate_report(&bar.estimate, time, what != NULL ? what : "working",
-                        total > 0 ? fmin((double)done / (double)total, 1.0) : 0.0);
+                        total > 0 ? fmin((double)done / (double)total, 1.0) : (double)NAN);
     if (user == NULL)
         return 0;
     /* The bar's refresh backs off: ten a second at first, one a second after a minute. Lines come every ten
@@ -104,7 +110,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
                          : elapsed < 10 ? 0.1
                          : elapsed < 60 ? 0.3
                                         : 1.0;
-    const bool over = done >= total && bar.estimate.next >= bar.estimate.count;
+    const bool over = done >= total && total > 0 && bar.estimate.next >= bar.estimate.count;
     if (over)
         cli_progress_clear();
     if (over || time - bar.last < pause)

@@ -18,6 +18,11 @@ static size_t find(const cli_estimate *e, const char *what) {
     return i;
 }
 
+static void set_mark(cli_estimate *e, int mark, double time, double fraction) {
+    e->marks[mark][0] = time;
+    e->marks[mark][1] = fraction;
+}
+
 static void begin_run(cli_estimate *e, double time, double fraction) {
     if (e->begun)
         e->seconds += time - e->first_time;
@@ -25,6 +30,8 @@ static void begin_run(cli_estimate *e, double time, double fraction) {
         e->start = time;
     e->first_time = time;
     e->first = fraction;
+    set_mark(e, 0, time, fraction);
+    set_mark(e, 1, time, fraction);
 }
 
 static void begin_phase(cli_estimate *e, size_t index) {
@@ -64,17 +71,40 @@ static void follow(cli_estimate *e, double time, const char *what, double fracti
 
 /* What this run still takes: by the rate of the phases that have ended, and more and more by its own. */
 static double left_of_run(const cli_estimate *e, double time) {
-    const double part = (e->last - e->first) / (1.0 - e->first), open = 1.0 - e->last;
+    const double *const since = e->marks[0];
+    const double part = (e->last - since[1]) / (1.0 - since[1]), open = 1.0 - e->last;
     const bool known = e->past_work > 0.0 && e->seconds == 0.0;
     const double before = known ? e->work * open * e->past_seconds / e->past_work : 0.0;
     if (!(part > 0.01))
         return known ? before : NAN;
-    const double own = (time - e->first_time) * open / (e->last - e->first);
+    const double own = (time - since[0]) * open / (e->last - since[1]);
     const double trust = known ? fmin(10.0 * part, 1.0) : 1.0;
     return trust * own + (1.0 - trust) * before;
 }
 
+/* The present rate is that of the last half to three quarters of the run. */
+static void move_marks(cli_estimate *e, double time) {
+    if (time - e->first_time < 2.0 * (e->marks[1][0] - e->first_time))
+        return;
+    memcpy(e->marks[0], e->marks[1], sizeof e->marks[0]);
+    set_mark(e, 1, time, e->last);
+}
+
+/* The rate counts from where the fraction is known again. */
+static void wait_for_fraction(cli_estimate *e, double time, const char *what) {
+    if (!e->begun)
+        follow(e, time, what, 0.0);
+    e->what = what;
+    e->left = NAN;
+    set_mark(e, 0, time, e->last);
+    set_mark(e, 1, time, e->last);
+}
+
 void cli_estimate_report(cli_estimate *e, double time, const char *what, double fraction) {
+    if (isnan(fraction)) {
+        wait_for_fraction(e, time, what);
+        return;
+    }
     follow(e, time, what, fraction);
     e->what = what;
     e->last = fraction;
@@ -83,6 +113,7 @@ void cli_estimate_report(cli_estimate *e, double time, const char *what, double 
     const double phase = e->seconds + (time - e->first_time) + run + e->seconds;
     const double later = work > 0.0 ? e->ahead * (e->past_seconds + phase) / work : 0.0;
     e->left = run + e->seconds + later;
+    move_marks(e, time);
     const double elapsed = time - e->start;
     if (elapsed > 0.0 && e->left >= 0.0)
         e->share = fmax(e->share, fmin(e->base + (1.0 - e->base) * elapsed / (elapsed + e->left), 0.99));

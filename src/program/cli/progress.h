@@ -20,6 +20,7 @@ typedef struct cli_estimate {
     double past_work, past_seconds; /* of the phases that have ended */
     double work, seconds;           /* of this phase: expected; spent in runs from 0 to 1 that have ended */
     double first_time, first, last; /* of this run: when and where it began, and the fraction that is done */
+    double marks[2][2]; /* times and fractions of this run: its rate of now is that since the earlier one */
     const char *what;
     double share; /* of the command, from 0 to .99, which its end alone exceeds; it never falls */
     double left;  /* seconds; NaN: unknown */
@@ -29,5 +30,5 @@ typedef struct cli_estimate {
 cli_estimate cli_estimate_of(size_t count, const cli_phase *phases);
 /* At that time, in seconds, phases[index] begins, of which the reports that follow are. */
 void cli_estimate_begin(cli_estimate *estimate, double time, size_t index);
-/* Takes a report: at that time, in seconds, the fraction of `what` is done. */
+/* Takes a report: at that time, in seconds, the fraction of `what` is done; NaN: nobody knows. */
 void cli_estimate_report(cli_estimate *estimate, double time, const char *what, double fraction);

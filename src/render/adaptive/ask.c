@@ -40,39 +40,46 @@ static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
 
 /* --- progress: one bar over all rounds and replicas, to where the wish is thought to be met */
 
-/* Of all rays on the way to an error, those that are spent, where `part` of a step is done. */
-static double share_of_error(const aur_ask *ask, const aur_trial *trial, double part) {
-    if (ask->choice != NULL)
-        return aur_choice_part_done(ask->choice);
-    const double others = (double)ask->others.rays;
+/* Rays, of all integrators that are tried; infinitely many left: nobody knows. */
+typedef struct rays_on_the_way {
+    double done, left;
+} rays_on_the_way;
+
+/* On the way to an error, where `part` of a step is done. */
+static double left_to_error(const aur_trial *trial, double part) {
     const double before = trial->begun ? trial->before : trial->samples;
     const double now = before + (trial->begun ? part * (trial->samples - before) : 0.0);
     if (!(before > 0.0 && trial->whole > 0.0))
-        return 0.0;
-    const double rays = aur_trial_rays(trial), left = rays * fmax(trial->whole / now - 1.0, 0.0);
-    return (rays + others) / fmax(rays + others + left, 1.0);
+        return INFINITY;
+    /* A round that is planned is rendered to its end. */
+    const double whole = fmax(trial->whole, trial->begun ? trial->samples : 0.0);
+    return aur_trial_rays(trial) * fmax(whole / now - 1.0, 0.0);
 }
 
-static double share_done(const aur_ask *ask, double done) {
+/* What is left by whatever ends the work first. */
+static rays_on_the_way find_rays(const aur_ask *ask, double done) {
     const aur_ask_options *const wish = &ask->wish;
     const aur_trial *const trial = ask->choice != NULL ? &ask->choice->trial : &ask->trial;
     const double part = ((double)trial->replica + done) / (double)trial->replicas.count;
     aur_render_statistics spent;
     aur_trial_spent(trial, &spent);
+    rays_on_the_way rays = {aur_trial_rays(trial) + (double)ask->others.rays, INFINITY};
+    if (ask->choice == NULL && wish->error > 0.0) /* a choice takes what it finds out */
+        rays.left = left_to_error(trial, part);
     double share = 0.0;
-    if (wish->error > 0.0)
-        share = share_of_error(ask, trial, part);
     if (wish->rays > 0)
-        share = fmax(share,
-                     (aur_trial_rays(trial) + (double)(trial->shared + trial->alone + ask->others.budget)) /
-                         (double)wish->rays);
+        share = (aur_trial_rays(trial) + (double)(trial->shared + trial->alone + ask->others.budget)) /
+                (double)wish->rays;
     if (wish->seconds > 0.0)
         share = fmax(share, (spent.prepare_seconds + spent.render_seconds + ask->others.prepare_seconds +
                              ask->others.render_seconds) /
                                 wish->seconds);
     if (wish->rounds > 0)
         share = fmax(share, ((double)trial->rounds + part) / (double)wish->rounds);
-    return fmin(share, 1.0);
+    if (share > 0.0)
+        rays.left = fmin(rays.left, rays.done * fmax(1.0 / share - 1.0, 0.0));
+    rays.left = fmax(rays.left, 0.01 * rays.done); /* no estimate is surer than that */
+    return rays;
 }
 
 static int report(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -81,16 +88,12 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
         return 1;
     if (ask->progress.function == NULL)
         return 0;
-    enum { STEPS = 10000 };
     if (ask->trial.replicas.pixel_count == 0) /* it is being prepared */
-        return ask->progress.function(ask->progress.user, what, 0, STEPS);
-    /* Later estimates may find that less is done than was thought: the bar waits for them, and ends with the
-     * work. */
-    const uint64_t step = (uint64_t)(STEPS * share_done(ask, (double)done / (double)total));
-    const uint64_t most = step < STEPS ? step : STEPS - 1;
-    ask->shown = most > ask->shown ? most : ask->shown;
-    return ask->progress.function(ask->progress.user, ask->shown > 0 ? "rendering" : "planning", ask->shown,
-                                  STEPS);
+        return ask->progress.function(ask->progress.user, what, 0, 0);
+    const rays_on_the_way rays = find_rays(ask, total > 0 ? (double)done / (double)total : 0.0);
+    const bool renders = ask->choice == NULL && ask->trial.rounds > 0;
+    return aur_progress_tell(&ask->progress, renders ? "rendering" : "planning", &ask->share, rays.done,
+                             rays.left);
 }
 
 /* --- making */

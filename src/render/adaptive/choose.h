@@ -19,21 +19,16 @@ typedef struct aur_choice {
     const atomic_bool *cancelled;
     aur_trial trial; /* before: path tracing, which may not have begun; after: the one to go on with, which
                         the caller releases */
-    aur_gather_size gather;          /* where that is final gathering; else 0 */
-    size_t candidates;               /* where that is path tracing with more than one; else 0 */
-    aur_bias bias;                   /* of the trial's integrator; 0 of path tracing */
-    aur_spent others;                /* what the trials cost that are not gone on with */
-    double rays;                     /* that the picture is thought to take; 0: nobody knows yet */
-    const struct aur_rivals *rivals; /* while they are tried; else NULL */
+    aur_gather_size gather; /* where that is final gathering; else 0 */
+    size_t candidates;      /* where that is path tracing with more than one; else 0 */
+    aur_bias bias;          /* of the trial's integrator; 0 of path tracing */
+    aur_spent others;       /* what the trials cost that are not gone on with */
 } aur_choice;
 
 /* Of the photons of a picture by that seed, as a key takes it. */
 static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
     return (seed & UINT32_MAX) + 1;
 }
-
-/* While it is made, for progress: the part of all rays that is spent, as far as it is known. */
-double aur_choice_part_done(const aur_choice *choice);
 
 /* Path tracing has no bias; final gathering has less noise for its rays on most surfaces that scatter widely,
  * and the bias of its photon map. Path tracing is begun, until its error is some times the one asked, which

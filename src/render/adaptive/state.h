@@ -4,6 +4,7 @@
 #include <aureole-render/ask.h>
 
 #include "points/base/cache.h"
+#include "points/base/progress.h"
 #include "render/adaptive/choose.h"
 
 struct aur_ask {
@@ -12,7 +13,7 @@ struct aur_ask {
     aur_render_options options; /* of all trials, but for the integrator; the texts are the asking's */
     char *sampler, *filter;
     aur_progress progress;
-    uint64_t shown;      /* of its steps, those that were reported last */
+    aur_progress_share share;
     char *identity;      /* of a resumable asking; else NULL */
     aur_trial trial;     /* what the picture is made of */
     aur_bias bias;       /* of its integrator */

@@ -161,8 +161,10 @@ double aur_trial_growth(const aur_trial *trial, double error) {
 
 void aur_trial_look_ahead(aur_trial *trial, const aur_goal *goal) {
     const double noise = aur_goal_noise(goal);
+    const aur_integrator *const integrator = aur_render_integrator(trial->replicas.renders[0]);
+    const bool lawful = !integrator->whole_tiles && trial->pattern_samples == 1;
     trial->whole = 0.0;
-    if (trial->bound < INFINITY && noise > 0.0)
+    if (trial->bound < INFINITY && noise > 0.0 && lawful)
         trial->whole = trial->samples * aur_trial_growth(trial, noise);
 }
 

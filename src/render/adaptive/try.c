@@ -104,7 +104,6 @@ static aur_result compare(aur_choice *choice, double worth, aur_rivals *rivals, 
     double noise = 0.0;
     if (rays > worth)
         return AUR_OK;
-    choice->rays = rays;
     aur_result result = aur_rivals_find_map(rivals, choice, rays, worth, error);
     if (result != AUR_OK || !(sqrt(choice->bias.high) <= AUR_BIAS_PART * rivals->path_error))
         return result;
@@ -127,19 +126,6 @@ static double rays_of(const aur_trial *trial) {
     return made ? aur_trial_rays(trial) : 0.0;
 }
 
-double aur_choice_part_done(const aur_choice *choice) {
-    const aur_rivals *const rivals = choice->rivals;
-    if (rivals == NULL || !(choice->rays > 0.0))
-        return 0.0;
-    const double gathered = rays_of(&rivals->gather);
-    double pilots = 0.0;
-    for (size_t i = 0; i < AUR_PILOT_KINDS; ++i)
-        pilots += rays_of(&rivals->pilots[i]);
-    const double others = pilots + (double)choice->others.rays + rays_of(&choice->trial) +
-                          rays_of(&rivals->path) + rays_of(&rivals->difference);
-    return (others + gathered) / (others + fmax(choice->rays, gathered));
-}
-
 /* What path tracing of the whole picture takes to the error asked, or all rays that will be spent. */
 static double rays_of_path(const aur_choice *choice, const aur_trial *path, const aur_rivals *rivals) {
     if (choice->goal.error > 0.0)
@@ -153,7 +139,6 @@ static aur_result compare_with(const aur_render_options *coarse, aur_choice *cho
     const double rays = rays_of_path(choice, path, rivals);
     if (aur_photon_rays(AUR_PILOT_PHOTONS) > PILOT_PART * rays)
         return AUR_OK;
-    choice->rays = WORTH * rays;
     aur_error refused;
     const double worth = WORTH * (rays - rays_of(&choice->trial));
     const aur_result result = aur_rivals_render_pilots(rivals, coarse, choice, worth, path, &refused);
@@ -207,7 +192,6 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     bool better = false;
 
     aur_result result = AUR_OK;
-    choice->rivals = &rivals;
     if (coarse.width < aur_render_film(whole->replicas.renders[0])->layout.width) {
         path = &rivals.path;
         result = aur_rivals_create(&rivals, choice, &coarse, strdup(whole->integrator), path, error);
@@ -226,7 +210,6 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
                           "out of memory: final gathering was tried with %zu photons; who names the "
                           "integrator '%s' needs none",
                           choice->gather.photons, whole->integrator);
-    choice->rivals = NULL;
     if (better) {
         const aur_trial left = *whole;
         *whole = rivals.gather;

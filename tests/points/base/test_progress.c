@@ -1,6 +1,8 @@
 /* Progress of pieces: one series from 0 to 1 that never goes back. */
 #include "points/base/progress.h"
 
+#include <math.h>
+
 #include "check.h"
 
 static int keep(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -28,7 +30,43 @@ static void test_pieces(void **state) {
     assert_null(aur_progress_within(&span).function);
 }
 
+typedef struct told {
+    uint64_t done, total;
+} told;
+
+static int keep_both(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    *(told *)user = (told){done, total};
+    return 0;
+}
+
+/* Where the whole is known, the share is that of the work; where it is thought to be more or less on the way,
+ * the share never falls, and its rate tells the work that is left; where nobody knows, it waits. */
+static void test_share(void **state) {
+    (void)state;
+    told seen;
+    const aur_progress progress = {keep_both, &seen};
+    aur_progress_share known = {0}, s = {0};
+    for (int i = 1; i <= 10; ++i) {
+        aur_progress_tell(&progress, "all", &known, i, 10 - i);
+        assert_near((double)seen.done / (double)seen.total, i / 10.0, 1e-11);
+    }
+    const double lefts[] = {INFINITY, 100.0, 99.0, 10.0, 500.0, 3.0, INFINITY, 40.0};
+    for (size_t i = 0; i < sizeof lefts / sizeof lefts[0]; ++i) {
+        const double before = s.share;
+        aur_progress_tell(&progress, "some", &s, (double)i + 1.0, lefts[i]);
+        if (lefts[i] == INFINITY) {
+            assert_true(s.share == before && seen.done == 0 && seen.total == 0);
+            continue;
+        }
+        assert_near((1.0 - s.share) / (s.share - before), lefts[i], 1e-9 * lefts[i]);
+        assert_near((double)seen.done / (double)seen.total, s.share, 1e-11);
+    }
+    aur_progress_tell(&progress, "some", &s, 9.0, 0.0);
+    assert_true(seen.done == seen.total);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pieces)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pieces), cmocka_unit_test(test_share)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -536,12 +536,51 @@ static void stops_within_a_step(void **state) {
     free(xyz);
 }
 
+/* The least and the last share that was told, and how often none was. */
+typedef struct search_progress {
+    double share;
+    size_t known, unknown;
+} search_progress;
+
+static int follow_search(void *user, const char *what, uint64_t done, uint64_t total) {
+    search_progress *const p = user;
+    assert_non_null(what);
+    assert_true(done <= total);
+    p->unknown += total == 0;
+    p->known += total > 0;
+    assert_true(total == 0 || (double)done / (double)total >= p->share);
+    p->share = total > 0 ? (double)done / (double)total : p->share;
+    return 0;
+}
+
+/* Where the largest degree of a set may lie anywhere, nothing is told of how long the search takes, until few
+ * degrees are left; of even sets it is told after the first degree. What is told never falls. */
+static void searches_tell(void **state) {
+    (void)state;
+    enum { N = 3000 };
+    static const char *const sets[] = {"random", "spherical-fibonacci"};
+    double *const weights = malloc(N * sizeof *weights);
+    assert_non_null(weights);
+    for (int k = 0; k < 2; ++k) {
+        double *const xyz = points_of(sets[k], N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+        aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+        search_progress seen = {0};
+        options.threads = 1;
+        options.progress = (aur_progress){.function = follow_search, .user = &seen};
+        assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, NULL, NULL), AUR_OK);
+        assert_true(k == 0 ? seen.unknown > seen.known : seen.known > 4 * seen.unknown);
+        assert_true(seen.known > 10 && seen.share > 0.7);
+        free(xyz);
+    }
+    free(weights);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(golden),      cmocka_unit_test(monomials),  cmocka_unit_test(designs),
-        cmocka_unit_test(two_ways),    cmocka_unit_test(transforms), cmocka_unit_test(fast_transforms),
-        cmocka_unit_test(many_points), cmocka_unit_test(bad_input),  cmocka_unit_test(negative),
-        cmocka_unit_test(cells),       cmocka_unit_test(nested),     cmocka_unit_test(stops_within_a_step),
-        cmocka_unit_test(reports)};
+        cmocka_unit_test(golden),      cmocka_unit_test(monomials),    cmocka_unit_test(designs),
+        cmocka_unit_test(two_ways),    cmocka_unit_test(transforms),   cmocka_unit_test(fast_transforms),
+        cmocka_unit_test(many_points), cmocka_unit_test(bad_input),    cmocka_unit_test(negative),
+        cmocka_unit_test(cells),       cmocka_unit_test(nested),       cmocka_unit_test(stops_within_a_step),
+        cmocka_unit_test(reports),     cmocka_unit_test(searches_tell)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

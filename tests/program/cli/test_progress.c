@@ -231,6 +231,85 @@ static const moment sensors[] = {
     {0.129, "photons", 0.8905},  {0.1376, "photons", 0.9462}, {0.1463, "photons", 1},
     {0.2446, "sensors", 0.3333}, {0.3358, "sensors", 0.6667}, {0.3927, "sensors", 1}};
 
+/* How much there is to do is not known at first, or never. */
+static const moment error_by_paths[] = {
+    {0.00172, "planning", NAN},      {0.01321, "planning", NAN},      {0.01463, "rendering", 0},
+    {0.01938, "rendering", 0.00021}, {0.02531, "rendering", 0.00071}, {0.02885, "rendering", 0.00116},
+    {0.0323, "rendering", 0.0016},   {0.03589, "rendering", 0.00206}, {0.05043, "rendering", 0.0074},
+    {0.06121, "rendering", 0.01269}, {0.07786, "rendering", 0.02043}, {0.09572, "rendering", 0.02895},
+    {0.1132, "rendering", 0.03747},  {0.1333, "rendering", 0.04657},  {0.1588, "rendering", 0.05852},
+    {0.1904, "rendering", 0.07384},  {0.211, "rendering", 0.08454},   {0.2432, "rendering", 0.09992},
+    {0.2636, "rendering", 0.11106},  {0.2934, "rendering", 0.12589},  {0.3318, "rendering", 0.14768},
+    {0.3675, "rendering", 0.17017},  {0.3897, "rendering", 0.18678},  {0.4259, "rendering", 0.21052},
+    {0.4619, "rendering", 0.23362},  {0.4872, "rendering", 0.25208},  {0.5268, "rendering", 0.27814},
+    {0.5634, "rendering", 0.30307},  {0.5877, "rendering", 0.32013},  {0.6289, "rendering", 0.34737},
+    {0.6614, "rendering", 0.37034},  {0.6842, "rendering", 0.38616},  {0.742, "rendering", 0.42394},
+    {0.7993, "rendering", 0.46246},  {0.8424, "rendering", 0.49555},  {0.8822, "rendering", 0.52543},
+    {0.9249, "rendering", 0.5579},   {0.9938, "rendering", 0.60342},  {1.037, "rendering", 0.63689},
+    {1.07, "rendering", 0.66192},    {1.111, "rendering", 0.69278},   {1.185, "rendering", 0.74282},
+    {1.231, "rendering", 0.77783},   {1.265, "rendering", 0.80354},   {1.303, "rendering", 0.833},
+    {1.382, "rendering", 0.88684},   {1.431, "rendering", 0.9217},    {1.464, "rendering", 0.94554},
+    {1.493, "rendering", 0.9778},    {1.494, "rendering", 0.9778}};
+static const moment error_by_choice[] = {
+    {0.00257, "planning", NAN}, {0.04072, "planning", NAN}, {0.08595, "planning", NAN},
+    {0.1225, "planning", NAN},  {0.1595, "planning", NAN},  {0.196, "planning", NAN},
+    {0.2347, "planning", NAN},  {0.2707, "planning", NAN},  {0.3068, "planning", NAN},
+    {0.3433, "rendering", NAN}, {0.3796, "rendering", NAN}, {0.4163, "rendering", NAN},
+    {0.4533, "rendering", NAN}, {0.4894, "rendering", NAN}, {0.5281, "rendering", NAN},
+    {0.5645, "rendering", NAN}, {0.5772, "rendering", NAN}};
+static const moment random_set[] = {
+    {0.00093, "solving", NAN},     {0.03835, "solving", NAN},     {0.07577, "solving", NAN},
+    {0.1132, "solving", NAN},      {0.1506, "solving", NAN},      {0.1881, "solving", NAN},
+    {0.2256, "solving", NAN},      {0.263, "solving", NAN},       {0.3007, "solving", NAN},
+    {0.3381, "solving", NAN},      {0.3756, "solving", NAN},      {0.4133, "solving", NAN},
+    {0.4509, "solving", NAN},      {0.4883, "solving", NAN},      {0.5113, "solving", NAN},
+    {0.5127, "solving", 0.012083}, {0.5148, "solving", 0.034666}, {0.5164, "solving", 0.057249},
+    {0.5181, "solving", 0.079831}, {0.5197, "solving", 0.10241},  {0.5212, "solving", 0.125},
+    {0.5229, "solving", 0.14758},  {0.5245, "solving", 0.17016},  {0.5262, "solving", 0.19274},
+    {0.5277, "solving", 0.21533},  {0.5293, "solving", 0.23791},  {0.531, "solving", 0.26049},
+    {0.5325, "solving", 0.28307},  {0.5343, "solving", 0.30566},  {0.5359, "solving", 0.32824},
+    {0.5375, "solving", 0.35082},  {0.5391, "solving", 0.3734},   {0.5406, "solving", 0.39599},
+    {0.5423, "solving", 0.418},    {0.5439, "solving", 0.43921},  {0.5456, "solving", 0.45965},
+    {0.5472, "solving", 0.47935},  {0.5487, "solving", 0.49832},  {0.5509, "solving", 0.51661},
+    {0.5549, "solving", 0.53659},  {0.5565, "solving", 0.55789},  {0.5581, "solving", 0.5792},
+    {0.5598, "solving", 0.6005},   {0.5614, "solving", 0.62181},  {0.5629, "solving", 0.64312},
+    {0.5646, "solving", 0.66442},  {0.5661, "solving", 0.68573},  {0.5678, "solving", 0.70704},
+    {0.5693, "solving", 0.72834},  {0.5709, "solving", 0.74965},  {0.5728, "solving", 0.77096},
+    {0.5744, "solving", 0.79226},  {0.5762, "solving", 0.81357},  {0.5777, "solving", 0.83488},
+    {0.5793, "solving", 0.85618},  {0.581, "solving", 0.87749},   {0.5828, "solving", 0.89686},
+    {0.5844, "solving", 0.91317},  {0.5861, "solving", 0.9269},   {0.5877, "solving", 0.93846},
+    {0.5893, "solving", 0.9482},   {0.5909, "solving", 0.95639},  {0.5926, "solving", 0.96329},
+    {0.5942, "solving", 0.96909},  {0.5964, "solving", 0.97398},  {0.5987, "solving", 0.97613}};
+static const moment ggx_lobe[] = {
+    {0.00051, "factoring", NAN}, {0.00063, "factoring", NAN},   {0.00074, "factoring", 0.024039},
+    {0.3201, "factoring", NAN},  {0.6591, "factoring", NAN},    {1.088, "factoring", NAN},
+    {1.371, "factoring", NAN},   {1.706, "factoring", NAN},     {2.103, "factoring", NAN},
+    {2.562, "factoring", NAN},   {3.091, "factoring", 0.30855}, {3.708, "factoring", 0.6327},
+    {4.408, "factoring", 0.6327}};
+static const moment uneven_set[] = {
+    {0.00051, "solving", NAN},     {0.07024, "solving", NAN},      {0.14, "solving", NAN},
+    {0.2097, "solving", NAN},      {0.2793, "solving", NAN},       {0.3491, "solving", NAN},
+    {0.4188, "solving", NAN},      {0.4884, "solving", NAN},       {0.5581, "solving", NAN},
+    {0.6278, "solving", NAN},      {0.6975, "solving", NAN},       {0.7672, "solving", NAN},
+    {0.8086, "solving", NAN},      {0.8087, "solving", 0.0026732}, {0.8151, "solving", 0.017809},
+    {0.8208, "solving", 0.032945}, {0.8267, "solving", 0.04808},   {0.8325, "solving", 0.063216},
+    {0.8383, "solving", 0.078352}, {0.8441, "solving", 0.093488},  {0.8499, "solving", 0.10862},
+    {0.8557, "solving", 0.12376},  {0.8614, "solving", 0.13889},   {0.8672, "solving", 0.15403},
+    {0.873, "solving", 0.16917},   {0.8787, "solving", 0.1843},    {0.8845, "solving", 0.19944},
+    {0.8902, "solving", 0.21457},  {0.8959, "solving", 0.22971},   {0.9015, "solving", 0.24484},
+    {0.9072, "solving", 0.25998},  {0.9129, "solving", 0.27494},   {0.9188, "solving", 0.28959},
+    {0.9246, "solving", 0.30395},  {0.9304, "solving", 0.31802},   {0.9361, "solving", 0.3318},
+    {0.9419, "solving", 0.34531},  {0.9476, "solving", 0.35854},   {0.9549, "solving", 0.37347},
+    {0.9617, "solving", 0.40111},  {0.9679, "solving", 0.42875},   {0.9741, "solving", 0.45639},
+    {0.9803, "solving", 0.48403},  {0.9865, "solving", 0.51168},   {0.9929, "solving", 0.53932},
+    {0.9991, "solving", 0.56696},  {1.005, "solving", 0.5946},     {1.012, "solving", 0.62224},
+    {1.018, "solving", 0.64988},   {1.025, "solving", 0.67752},    {1.031, "solving", 0.70516},
+    {1.037, "solving", 0.7328},    {1.043, "solving", 0.76044},    {1.05, "solving", 0.78809},
+    {1.056, "solving", 0.81573},   {1.062, "solving", 0.84337},    {1.069, "solving", 0.86837},
+    {1.075, "solving", 0.88939},   {1.081, "solving", 0.90704},    {1.088, "solving", 0.92188},
+    {1.094, "solving", 0.93435},   {1.1, "solving", 0.94483},      {1.107, "solving", 0.95364},
+    {1.115, "solving", 0.9599}};
+
 typedef struct series {
     const char *command;
     const moment *moments;
@@ -267,36 +346,54 @@ static const series recorded[] = {
     {"viewfactors city.obj --radiosity .8 --sun 1,1,1 --matrix-free", MOMENTS(matrix_free), {{NULL, 0}}, 0},
     {"viewfactors city.obj --radiosity .5 --matrix-free", MOMENTS(matrix_free_dark), {{NULL, 0}}, 0},
     {"weights spherical-fibonacci -n 4000 --method exact", MOMENTS(exact_search), {{NULL, 0}}, 0},
+    {"render cornell-box.xml --error .02 --integrator path --width 64",
+     MOMENTS(error_by_paths),
+     {{NULL, 0}},
+     0},
+    {"render cornell-box.xml --error .05 --width 96", MOMENTS(error_by_choice), {{NULL, 0}}, 0},
+    {"weights --method exact of 6,000 random points", MOMENTS(random_set), {{NULL, 0}}, 0},
+    {"weights --method exact of 5,000 points of half a spherical Fibonacci set",
+     MOMENTS(uneven_set),
+     {{NULL, 0}},
+     0},
+    {"weights --method exact, 1,200 points, GGX .4", MOMENTS(ggx_lobe), {{NULL, 0}}, 0},
     {"irradiance cornell-box.xml --reflected map, 42 sensors",
      MOMENTS(sensors),
      {{"photons", 5e5}, {"radiosity", 0}, {"sensors", 688128}},
      3},
 };
 
-/* After a tenth of the time, what is left is known to a factor of two until a tenth is; it is never negative,
- * and the share never falls. */
+/* After a tenth of the time, what is left is known to a factor of two until a tenth is, unless nobody knows
+ * how much there is to do; it is never negative, and the share never falls. */
 static void test_recorded(void **state) {
     (void)state;
     for (size_t s = 0; s < sizeof recorded / sizeof recorded[0]; ++s) {
         const series *const of = &recorded[s];
         const double end = of->moments[of->count - 1].time;
         cli_estimate e = cli_estimate_of(of->phase_count, of->phases);
-        double share = 0.0;
-        size_t checked = 0;
+        double share = 0.0, waited = -1.0;
+        size_t checked = 0, unknown = 0;
         for (size_t i = 0; i < of->count; ++i) {
             const moment *const m = &of->moments[i];
             cli_estimate_report(&e, m->time, m->what, m->fraction);
             const double left = end - m->time;
             assert_true(e.share >= share && e.share < 1.0 && !(e.left < 0.0));
             share = e.share;
-            if (m->time < 0.1 * end || left < 0.1 * end)
+            if (isnan(m->fraction)) {
+                assert_true(isnan(e.left));
+                waited = m->time;
+                ++unknown;
+                continue;
+            }
+            /* The first report after those says little of the rate. */
+            if (m->time < 0.1 * end || left < 0.1 * end || (waited >= 0.0 && isnan(e.left)))
                 continue;
             if (!(e.left > 0.5 * left && e.left < 2.0 * left))
                 fail_msg("%s: at %g s %g s are left, not %g", of->command, m->time, left, e.left);
             ++checked;
         }
-        assert_true(checked > 3);
-        assert_true(share > 0.8);
+        assert_true(checked > 3 || unknown > of->count / 2);
+        assert_true(share > 0.8 || unknown > of->count / 2);
     }
 }
 

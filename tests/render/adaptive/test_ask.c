@@ -157,7 +157,7 @@ static void test_choice(void **state) {
 /* What the progress callback was told, and the rays then. */
 typedef struct progress_record {
     aur_ask *asked;
-    size_t count;
+    size_t count, unknown; /* reports of how much is done; and those that nobody knows */
     double shares[2048], rays[2048];
 } progress_record;
 
@@ -165,8 +165,11 @@ static int keep_progress(void *user, const char *what, uint64_t done, uint64_t t
     progress_record *const record = user;
     if (record->asked == NULL) /* it is being prepared */
         return 0;
-    assert_true(strcmp(what, "rendering") == 0 || (strcmp(what, "planning") == 0 && done == 0));
-    assert_true(done < total); /* the work is not over */
+    assert_true(strcmp(what, "rendering") == 0 || strcmp(what, "planning") == 0);
+    assert_true(total == 0 ? done == 0 : done < total); /* the work is not over */
+    record->unknown += total == 0;
+    if (total == 0)
+        return 0;
     if (record->count > 0 && record->count < 2048)
         assert_true((double)done / (double)total >= record->shares[record->count - 1]);
     if (record->count < 2048) {
@@ -196,12 +199,31 @@ static void test_progress(void **state) {
     print_message("%zu reports, %.3f off in the mean\n", record.count, off);
     assert_true(record.count > 50 && record.count < 2048);
     assert_true(off < 0.1);
-    /* After a tenth of the work, what is left is known to a factor of two until little is. */
-    for (size_t i = 0; i < record.count; ++i) {
-        const double done = record.rays[i] / all, left = (1.0 / record.shares[i] - 1.0) * done;
+    /* After a tenth of the work, the rate since half of it tells what is left to a factor of two until little
+     * is. */
+    for (size_t i = 0, half = 0; i < record.count; ++i) {
+        while (record.rays[half] < 0.5 * record.rays[i])
+            ++half;
+        const double done = record.rays[i] / all, rise = record.shares[i] - record.shares[half];
+        const double left = (1.0 - record.shares[i]) * (record.rays[i] - record.rays[half]) / all / rise;
         if (done > 0.1 && done < 0.9)
             assert_true(left > 0.5 * (1.0 - done) && left < 2.0 * (1.0 - done));
     }
+    aur_ask_destroy(record.asked);
+}
+
+/* Nobody knows how many rounds final gathering takes: no time left is invented. */
+static void test_unknown_progress(void **state) {
+    const fixture *const f = *state;
+    static progress_record record;
+    aur_render_options options = small(1);
+    options.integrator = "finalgather:photons=2000,diffuse_samples=8,glossy_samples=4";
+    options.progress = (aur_progress){keep_progress, &record};
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = 0.06;
+    assert_int_equal(aur_ask_create(f->renderer, &options, &wish, &record.asked, NULL), AUR_OK);
+    assert_int_equal(aur_ask_run(record.asked, NULL), AUR_OK);
+    assert_true(record.unknown > 5 && record.count == 0);
     aur_ask_destroy(record.asked);
 }
 
@@ -331,6 +353,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),
                                        cmocka_unit_test(test_choice),
                                        cmocka_unit_test(test_progress),
+                                       cmocka_unit_test(test_unknown_progress),
                                        cmocka_unit_test(test_rounds_and_rays),
                                        cmocka_unit_test(test_rays_make_the_pattern),
                                        cmocka_unit_test(test_cancelled_picture_is_kept),

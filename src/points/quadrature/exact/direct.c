@@ -168,11 +168,14 @@ static aur_result solve(factor *f, size_t degree, bool search, double *weights, 
                         aur_error *error) {
     size_t rank = 0;
     bool exact = true;
+    aur_exact_factoring factoring = {.earlier = 0.0};
+    const size_t full = (size_t)sqrt((double)f->system->places),
+                 end = search && full < degree ? full : degree;
     for (size_t l = 0; l <= degree && exact; ++l) {
         exact = add_degree(f, l);
         if (!exact || (!search && l < degree))
             continue;
-        if (aur_exact_factoring_stops(f->system, &f->system->progress, l, degree, search))
+        if (aur_exact_factoring_stops(&f->system->progress, &factoring, l, l < end ? end : l + 1))
             return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
         memcpy(f->right, f->y, f->rank * sizeof *f->y);
         memcpy(f->best, f->system->near, f->count * sizeof *f->best);

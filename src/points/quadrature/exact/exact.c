@@ -126,33 +126,64 @@ typedef struct ladder {
     aur_error *error;
     aur_result result;
     aur_progress progress;
-    size_t tried, degree;  /* how many degrees; the present one */
-    double done, reported; /* work of those before: steps, each as long as there are functions; the share */
+    aur_progress_share share;
+    double done;          /* work of the degrees before: steps, each as long as there are functions */
+    size_t degree, bound; /* the present one, and the largest that there can be */
+    size_t low, high;     /* with positive weights, and without */
+    double steps[2];      /* that these two took */
+    bool hard;            /* the first guess had no positive weights */
+    bool failed[AUR_BASIS_DEGREE_MAX + 1];
 } ladder;
 
-/* Searches take some seven degrees of some ninety steps each. */
+static double functions_of(double degree) {
+    return (degree + 1.0) * (degree + 1.0);
+}
+
+/* The work that the present degree and those after it are thought to take; INFINITY: nobody knows. The
+ * largest degree of sets that are not even is anywhere below the first guess. */
+static double work_left(const ladder *l, double steps) {
+    enum { USUAL_TRIALS = 4, USUAL_STEPS = 90, NARROW = 2 };
+    const bool bracketed = l->high <= l->bound, narrow = l->low > 0 && l->high - l->low <= NARROW;
+    if (l->done == 0.0 || (l->hard && !narrow))
+        return INFINITY;
+    const double usual = bracketed ? 0.5 * (l->steps[0] + l->steps[1]) : USUAL_STEPS;
+    const double middle = bracketed ? 0.5 * (double)(l->low + l->high) : (double)l->degree;
+    double trials = bracketed ? fmax(log2((double)(l->high - l->low)) - 1.0, 0.0) : USUAL_TRIALS, last = 0.0;
+    if (l->degree > l->high)
+        trials = 0.0;
+    for (size_t more = l->high + 1; bracketed && more <= l->high + 2 && more <= l->bound; ++more)
+        last += l->failed[more] || more <= l->degree ? 0.0 : functions_of((double)more) * l->steps[1];
+    if (l->high > l->low + 1) /* one of them may be the degree `high`, which is known */
+        last *= 0.75;
+    return functions_of((double)l->degree) * fmax(usual - steps, 0.25 * usual) +
+           functions_of(middle) * trials * usual + last;
+}
+
 static int report(void *user, const char *what, uint64_t done, uint64_t total) {
-    enum { USUAL_TRIALS = 6, USUAL_STEPS = 90, WHOLE = 10000 };
     ladder *const l = user;
-    const double functions = (double)((l->degree + 1) * (l->degree + 1)), steps = (double)done;
-    const double now = l->done + functions * steps,
-                 trials = l->tried < USUAL_TRIALS ? (double)(USUAL_TRIALS - l->tried) : 0.0,
-                 left = functions * (fmax(USUAL_STEPS - steps, 0.25 * USUAL_STEPS) + trials * USUAL_STEPS);
+    const double left = work_left(l, (double)done);
     (void)total;
-    l->reported = fmax(l->reported, l->degree > 0 ? now / (now + left) : 0.0);
-    return l->progress.function(l->progress.user, what, (uint64_t)(WHOLE * l->reported), WHOLE);
+    return aur_progress_tell(&l->progress, what, &l->share,
+                             l->done + functions_of((double)l->degree) * (double)done, left);
 }
 
 static bool climbs(ladder *l, size_t degree) {
-    aur_exact_found found;
+    aur_exact_found found = {.exact = false};
     l->degree = degree;
+    if (l->failed[degree])
+        return false;
     if (l->result == AUR_OK)
         l->result = aur_exact_iterate(l->system, degree, AUR_EXACT_SEARCH_STEPS, l->trial, &found, l->error);
-    if (l->result == AUR_OK && degree > 0) {
-        l->done += (double)((degree + 1) * (degree + 1)) * (double)found.iterations;
-        ++l->tried;
+    const bool good = l->result == AUR_OK && found.exact && found.least > 0.0;
+    const double steps = (double)found.iterations;
+    l->hard = l->hard || (l->done == 0.0 && degree > 0 && !good);
+    l->done += functions_of((double)degree) * steps;
+    l->failed[degree] = !good;
+    if (good ? degree > l->low : degree < l->high) {
+        *(good ? &l->low : &l->high) = degree;
+        l->steps[good ? 0 : 1] = steps;
     }
-    if (l->result != AUR_OK || !found.exact || found.least <= 0.0)
+    if (!good)
         return false;
     double *const trial = l->trial;
     l->trial = l->best;
@@ -173,26 +204,27 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
                 .trial = storage + count,
                 .found = found,
                 .error = error,
-                .progress = system->progress};
+                .progress = system->progress,
+                .bound = bound,
+                .high = bound + 1};
     aur_exact_system reporting = *system;
     if (system->progress.function != NULL)
         reporting.progress = (aur_progress){report, &l};
     l.system = &reporting;
     climbs(&l, 0);
-    size_t low = 0, high = bound + 1, next = (size_t)sqrt((double)system->places / 1.3);
-    for (size_t step = 1; low + 1 < high && l.result == AUR_OK;) {
-        if (next >= high || next <= low)
-            next = low + (high - low) / 2;
+    size_t next = (size_t)sqrt((double)system->places / 1.3);
+    for (size_t step = 1; l.low + 1 < l.high && l.result == AUR_OK;) {
+        if (next >= l.high || next <= l.low)
+            next = l.low + (l.high - l.low) / 2;
         if (climbs(&l, next)) {
-            low = next;
-            next = low + step; /* sets differ little above the guess: small steps first */
+            next = l.low + step; /* sets differ little above the guess: small steps first */
             step *= 2;
         } else {
-            high = next;
-            next = low + (high - low) / 2;
+            next = l.low + (l.high - l.low) / 2;
         }
     }
-    for (size_t more = low + 2; more <= low + 3 && more <= bound && l.result == AUR_OK; ++more)
+    const size_t top = l.low;
+    for (size_t more = top + 2; more <= top + 3 && more <= bound && l.result == AUR_OK; ++more)
         climbs(&l, more);
     memcpy(weights, l.best, count * sizeof *weights);
     free(storage);
@@ -236,13 +268,14 @@ static aur_result factor(const aur_exact_system *system, size_t degree, bool sea
 static aur_result weigh_ggx(const aur_exact_options *o, const aur_exact_system *system, const double *xyz,
                             size_t degree, bool search, double *weights, aur_exact_found *found,
                             aur_error *error) {
+    aur_exact_factoring factoring = {.earlier = 0.0};
     for (size_t first = 16;; first *= 2) {
         const size_t last = search ? least_of(degree, first) : degree;
         aur_exact_nodes nodes;
         aur_result result = aur_exact_ggx_nodes(&o->lobe, last, &nodes, error);
         if (result != AUR_OK)
             return result;
-        result = aur_exact_measured(system, xyz, &nodes, last, search, weights, found, error);
+        result = aur_exact_measured(system, xyz, &nodes, last, search, &factoring, weights, found, error);
         free(nodes.xyz);
         if (result != AUR_OK || last == degree || found->degree + AUR_EXACT_PATIENCE < last)
             return result;

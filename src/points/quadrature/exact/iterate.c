@@ -179,12 +179,11 @@ aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, con
     return result;
 }
 
-bool aur_exact_factoring_stops(const aur_exact_system *system, const aur_progress *progress, size_t at,
-                               size_t degree, bool search) {
-    const double full = sqrt((double)system->places);
-    const size_t end = search && full < (double)degree ? (size_t)full : degree, last = end > at ? end : at;
-    const uint64_t done = at * at, all = last * last;
-    return aur_progress_stops(progress, "factoring", done * done, all * all);
+bool aur_exact_factoring_stops(const aur_progress *progress, aur_exact_factoring *factoring, size_t at,
+                               size_t end) {
+    const double done = pow((double)at, 4.0), left = end > 0 ? pow((double)end, 4.0) - done : INFINITY;
+    return progress->function != NULL &&
+           aur_progress_tell(progress, "factoring", &factoring->share, factoring->earlier + done, left) != 0;
 }
 
 bool aur_exact_positive(const aur_exact_system *system, const double *weights, aur_exact_found *found) {

@@ -225,11 +225,16 @@ static void spread(const measured *m, const double *ratio, size_t count, double 
 }
 
 static aur_result solve(const measured *m, const aur_exact_system *system, size_t degree, bool search,
-                        double *weights, aur_exact_found *found, aur_error *error) {
+                        aur_exact_factoring *factoring, double *weights, aur_exact_found *found,
+                        aur_error *error) {
     const size_t count = system->points.count;
     size_t last = 0;
     for (size_t l = 0; l <= degree && l <= last + (search ? AUR_EXACT_PATIENCE : degree); ++l) {
-        if (aur_exact_factoring_stops(system, &m->progress, l, degree, search))
+        /* Nobody knows how long weights stay positive. Where they are not, a search soon ends, unless it
+         * begins again with more nodes. */
+        const bool ends = l > last + 1 + factoring->gap && last + AUR_EXACT_PATIENCE < degree;
+        const size_t end = !search ? degree + 1 : ends ? last + AUR_EXACT_PATIENCE + 1 : 0;
+        if (aur_exact_factoring_stops(&m->progress, factoring, l, end))
             return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
         const aur_result result = make_room(m, l, error);
         if (result != AUR_OK)
@@ -242,9 +247,11 @@ static aur_result solve(const measured *m, const aur_exact_system *system, size_
         if (!search || aur_exact_positive(system, weights, found)) {
             memcpy(m->best, m->ratio, m->points * sizeof *m->best);
             found->exact = true;
+            factoring->gap = l > last + 1 + factoring->gap ? l - last - 1 : factoring->gap;
             last = l;
         }
     }
+    factoring->earlier = factoring->share.done;
     found->degree = found->exact ? last : degree;
     for (int pass = 0; pass < 3 && found->exact; ++pass)
         found->residual = refine(m, last, m->best);
@@ -254,13 +261,13 @@ static aur_result solve(const measured *m, const aur_exact_system *system, size_
 }
 
 aur_result aur_exact_measured(const aur_exact_system *system, const double *xyz, const aur_exact_nodes *nodes,
-                              size_t degree, bool search, double *weights, aur_exact_found *found,
-                              aur_error *error) {
+                              size_t degree, bool search, aur_exact_factoring *factoring, double *weights,
+                              aur_exact_found *found, aur_error *error) {
     measured m;
     aur_result result = open_measured(system, xyz, nodes, degree, &m, error);
     *found = (aur_exact_found){.degree = degree};
     if (result == AUR_OK)
-        result = solve(&m, system, degree, search, weights, found, error);
+        result = solve(&m, system, degree, search, factoring, weights, found, error);
     close_measured(&m, degree);
     return result;
 }

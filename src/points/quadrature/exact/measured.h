@@ -24,5 +24,5 @@ enum { AUR_EXACT_PATIENCE = 4 };
 /* As aur_exact_direct, for the points xyz of the system and the density of the nodes; a
  * search ends earlier. O((points + nodes) degree^4) time. Errors: MEMORY, CANCELLED. */
 aur_result aur_exact_measured(const aur_exact_system *system, const double *xyz, const aur_exact_nodes *nodes,
-                              size_t degree, bool search, double *weights, aur_exact_found *found,
-                              aur_error *error);
+                              size_t degree, bool search, aur_exact_factoring *factoring, double *weights,
+                              aur_exact_found *found, aur_error *error);

@@ -3,6 +3,7 @@
  * and the sum of (w - near)^2 / near is least. */
 #pragma once
 
+#include "points/base/progress.h"
 #include "points/quadrature/exact/transform.h"
 
 typedef struct aur_exact_system {
@@ -33,10 +34,17 @@ bool aur_exact_positive(const aur_exact_system *system, const double *weights, a
 aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, const double *weights,
                               aur_exact_found *found, aur_error *error);
 
-/* Reports that a factorisation comes to a degree, in the time of which, its cube, the degrees before count; a
- * search ends where there are as many functions as places. True: it is to stop. */
-bool aur_exact_factoring_stops(const aur_exact_system *system, const aur_progress *progress, size_t at,
-                               size_t degree, bool search);
+/* How far a factorisation is, and the work of those before it. */
+typedef struct aur_exact_factoring {
+    aur_progress_share share;
+    double earlier;
+    size_t gap; /* the most degrees without positive weights before one that had some */
+} aur_exact_factoring;
+
+/* Reports that a factorisation comes to a degree and is thought to end with another one (0: nobody knows);
+ * the degrees before count by their time, the cube of each. True: it is to stop. */
+bool aur_exact_factoring_stops(const aur_progress *progress, aur_exact_factoring *factoring, size_t at,
+                               size_t end);
 
 /* By a factorisation that grows degree by degree, so that every degree is tried: O(points * degree^4) time.
  * `search`: `degree` is only the last one to try. */
