@@ -5,6 +5,7 @@
 #include "render/image/format.h"
 #include "render/scene/emitter.h"
 #include "render/scene/filter.h"
+#include "render/scene/load/ignored.h"
 #include "render/scene/load/spectrum.h"
 #include "render/scene/materials/texture.h"
 #include "render/scene/medium.h"
@@ -27,6 +28,7 @@ static const aur_table *const tables[] = {
     &aur_film_table,
     &aur_filter_table,
     &aur_sampler_table,
+    &aur_ignored_table,
     &aur_image_format_table,
 };
 /* clang-format on */

@@ -8,7 +8,6 @@ typedef struct occlusion_data {
     aur_occlusion occlusion; /* first: what the bench reads */
     aur_gather_rule_options pattern;
     const char *map, *scramble; /* scramble NULL: not given */
-    int64_t max_depth;
     bool cosine;
     enum { PIXEL_FILTER, PIXEL_CENTRE } pixel;
 } occlusion_data;
@@ -32,8 +31,6 @@ static const aur_key keys[] = {
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
     {AUR_KEY_OF_INTEGER(occlusion_data, "pattern_seed", pattern.seed, 0, INFINITY, "0",
                         "another randomisation of the pattern under the same seed")},
-    {AUR_KEY_OF_INTEGER(occlusion_data, "max_depth", max_depth, -1, 1 << 20, "-1",
-                        "of no effect: scenes set it for whatever integrator is asked for")},
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "points/base/error.h"
+#include "render/scene/load/ignored.h"
 #include "render/scene/plugin/plugin.h"
 
 #define INTEGRATORS(ROW)                                                                                     \
@@ -101,6 +102,7 @@ static aur_result create(aur_parameters *parameters, const aur_gather_integrator
                          aur_error *error) {
     source from = {.context = context};
     *integrator = NULL;
+    aur_parameters_ignore(parameters, &aur_integrator_table, context != NULL ? &context->warnings : NULL);
     aur_result result = find(parameters, gather, &from.row, error);
     if (result != AUR_OK)
         return result;

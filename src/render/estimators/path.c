@@ -11,8 +11,6 @@ static const aur_key keys[] = {
         "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
     {AUR_KEY_OF_INTEGER(aur_path, "rr_depth", rr_depth, 1, 1 << 20, "5",
                         "Russian roulette from this depth on")},
-    {AUR_KEY_OF_BOOLEAN(aur_path, "strict_normals", strict_normals, "false",
-                        "of no effect: it is always so")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "hide_emitters", hide_emitters, "false", "lights are black to the camera")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "packets", packets, "true",
                         "sixteen pixels in lockstep, else one path at a time: the same picture")},
@@ -30,9 +28,6 @@ static const aur_key keys[] = {
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     aur_path *const data = integrator->data;
-    if (aur_parameters_find(parameters, "strict_normals") != NULL)
-        aur_warn_at(&context->warnings, parameters->location,
-                    "integrator 'path': 'strict_normals' has no effect: it is always so");
     aur_scene_warn_of_media(context->scene, "integrator 'path'", &context->warnings);
     if (data->interleaved && (!data->packets || data->hide_emitters))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,

@@ -13,7 +13,6 @@ typedef struct aur_path {
     uint32_t max_depth;  /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
     uint32_t rr_depth;   /* Russian roulette from this depth on */
     bool hide_emitters;  /* from the camera */
-    bool strict_normals; /* of no effect */
     uint32_t candidates; /* points on lights of which one gets the shadow ray; 0 is 1 */
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */

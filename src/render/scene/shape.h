@@ -92,7 +92,6 @@ struct aur_shape {
 typedef struct aur_shape_keys {
     aur_transform to_world;
     bool flip_normals;
-    double silhouette_weight;                                  /* read, and of no use */
     const aur_parameter *bsdf, *emitter, *interior, *exterior; /* for the loader */
 } aur_shape_keys;
 

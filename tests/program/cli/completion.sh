@@ -32,7 +32,7 @@ offers spherical-fibonacci points spher
 offers :file measure ''
 offers sobol measure ''
 offers finalgather:photons=4,debias=only render a.xml --integrator finalgather:photons=4,debias=
-offers path:strict_normals=true render --integrator path:strict_normals=
+offers path:hide_emitters=true render --integrator path:hide_emitters=
 offers phong: points --lobe p
 offers :folder lab run -o ''
 offers :file render -qo ''

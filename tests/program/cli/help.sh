@@ -19,7 +19,7 @@ expect 0 "aureole render SCENE [OPTION...]" help render
 expect 0 "quality figures of points" help measure # the verb: its measures are listed by --list
 expect 0 "final gathering over a photon map" help integrator
 expect 0 "diffuse_samples" help integrator finalgather
-expect 0 "strict_normals" help integrator path
+expect 0 "hide_emitters" help integrator path
 expect 0 "measure energy: distance energy" help measure energy
 expect 0 "final gathering over a photon map" help integrators
 expect 0 "quality figures of points" measure -h

@@ -43,9 +43,25 @@ for emitter in "type='envmap'><string name='filename' value='picture.png'/>" "ty
   done
 done
 
-# Of three numbers a key of one number takes none, and says so.
-image wrong "<shape type='disk'><bsdf type='polarizer'><rgb name='theta' value='90 80 70'/></bsdf></shape>" >/dev/null && exit 1
-grep -q "'theta' must be a number, not '90 80 70'" wrong.said || { cat wrong.said; exit 1; }
+# What is of no effect and would be noticed where it had one is a warning; elsewhere the same name is read, or unknown.
+sed "s|<film type='hdrfilm'>|<float name='shutter_open' value='0'/><float name='focus_distance' value='1'/>&<boolean name='banner' value='true'/>|" \
+  without.xml >warned.xml
+"$aureole" render warned.xml --spp 2 -o warned.exr 2>warned.said || { cat warned.said; exit 1; }
+for name in "sensor 'perspective': 'shutter_open'" "sensor 'perspective': 'focus_distance'" "film 'hdrfilm': 'banner'"; do
+  grep -q "warned.xml:[0-9]*:[0-9]*: $name has no effect: " warned.said || { echo "$name is not reported:"; cat warned.said; exit 1; }
+done
+sed -i "s|type='perspective'|type='thinlens'|; s|<film |<float name='aperture_radius' value='1'/>&|" warned.xml
+"$aureole" render warned.xml --spp 2 -o warned.exr 2>warned.said || { cat warned.said; exit 1; }
+grep -q focus_distance warned.said && { cat warned.said; exit 1; }
+# A sampler's own keys are read.
+sed "s|<film |<sampler type='golden-set'><float name='seed' value='.25'/><integer name='sample_count' value='2'/></sampler>&|" without.xml >golden.xml
+"$aureole" render golden.xml -q -o golden.exr && "$aureole" render without.xml -q --spp 2 --sampler golden-set:seed=.25 -o without.exr &&
+  cmp golden.exr without.exr || { echo "the seed of a golden set is not read"; exit 1; }
+image wrong "<shape type='disk'><float name='shutter_open' value='0'/></shape>" >/dev/null && exit 1
+grep -q "shape 'disk' has no 'shutter_open'" wrong.said || { cat wrong.said; exit 1; }
+"$aureole" render without.xml --spp 2 --width 6 --integrator path:strict_normals=true -o strict.exr 2>strict.said || { cat strict.said; exit 1; }
+grep -q "integrator 'path': 'strict_normals' has no effect: it is always so" strict.said || { cat strict.said; exit 1; }
+"$aureole" render without.xml -q --spp 2 --width 6 --integrator ao:max_depth=4 -o strict.exr || exit 1
 
 unknown="<float name='wzwzwzwzwzwz' value='1'/>"
 for body in "<shape type='serialized'><string name='filename' value='none'/>@</shape>" "<shape type='sphere'>@</shape>" \

@@ -19,7 +19,6 @@ typedef struct envmap_keys {
     const char *filename;
     double scale;
     aur_transform to_world;
-    bool mis_compensation; /* read, and of no use */
 } envmap_keys;
 
 static const aur_key envmap_keys_table[] = {
@@ -27,8 +26,6 @@ static const aur_key envmap_keys_table[] = {
                      "the picture, beside the scene; must be given")},
     {AUR_KEY_OF_REAL(envmap_keys, "scale", scale, 0.0, 1e30, "1", "radiance is the picture's times this")},
     {AUR_KEY_OF_TRANSFORM(envmap_keys, "to_world", to_world, "a rotation")},
-    {AUR_KEY_OF_BOOLEAN(envmap_keys, "mis_compensation", mis_compensation, "false",
-                        "of no effect: directions are drawn by the picture alone")},
 };
 
 static aur_vector color_of(aur_texel texel) {

@@ -22,29 +22,14 @@ EMITTERS(DECLARE)
 #define ADDRESS(name) &aur_emitter_##name.row,
 static const aur_row *const rows[] = {EMITTERS(ADDRESS)};
 
-typedef struct emitter_keys {
-    double sampling_weight;
-} emitter_keys;
-
-static const aur_key common_keys[] = {
-    {AUR_KEY_OF_REAL(emitter_keys, "sampling_weight", sampling_weight, 0.0, 1e30, "1",
-                     "of no effect: lights are chosen by what they give")},
-};
-
-static const aur_row common = {
-    .name = "emitter", .summary = "what every light takes", AUR_ROW_KEYS(common_keys)};
-
-const aur_table aur_emitter_table = {
-    .kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows), .common = &common};
+const aur_table aur_emitter_table = {.kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows)};
 
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
     (void)context;
     aur_emitter *const emitter = object;
-    emitter_keys unused;
     emitter->location = parameters->location;
     emitter->shape = UINT32_MAX;
-    const aur_result result = aur_keys_read(common.key_count, common.keys, parameters, &unused, error);
-    return result == AUR_OK ? emitter->descriptor->create(parameters, emitter, error) : result;
+    return emitter->descriptor->create(parameters, emitter, error);
 }
 
 static void release(void *object) {

@@ -27,19 +27,6 @@ aur_result aur_build_filter(aur_loader *self, aur_parameters *parameters, void *
     return aur_filter_create(parameters, &self->scene->filter, self->error);
 }
 
-/* Warns of the parameters whose keys say in their help that they are of no effect. */
-static void warn_unused(aur_loader *self, aur_parameters *parameters, const aur_row *row) {
-    static const char start[] = "of no effect: ";
-    for (size_t i = 0; i < row->key_count; ++i) {
-        const aur_key *const key = &row->keys[i];
-        const bool unused = strncmp(key->help, start, sizeof start - 1) == 0;
-        const aur_parameter *const item = unused ? aur_parameters_find(parameters, key->name) : NULL;
-        if (item != NULL)
-            aur_warn_at(self->warnings, item->location, "%s '%s': '%s' has no effect: %s", parameters->kind,
-                        parameters->plugin, key->name, key->help + sizeof start - 1);
-    }
-}
-
 /* What is read of a film; a crop of -1 is not given. */
 typedef struct film_keys {
     int64_t width, height, crop_x, crop_y, crop_width, crop_height;
@@ -65,17 +52,6 @@ static const aur_key film_key_table[] = {
      .computed = true},
     {AUR_KEY_OF_ITEM(film_keys, "rfilter", rfilter, "gaussian", "how samples are weighed around a pixel",
                      "rfilter")},
-    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "file_format", NULL, "not needed: the output file's name says it")},
-    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "pixel_format", NULL, "not needed: pictures are RGB")},
-    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "component_format", NULL,
-                        "not needed: pictures are 32-bit floats where the format has them")},
-    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "banner", NULL, "of no effect: pictures carry none")},
-    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "high_quality_edges", NULL, "of no effect: all edges are")},
-    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "sample_border", NULL,
-                        "of no effect: samples are drawn by the filter")},
-    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "compensate", NULL, "of no effect: sums are exact enough")},
-    {AUR_KEY_READ_APART(AUR_KEY_REAL, "gamma", NULL, "of no effect: pictures are linear, PNG is sRGB"),
-     .maximum = INFINITY},
 };
 
 static const aur_row hdrfilm = {
@@ -131,7 +107,6 @@ aur_result aur_build_film(aur_loader *self, aur_parameters *parameters, void **o
         return result;
     if (filter != NULL)
         film->filter = filter;
-    warn_unused(self, parameters, row);
     return aur_parameters_finish(parameters, self->error);
 }
 
@@ -151,8 +126,6 @@ static const char *set_for_sampler(const char *plugin) {
 static const aur_key sampler_keys[] = {
     {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples a pixel"),
      .minimum = 1.0, .maximum = AUR_SAMPLES_PER_PIXEL_MAX, .computed = true},
-    {AUR_KEY_READ_APART(AUR_KEY_INTEGER, "seed", NULL, "of no effect: give it on the command line"),
-     .maximum = INFINITY},
 };
 
 static const aur_row sampler_common = {
@@ -172,7 +145,6 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
         aur_keys_read(sampler_common.key_count, sampler_common.keys, parameters, scene, self->error);
     if (result != AUR_OK)
         return result;
-    warn_unused(self, parameters, &sampler_common);
     /* Parameters that are left are keys of the set. */
     char text[1024];
     const char *const set = set_for_sampler(parameters->plugin);
@@ -262,12 +234,6 @@ aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void *
     if (result != AUR_OK)
         return result;
     scene->has_sensor = true;
-    const aur_row *row;
-    warn_unused(self, parameters, aur_sensor_table.common);
-    result = aur_table_find(&aur_sensor_table, parameters, &row, self->error);
-    if (result != AUR_OK)
-        return result;
-    warn_unused(self, parameters, row);
     result = aur_sensor_create(parameters, sensor, self->error);
     sensor->medium = medium;
     return result == AUR_OK && sensor == &scene->sensor ? set_parts(self, parameters, medium) : result;

@@ -6,6 +6,7 @@
 
 #include "points/base/array.h"
 #include "points/base/names.h"
+#include "render/scene/load/ignored.h"
 #include "render/scene/load/properties.h"
 
 /* Objects may stand in or refer to each other this deep; what they become is walked recursively. */
@@ -169,8 +170,11 @@ aur_result aur_loader_build(aur_loader *self, aur_xml_node *node) {
     result = collect(self, node, &parameters);
     --self->depth;
     self->node = node;
+    const aur_object_kind *const kind = aur_loader_find_kind(self, node->tag);
+    if (result == AUR_OK && kind->table != NULL)
+        aur_parameters_ignore(&parameters, kind->table, self->warnings);
     if (result == AUR_OK)
-        result = aur_loader_find_kind(self, node->tag)->build(self, &parameters, &node->object);
+        result = kind->build(self, &parameters, &node->object);
     aur_parameters_release(&parameters);
     node->state = AUR_XML_BUILT;
     return result;

@@ -12,6 +12,7 @@ typedef aur_result aur_object_builder(aur_loader *self, aur_parameters *paramete
 typedef struct aur_object_kind {
     const char *tag;
     aur_object_builder *build;
+    const aur_table *table; /* of its types; NULL: integrators are built later */
 } aur_object_kind;
 
 struct aur_loader {

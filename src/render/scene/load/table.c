@@ -6,10 +6,12 @@
 #include "render/scene/load/spectrum.h"
 
 static const aur_object_kind kinds[] = {
-    {"shape", aur_build_shape},     {"bsdf", aur_build_bsdf},       {"texture", aur_build_texture},
-    {"emitter", aur_build_emitter}, {"sensor", aur_build_sensor},   {"film", aur_build_film},
-    {"rfilter", aur_build_filter},  {"sampler", aur_build_sampler}, {"integrator", aur_build_integrator},
-    {"medium", aur_build_medium},   {"phase", aur_build_phase},     {"volume", aur_build_volume},
+    {"shape", aur_build_shape, &aur_shape_table},       {"bsdf", aur_build_bsdf, &aur_bsdf_table},
+    {"texture", aur_build_texture, &aur_texture_table}, {"emitter", aur_build_emitter, &aur_emitter_table},
+    {"sensor", aur_build_sensor, &aur_sensor_table},    {"film", aur_build_film, &aur_film_table},
+    {"rfilter", aur_build_filter, &aur_filter_table},   {"sampler", aur_build_sampler, &aur_sampler_table},
+    {"integrator", aur_build_integrator, NULL},         {"medium", aur_build_medium, &aur_medium_table},
+    {"phase", aur_build_phase, &aur_phase_table},       {"volume", aur_build_volume, &aur_volume_table},
 };
 
 /* Whether a child of <scene> is a part of something else: it is built when that refers to it. */
@@ -56,25 +58,19 @@ static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
                         emitter->descriptor->row.name);
 }
 
-/* The table of what an element may be, or NULL where its type is not one of these. Films and filters count
- * where they stand in the scene's own sensor: those of a sensor in a `batch` are left out, and so are those
- * at scene level that nothing refers to. */
+/* The table of what an element may be, or NULL where its type is not one of these: a sampler may be a file.
+ * Films and filters count where they stand in the scene's own sensor: those of a sensor in a `batch` are left
+ * out, and so are those at scene level that nothing refers to. */
 static const aur_table *table_of(const aur_xml_node *node, const char *plugin, size_t depth) {
-    const struct {
-        const char *tag;
-        const aur_table *table;
-        size_t depth; /* 0: any */
-    } tables[] = {{"bsdf", &aur_bsdf_table, 0},         {"texture", &aur_texture_table, 0},
-                  {"shape", &aur_shape_table, 0},       {"emitter", &aur_emitter_table, 0},
-                  {"sensor", &aur_sensor_table, 0},     {"medium", &aur_medium_table, 0},
-                  {"phase", &aur_phase_table, 0},       {"volume", &aur_volume_table, 0},
-                  {"spectrum", &aur_spectrum_table, 0}, {"film", &aur_film_table, 1},
-                  {"rfilter", &aur_filter_table, 2}};
-    if (strcmp(node->tag, "shape") == 0 && aur_is_shape_of_shapes(plugin))
-        return NULL;
-    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; ++i)
-        if (strcmp(node->tag, tables[i].tag) == 0)
-            return tables[i].depth == 0 || tables[i].depth == depth ? tables[i].table : NULL;
+    const char *const tag = node->tag;
+    const bool elsewhere = (strcmp(tag, "film") == 0 && depth != 1) ||
+                           (strcmp(tag, "rfilter") == 0 && depth != 2) || strcmp(tag, "sampler") == 0 ||
+                           (strcmp(tag, "shape") == 0 && aur_is_shape_of_shapes(plugin));
+    if (strcmp(tag, "spectrum") == 0)
+        return &aur_spectrum_table;
+    for (size_t i = 0; !elsewhere && i < sizeof kinds / sizeof kinds[0]; ++i)
+        if (strcmp(tag, kinds[i].tag) == 0)
+            return kinds[i].table;
     return NULL;
 }
 

@@ -4,8 +4,6 @@
 
 typedef struct filter {
     aur_color transmittance;
-    double theta, delta; /* read, and of no use: there is no polarisation here */
-    bool polarizing, left_handed;
 } filter;
 
 /* The half of unpolarised light that a linear or circular polariser takes. */
@@ -57,34 +55,18 @@ const aur_bsdf aur_bsdf_nothing = {.descriptor = &aur_bsdf_null,
 
 /* --- filters */
 
-#define TRANSMITTANCE_KEY(default_)                                                                          \
-    { AUR_KEY_OF_COLOR(filter, "transmittance", transmittance, 1.0, default_, "factor of what goes through") }
-#define ANGLE_KEY(name_, field_, default_)                                                                   \
-    { AUR_KEY_OF_REAL(filter, name_, field_, -1e6, 1e6, default_, "of no effect: light is unpolarised") }
-
-static const aur_key polarizer_keys[] = {
-    TRANSMITTANCE_KEY("1"),
-    ANGLE_KEY("theta", theta, "0"),
-    {AUR_KEY_OF_BOOLEAN(filter, "polarizing", polarizing, "true", "of no effect: light is unpolarised")},
-};
-static const aur_key retarder_keys[] = {TRANSMITTANCE_KEY("1"), ANGLE_KEY("theta", theta, "0"),
-                                        ANGLE_KEY("delta", delta, "90")};
-static const aur_key circular_keys[] = {
-    TRANSMITTANCE_KEY("1"),
-    ANGLE_KEY("theta", theta, "0"),
-    {AUR_KEY_OF_BOOLEAN(filter, "left_handed", left_handed, "false", "of no effect: light is unpolarised")},
+static const aur_key filter_keys[] = {
+    {AUR_KEY_OF_COLOR(filter, "transmittance", transmittance, 1.0, "1", "factor of what goes through")},
 };
 
-#define FILTER(name_, summary_, keys_, weigh_)                                                               \
+#define FILTER(name_, summary_, weigh_)                                                                      \
     const aur_bsdf_descriptor aur_bsdf_##name_ = {                                                           \
-        .row = {.name = #name_, .summary = summary_, .source = "Mitsuba 3", AUR_ROW_KEYS(keys_)},            \
+        .row = {.name = #name_, .summary = summary_, .source = "Mitsuba 3", AUR_ROW_KEYS(filter_keys)},      \
         .size = sizeof(filter),                                                                              \
         .polarizes = true,                                                                                   \
         .create = create,                                                                                    \
         .weigh = weigh_}
 
-FILTER(polarizer, "a linear polariser: lets half of unpolarised light through", polarizer_keys,
-       weigh_polarizer);
-FILTER(retarder, "a wave plate: lets unpolarised light through", retarder_keys, weigh_filter);
-FILTER(circular, "a circular polariser: lets half of unpolarised light through", circular_keys,
-       weigh_polarizer);
+FILTER(polarizer, "a linear polariser: lets half of unpolarised light through", weigh_polarizer);
+FILTER(retarder, "a wave plate: lets unpolarised light through", weigh_filter);
+FILTER(circular, "a circular polariser: lets half of unpolarised light through", weigh_polarizer);

@@ -8,10 +8,8 @@ typedef struct principled {
     aur_burley burley;
     aur_color metallic, clearcoat, clearcoat_gloss;
     float eta;
-    size_t lobe; /* the number of the sampled one, after the diffuse one where there is one */
-    /* Read, and of no use afterwards: */
-    float specular;
-    double rates[3];
+    size_t lobe;    /* the number of the sampled one, after the diffuse one where there is one */
+    float specular; /* read, and of no use afterwards */
 } principled;
 
 static const aur_key keys[] = {
@@ -24,10 +22,6 @@ static const aur_key keys[] = {
      .computed = true},
     {AUR_KEY_OF_REAL(principled, "specular", specular, 0.0, 1.0, "0.5",
                      "in place of eta: 12.5 times the reflectance straight on")},
-    {AUR_KEY_OF_REAL(principled, "diffuse_reflectance_sampling_rate", rates[0], 0.0, 1e6, "1",
-                     "of no effect on what is rendered")},
-    {AUR_KEY_OF_REAL(principled, "main_specular_sampling_rate", rates[1], 0.0, 1e6, "1", "the same")},
-    {AUR_KEY_OF_REAL(principled, "clearcoat_sampling_rate", rates[2], 0.0, 1e6, "1", "the same")},
 };
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {

@@ -7,8 +7,7 @@
 typedef struct thin {
     aur_burley burley;
     aur_color eta, diffuse_through;
-    size_t lobe;     /* the number of the sampled one, after the diffuse one where there is one */
-    double rates[4]; /* read, and of no use afterwards */
+    size_t lobe; /* the number of the sampled one, after the diffuse one where there is one */
 } thin;
 
 static const aur_key keys[] = {
@@ -17,11 +16,6 @@ static const aur_key keys[] = {
      .minimum = 0.1},
     {AUR_KEY_OF_COLOR(thin, "diff_trans", diffuse_through, 2.0, "0",
                       "twice the share of diffuse light that goes through")},
-    {AUR_KEY_OF_REAL(thin, "diffuse_reflectance_sampling_rate", rates[0], 0.0, 1e6, "1",
-                     "of no effect on what is rendered")},
-    {AUR_KEY_OF_REAL(thin, "specular_reflectance_sampling_rate", rates[1], 0.0, 1e6, "1", "the same")},
-    {AUR_KEY_OF_REAL(thin, "specular_transmittance_sampling_rate", rates[2], 0.0, 1e6, "1", "the same")},
-    {AUR_KEY_OF_REAL(thin, "diffuse_transmittance_sampling_rate", rates[3], 0.0, 1e6, "1", "the same")},
 };
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {

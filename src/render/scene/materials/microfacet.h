@@ -17,9 +17,7 @@ typedef struct aur_roughness {
     aur_microfacet constant; /* where nothing varies */
     aur_color alpha_u, alpha_v;
     bool varies;
-    /* Read, and of no use afterwards: */
-    aur_color alpha;
-    bool sample_visible;
+    aur_color alpha; /* read, and of no use afterwards */
 } aur_roughness;
 
 #define AUR_LEAST_ALPHA 1e-4
@@ -28,8 +26,6 @@ typedef struct aur_roughness {
 #define AUR_MICROFACET_KEYS(struct_)                                                                         \
     {AUR_KEY_OF_CHOICE(struct_, "distribution", microfacet.constant.distribution, "beckmann",                \
                        "of the facets' normals", "beckmann", "ggx")},                                        \
-        {AUR_KEY_OF_BOOLEAN(struct_, "sample_visible", microfacet.sample_visible, "true",                    \
-                            "of no effect: it is always so")},                                               \
         {AUR_KEY_OF_COLOR(struct_, "alpha", microfacet.alpha, 10.0, "0.1", "roughness"),                     \
          .minimum = AUR_LEAST_ALPHA},                                                                        \
         {AUR_KEY_OF_COLOR(struct_, "alpha_u", microfacet.alpha_u, 10.0, "alpha",                             \

@@ -16,8 +16,7 @@ typedef struct bitmap {
     enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
     wrap_mode wrap;
     /* Read, and of no use afterwards: */
-    bool raw, accelerated;
-    int format;
+    bool raw;
     enum { CHANNEL_RGB, CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_ALPHA } channel;
     float factor[3], cutoff;
     const char *path;
@@ -138,16 +137,12 @@ static const aur_key keys[] = {
                        "clamp")},
     {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
     {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "the picture, beside the scene; must be given")},
-    {AUR_KEY_OF_CHOICE(bitmap, "format", format, "variant",
-                       "of no effect: texels are kept in single precision", "variant", "fp16", "float16",
-                       "uint8", "auto")},
     {AUR_KEY_OF_CHOICE(bitmap, "channel", channel, "rgb",
                        "what of the picture is used; alpha is 1 in a picture that has none", "rgb", "red",
                        "green", "blue", "alpha")},
     {AUR_KEY_OF_VECTOR(bitmap, "factor", factor, 0.0, 1e30, "1 1 1", "factors of red, green and blue")},
     {AUR_KEY_OF_REAL(bitmap, "cutoff", cutoff, 0.0, 1e30, "0",
                      "if above 0: texels become 1 from there on, after the factor, and 0 below")},
-    {AUR_KEY_OF_BOOLEAN(bitmap, "accel", accelerated, "true", "of no effect")},
     AUR_UV_KEYS(bitmap),
 };
 

@@ -17,7 +17,7 @@ static const aur_row *const rows[] = {MEDIA(ADDRESS)};
 
 /* The keys that every medium takes. */
 typedef struct medium_keys {
-    bool sample_emitters, has_spectral_extinction;
+    bool sample_emitters;
     const aur_parameter *phase;
 } medium_keys;
 
@@ -25,8 +25,6 @@ static const aur_key common_keys[] = {
     {AUR_KEY_OF_ITEM(medium_keys, "phase", phase, "isotropic", "how it scatters", "phase")},
     {AUR_KEY_OF_BOOLEAN(medium_keys, "sample_emitters", sample_emitters, "true",
                         "draws points on lights where it scatters; else light is found by chance")},
-    {AUR_KEY_OF_BOOLEAN(medium_keys, "has_spectral_extinction", has_spectral_extinction, "true",
-                        "of no effect: that is seen from sigma_t")},
 };
 
 static const aur_row common = {

@@ -9,12 +9,7 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
     result->direction = (aur_vector){0.0f, 0.0f, 1.0f};
 }
 
-static const aur_key keys[] = {
-    {AUR_KEY_READ_APART(AUR_KEY_REAL, "focus_distance", NULL, "of no effect: parallel rays have no focus"),
-     .maximum = INFINITY},
-};
-
 const aur_sensor_descriptor aur_sensor_orthographic = {
-    .row = {.name = "orthographic", .summary = "parallel rays along +z", AUR_ROW_KEYS(keys)},
+    .row = {.name = "orthographic", .summary = "parallel rays along +z"},
     .ray = ray,
 };

@@ -28,11 +28,7 @@ typedef struct lens_keys {
                         "millimetres")                                                                       \
     }
 
-static const aur_key pinhole_table[] = {
-    LENS_KEYS,
-    {AUR_KEY_READ_APART(AUR_KEY_REAL, "focus_distance", NULL, "of no effect: a pinhole is sharp everywhere"),
-     .maximum = INFINITY},
-};
+static const aur_key pinhole_table[] = {LENS_KEYS};
 
 static const aur_key thinlens_table[] = {
     LENS_KEYS,

@@ -29,10 +29,6 @@ static const aur_key common_keys[] = {
     {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "the numbers of the camera's samples",
                      "sampler")},
     {AUR_KEY_OF_ITEM(sensor_keys, "medium", medium, NULL, "what it stands in", "medium")},
-    {AUR_KEY_READ_APART(AUR_KEY_REAL, "shutter_open", NULL, "of no effect: nothing moves"),
-     .maximum = INFINITY},
-    {AUR_KEY_READ_APART(AUR_KEY_REAL, "shutter_close", NULL, "of no effect: nothing moves"),
-     .maximum = INFINITY},
 };
 
 static const aur_row common = {

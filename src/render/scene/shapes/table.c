@@ -34,8 +34,6 @@ static const aur_key common_keys[] = {
     {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL,
                      "what it is made of; else grey, or black for a light", "bsdf")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "emitter", emitter, NULL, "makes it a light", "emitter")},
-    {AUR_KEY_OF_REAL(aur_shape_keys, "silhouette_sampling_weight", silhouette_weight, 0.0, 1e30, "1",
-                     "of no effect: nothing is differentiated")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "interior", interior, NULL, "what is behind its surface", "medium")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "exterior", exterior, NULL, "what is before its surface", "medium")},
 };

@@ -15,7 +15,7 @@ typedef struct grid {
     aur_transform to_world;
     grid_filter filter;
     grid_wrap wrap;
-    bool raw, accel, use_grid_bbox;
+    bool use_grid_bbox;
     int32_t size[3];
     int32_t channels;
     char *file;
@@ -30,8 +30,6 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_BOOLEAN(grid, "use_grid_bbox", use_grid_bbox, "false",
                         "the box that the file names takes the unit cube's place")},
     {AUR_KEY_OF_TRANSFORM(grid, "to_world", to_world, "from the unit cube or that box to the scene")},
-    {AUR_KEY_OF_BOOLEAN(grid, "raw", raw, "false", "of no effect: values are taken as they are")},
-    {AUR_KEY_OF_BOOLEAN(grid, "accel", accel, "true", "of no effect: nothing is left to hardware")},
 };
 
 enum { HEAD = 48, MOST_ALONG = 1 << 16 };

@@ -1,0 +1,93 @@
+#include "render/scene/load/ignored.h"
+
+#include <string.h>
+
+#define NAME(name_, why_)                                                                                    \
+    { AUR_KEY_READ_APART(AUR_KEY_TEXT, name_, NULL, why_) }
+#define KIND(name_)                                                                                          \
+    &(const aur_row) {                                                                                       \
+        .name = #name_, .summary = "parameters of every " #name_ " that does not read them",                 \
+        AUR_ROW_KEYS(name_##_names)                                                                          \
+    }
+
+static const aur_key integrator_names[] = {
+    NAME("strict_normals", "of no effect: it is always so"),
+    NAME("max_depth", "not needed: scenes set it for whatever integrator is asked for"),
+};
+static const aur_key bsdf_names[] = {
+    NAME("sample_visible", "not needed: it is always so"),
+    NAME("diffuse_reflectance_sampling_rate", "not needed: it changes no mean"),
+    NAME("diffuse_transmittance_sampling_rate", "not needed: it changes no mean"),
+    NAME("main_specular_sampling_rate", "not needed: it changes no mean"),
+    NAME("specular_reflectance_sampling_rate", "not needed: it changes no mean"),
+    NAME("specular_transmittance_sampling_rate", "not needed: it changes no mean"),
+    NAME("clearcoat_sampling_rate", "not needed: it changes no mean"),
+    NAME("theta", "not needed: light is unpolarised"),
+    NAME("delta", "not needed: light is unpolarised"),
+    NAME("polarizing", "not needed: light is unpolarised"),
+    NAME("left_handed", "not needed: light is unpolarised"),
+};
+static const aur_key texture_names[] = {
+    NAME("format", "not needed: texels are stored in single precision"),
+    NAME("accel", "not needed: textures are read by no special hardware"),
+};
+static const aur_key shape_names[] = {
+    NAME("silhouette_sampling_weight", "not needed: nothing is differentiated"),
+};
+static const aur_key emitter_names[] = {
+    NAME("sampling_weight", "not needed: lights are chosen by their power"),
+    NAME("mis_compensation", "not needed: directions are drawn by the image alone"),
+};
+static const aur_key sensor_names[] = {
+    NAME("shutter_open", "of no effect: nothing moves"),
+    NAME("shutter_close", "of no effect: nothing moves"),
+    NAME("focus_distance", "of no effect: only 'thinlens' has a focus"),
+};
+static const aur_key medium_names[] = {
+    NAME("has_spectral_extinction", "not needed: that is seen from sigma_t"),
+};
+static const aur_key volume_names[] = {
+    NAME("raw", "not needed: values are taken unchanged"),
+    NAME("accel", "not needed: volumes are read by no special hardware"),
+};
+static const aur_key film_names[] = {
+    NAME("file_format", "not needed: the name of the output file says it"),
+    NAME("pixel_format", "not needed: images are RGB"),
+    NAME("component_format", "not needed: images are 32-bit floats where the format has them"),
+    NAME("banner", "of no effect: pictures carry none"),
+    NAME("high_quality_edges", "of no effect: all edges are"),
+    NAME("sample_border", "of no effect: samples are drawn by the filter"),
+    NAME("compensate", "of no effect: sums are exact enough"),
+    NAME("gamma", "of no effect: pictures are linear, PNG is sRGB"),
+};
+static const aur_key sampler_names[] = {NAME("seed", "of no effect: give it on the command line")};
+
+static const aur_row *const rows[] = {KIND(integrator), KIND(bsdf),   KIND(texture), KIND(shape),
+                                      KIND(emitter),    KIND(sensor), KIND(medium),  KIND(volume),
+                                      KIND(film),       KIND(sampler)};
+
+const aur_table aur_ignored_table = {
+    .kind = "ignored", .summary = "Mitsuba's parameters that do nothing here", AUR_TABLE_ROWS(rows)};
+
+static const aur_row *find_row(const aur_table *table, const char *name) {
+    for (size_t i = 0; i < table->count; ++i)
+        if (strcmp(table->rows[i]->name, name) == 0)
+            return table->rows[i];
+    return NULL;
+}
+
+void aur_parameters_ignore(aur_parameters *parameters, const aur_table *table, const aur_warnings *warnings) {
+    static const char start[] = "of no effect: ";
+    const aur_row *const names = find_row(&aur_ignored_table, table->kind);
+    const aur_row *const reader = find_row(table, parameters->plugin);
+    for (size_t i = 0; names != NULL && i < parameters->count; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        const aur_key *const key = aur_row_find_key(names, item->name);
+        if (key == NULL || (reader != NULL && aur_row_find_key(reader, item->name) != NULL))
+            continue;
+        item->used = true;
+        if (strncmp(key->help, start, sizeof start - 1) == 0)
+            aur_warn_at(warnings, item->location, "%s '%s': '%s' has no effect: %s", parameters->kind,
+                        parameters->plugin, key->name, key->help + sizeof start - 1);
+    }
+}
