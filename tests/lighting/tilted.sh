@@ -122,4 +122,30 @@ for ball in "0 0 -1000" "600 0 -800" "-480 600 -640"; do
   look_from "$(awk "BEGIN { printf \"%g, %g, %g\", -($x) / 500, -($y) / 500, -($z) / 500 }")" \
     "<shape type=\"sphere\"><point name=\"center\" x=\"$x\" y=\"$y\" z=\"$z\"/><float name=\"radius\" value=\"1000\"/></shape>"
 done
+# Below a rug nothing arrives, from 1e-6 of its size above the floor on, tilted and at map coordinates: two sensors on the floor and one
+# on the rug's underside read 0; below a light pi times its radiance, and below nothing but air (null) the sky, as beside the rug and on it.
+rugs() { # rugs GAP ANGLE X Y RUG EXPECTED
+  local map="<rotate x=\"1\" y=\"2\" z=\"-1\" angle=\"$2\"/><translate x=\"$3\" y=\"$4\"/>"
+  cat >rug.xml <<XML
+<scene version="3.0.0"><emitter type="constant"/>
+<shape type="rectangle"><transform name="to_world">$map</transform><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><scale value=".4"/><translate x="-.3" z="$1"/>$map</transform>$5</shape></scene>
+XML
+  awk -v gap="$1" -v angle="$2" -v x="$3" -v y="$4" 'function turned(a, b, c, t, k, s, d) { # about (1, 2, -1)
+      t = angle * 3.14159265358979323846 / 180; k = cos(t); s = sin(t); d = (a + 2 * b - c) / 6 * (1 - k); s /= sqrt(6)
+      return sprintf("%.17g %.17g %.17g", a * k + (2 * c + b) * s + d + m * x, b * k + (-a - c) * s + 2 * d + m * y, c * k + (b - 2 * a) * s - d) }
+    function sensor(a, b, c, up, at) { m = 1; at = turned(a, b, c); m = 0; print at, turned(0, 0, up) }
+    BEGIN { sensor(-.3, .1, 0, 1); sensor(-.4, -.23, 0, 1); sensor(-.3, .1, gap, -1); sensor(.4, .3, 0, 1); sensor(-.3, .1, gap, 1) }' >rug.pts
+  "$aureole" irradiance rug.xml --sensors rug.pts -n 64 --to csv 2>said |
+    awk -F, -v below="$6" 'NR > 1 { ++n; e = NR < 4 ? below : NR == 4 ? 0 : 3.14159265; d = $4 - e; bad += d * d > (7 * $7 + 1e-5) ^ 2 } END { exit bad > 0 || n != 5 }' ||
+    fail "a rug $*: $(cat said)"
+}
+dark='<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf>'
+for gap in 1e-6 2.5e-6 1e-5 1e-3; do
+  for place in "0 0 0" "40 0 0" "75 500000.25 5200000.5" "-130 2600000 1200000" "20 1e5 1e5"; do
+    rugs $gap $place "$dark" 0
+  done
+done
+rugs 2e-6 75 500000.25 5200000.5 "$dark<emitter type=\"area\"><rgb name=\"radiance\" value=\"2\"/></emitter>" 6.2831853
+rugs 2e-6 75 500000.25 5200000.5 '<bsdf type="null"/>' 3.14159265
 exit $((failures > 0))

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "points/base/polygon.h"
 #include "points/base/random.h"
 #include "points/base/vector3d.h"
 #include "render/scene/scene_data.h"
@@ -68,6 +69,61 @@ static bool move_off(const aur_scene *scene, float reach, footing *before, aur_s
     return true;
 }
 
+/* How far before the place a triangle's plane is, along a unit direction, in doubles. */
+static double distance_to(const aur_mesh *mesh, size_t triangle, const double from[3],
+                          const double ahead[3]) {
+    aur_vector corner[3];
+    double corners[3][3], between[3];
+    aur_plane plane;
+    aur_mesh_corners(mesh, triangle, corner);
+    for (size_t c = 0; c < 3; ++c)
+        aur_vector_to_doubles(corner[c], corners[c]);
+    if (!(aur_polygon_plane(3, (const double(*)[3])corners, &plane) > 0.0))
+        return INFINITY;
+    for (int d = 0; d < 3; ++d)
+        between[d] = corners[0][d] - from[d];
+    return aur_dot3(plane.normal, between) / aur_dot3(plane.normal, ahead);
+}
+
+/* What is so near before a sensor on a surface that its rays, which begin off that, would begin beyond:
+ * doubles know it from the surface. Light that passes by its edges is less than rounding. Looks along the
+ * normal. */
+static void find_cover(const aur_scene *scene, const double from[3], aur_vector at, const footing *standing,
+                       aur_sensor_place *place) {
+    enum { MOST_HITS = 16 };
+    const float sign = aur_vector_dot(standing->normal, place->frame.z) < -1e-3f ? -1.0f : 1.0f;
+    const aur_vector axis = aur_vector_scale(standing->normal, sign);
+    double ahead[3], distances[MOST_HITS], nearest = INFINITY, cover = 2.0 * (double)standing->offset;
+    aur_vector_to_doubles(axis, ahead);
+    aur_surface surfaces[MOST_HITS];
+    size_t count = 0;
+    aur_ray ray = {aur_vector_add_scaled(at, -2.0f * standing->offset, axis), 0.0f, axis,
+                   5.0f * standing->offset};
+    for (aur_hit hit; count < MOST_HITS && aur_scene_intersect(scene, &ray, &hit);) {
+        ray.nearest = nextafterf(hit.distance, INFINITY);
+        if (hit.instance != AUR_NO_INSTANCE || scene->shapes[hit.shape]->curved != NULL)
+            continue;
+        aur_scene_surface(scene, &ray, &hit, &surfaces[count]);
+        distances[count] = distance_to(&scene->shapes[hit.shape]->mesh, hit.primitive, from, ahead);
+        if (!(fabsf(aur_vector_dot(surfaces[count].geometric_normal, axis)) > 0.99f))
+            continue;
+        nearest = fabs(distances[count]) < fabs(nearest) ? distances[count] : nearest;
+        ++count;
+    }
+    /* Corners that are rounded put the surface itself 2 of the 25 roundings off. */
+    const double least = nearest + 0.1 * (double)standing->offset;
+    for (size_t i = 0; i < count; ++i) {
+        const aur_bsdf *const bsdf = surfaces[i].bsdf;
+        if (!(distances[i] > least && distances[i] < cover) || bsdf->transmits || bsdf->passes)
+            continue;
+        cover = distances[i];
+        place->covered = true;
+        const float cosine = aur_vector_dot(axis, place->frame.z);
+        const aur_vector light = aur_surface_emission(scene, &surfaces[i], aur_vector_scale(axis, -1.0f));
+        aur_vector_to_doubles(aur_vector_scale(light, 0.5f * AUR_PI_F * (1.0f + cosine)), place->closed);
+    }
+}
+
 /* Twice the largest offset there can be, as an axis may meet a surface at an angle. */
 static float reach_of(const aur_scene *scene, aur_vector at) {
     const aur_vector low = scene->lower, high = scene->upper;
@@ -102,9 +158,11 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
     place->position = at;
     footing before = {.height = 0.0f};
     const float reach = reach_of(scene, at);
-    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, reach, &before, place); ++i)
+    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, reach, &before, place); ++i) {
         place->on_surface = true;
-    if (lights->count == 0)
+        find_cover(scene, from, at, &before, place);
+    }
+    if (lights->count == 0 || place->covered)
         return;
     place->shares = shares;
     if (place->on_surface)
@@ -300,6 +358,10 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, cons
 void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_place *place,
                      const aur_known_light *known, uint32_t level, aur_look *look) {
     *look = (aur_look){0};
+    for (size_t k = 0; k < AUR_PACKET_SIZE && place->covered; ++k)
+        memcpy(look->sums[k][DIRECT], place->closed, sizeof place->closed);
+    if (place->covered)
+        return;
     aur_look from_lights = {0};
     float shifts[AUR_PACKET_SIZE][3]; /* of the height, and the turn's cosine and sine */
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {

@@ -15,6 +15,7 @@ _Static_assert((int)AUR_IRRADIANCE_REPLICATES == (int)AUR_PACKET_SIZE, "a lane i
 typedef struct aur_sensor_place {
     aur_vector position; /* where its rays begin */
     bool on_surface;     /* it has been moved off one */
+    bool covered;        /* something lies on it: no light arrives but what that sends out */
     aur_frame frame;     /* z is the normal */
     double closed[3];    /* the part of the direct light that has a closed form, r, g, b */
     float *shares;       /* of each emitter, see aur_closed_lights_at; NULL: there are no closed lights */

@@ -129,7 +129,8 @@ float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *re
                            const aur_surface *surface);
 /* Radiance that `surface` emits towards the unit direction `view` (world); 0 when it is no light or seen from
  * behind. */
-aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view);
+AUR_INTERNAL aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface,
+                                             aur_vector view);
 
 /* Light from beyond the scene, for rays that hit nothing: the radiance that arrives from the unit `direction`
  * (which points out of the scene), 0 without an environment; and the pdf with which aur_light_sample_direct
