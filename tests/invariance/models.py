@@ -153,6 +153,13 @@ def plates():
     ])
 
 
+def rug(gap):
+    """A floor and a plate of .4 of its area that far above it."""
+    under = [(0.1, 0.1, gap), (0.1, 0.9, gap), (0.6, 0.9, gap), (0.6, 0.1, gap)]
+    return Model([Surface("floor", [[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]]), Surface("under", [under]),
+                  Surface("top", [[(x, y, gap + 0.01) for x, y, _ in under[::-1]]])])
+
+
 def numbers(values):
     return " ".join(repr(float(v)) for v in values)
 

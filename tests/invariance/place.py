@@ -131,6 +131,15 @@ for _name, _make in MODELS.items():
         def _(context, make=_make, free=_free):
             return moved(context, lambda m, seeds: radiosities(context, m, seeds, *free), make())
 
+for _mode in ((), ("--rays-only",), ("--matrix-free",)):
+    @relation("place", " ".join(("viewfactors --radiosity", *_mode)), "a rug's gap of 1e-5 of the floor made 1e-8 to 1e-6, turned and moved", "intervals")
+    def _(context, mode=_mode):
+        # Less than 6.5 of the gap goes by its edges; without a matrix reflections end at .02 / sqrt(512) of the light.
+        here = radiosities(context, models.rug(1e-5).turned(), range(context.seeds), *mode)
+        return worst(same_means(here, radiosities(context, models.rug(gap).turned().moved(offset), range(100, 100 + context.seeds), *mode),
+                                1e-3 if mode == ("--matrix-free",) else 1e-4, 1e-4)
+                     for gap, offset in ((1e-8, (0.0, 0.0, 0.0)), (1e-7, (0.0, 0.0, 0.0)), (1e-6, (0.0, 0.0, 0.0)), *((1e-6, o) for o in list(PLACES.values())[:-1])))
+
 CHANGES = {"turned": lambda m: m.turned(), "mirrored": lambda m: m.mirrored(), "in millimetres": lambda m: m.scaled(1000.0),
            "in kilometres": lambda m: m.scaled(0.001)}
 for _change, _map in CHANGES.items():
