@@ -5,7 +5,7 @@
  *     static const aur_key keys[] = {
  *         {.name = "rotations", .type = AUR_KEY_INTEGER, .help = "randomisations made beforehand",
  *          .default_text = "16", .maximum = 65536,
- *          .offset = offsetof(aur_gather_options, rotations), .size = sizeof(size_t)},
+ *          .offset = offsetof(aur_gather_settings, rotations), .size = sizeof(size_t)},
  *     };
  *     static const aur_gather_integrator study = {
  *         .size = sizeof study, .row = {.name = "study", .key_count = 1, .keys = keys}};
@@ -54,8 +54,6 @@ typedef enum aur_gather_weights {
     AUR_WEIGHTS_MIS,
     AUR_WEIGHTS_SOLVE
 } aur_gather_weights;
-/* How the contrast of samples is measured that decides on the next level. */
-typedef enum aur_gather_criterion { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE } aur_gather_criterion;
 /* The density of directions: the lobe's, or its power 2/(s+1); DEFAULT is the first with equal weights, else
  * the second. */
 typedef enum aur_gather_density {
@@ -71,7 +69,7 @@ typedef enum aur_gather_pixel { AUR_PIXEL_FILTER, AUR_PIXEL_CENTRE } aur_gather_
 
 /* What gathering can be asked for. The library makes the struct, with the defaults in brackets; then keys
  * fill it. Texts are read only while the integrator is made. */
-typedef struct aur_gather_options {
+typedef struct aur_gather_settings {
     /* Directions and their weights. */
     size_t diffuse_samples, glossy_samples; /* directions per pixel of each lobe [64] */
     size_t split;                           /* samples that share a pattern; 0: all of a pixel [0] */
@@ -88,12 +86,6 @@ typedef struct aur_gather_options {
     /* Of optimal weights; below 0: 0.5 for SOLVE, else 1e-6 [-1]. */
     double regularization;
     bool clip; /* glossy lobes end at the surface's horizon [true] */
-    /* Adaptive gathering: where a lobe's samples differ more than `threshold` by the criterion, the next of
-     * `levels` extensions of the pattern is gathered, `level_factor` (2 or 4) times as many directions. */
-    bool adaptive;                  /* [false] */
-    aur_gather_criterion criterion; /* [VARIANCE] */
-    float threshold;                /* below 0: 0.3 for ENTROPY, else 0.03 [-1] */
-    size_t levels, level_factor;    /* 1 .. 7 [2], 2 or 4 [4] */
     /* Light. */
     size_t photons, caustic_photons; /* of the map [500000], and of one of caustics alone [0: none] */
     uint64_t photon_seed;            /* the same photons under all seeds; 0: by the image's seed [0] */
@@ -112,13 +104,64 @@ typedef struct aur_gather_options {
     aur_gather_pixel pixel; /* [FILTER] */
     uint32_t edge_samples;  /* camera rays more where a pixel sees several things [128] */
     bool packets;           /* sixteen rays at a time, else one: the same image to rounding [true] */
-} aur_gather_options;
+} aur_gather_settings;
 
-/* An integrator of the caller's, beside those of the library. Its keys are fields of aur_gather_options; it
- * takes those of `finalgather` too. It must outlive the render. */
+/* --- a caller's own way to gather a lobe: which directions, and what each counts */
+
+/* Shading points whose light is gathered together, one in each lane; a mask has a bit for each. */
+enum { AUR_GATHER_LANES = 16 };
+
+/* The directions that gather a lobe cos^exponent about +z: the mean over all of weight * f estimates the
+ * integral of cos^exponent * f over the hemisphere, of solid angle. */
+typedef struct aur_gather_directions {
+    size_t count;
+    double exponent;
+    const float *x, *y, *z, *weights;
+} aur_gather_directions;
+
+/* One lobe at the shading points of some lanes. */
+typedef struct aur_gather_sweep aur_gather_sweep;
+
+/* Traces direction `index` of the pattern in `lanes`, which are among those of the call of `gather`:
+ * values[c][lane] becomes the light that the lobe makes of it, channel by channel, without the direction's
+ * weight and the lobe's colour; 0 in other lanes. Returns the lanes above whose surface the direction is. */
+AUR_EXPERIMENTAL uint32_t aur_gather_trace(aur_gather_sweep *sweep, uint32_t lanes, size_t index,
+                                           float values[3][AUR_GATHER_LANES]) AUR_NONNULL(1, 4);
+/* Ends a lane with the integral that was found, by so many directions, at that level of statistics.levels. */
+AUR_EXPERIMENTAL void aur_gather_finish(aur_gather_sweep *sweep, size_t lane, const float integral[3],
+                                        size_t directions, size_t level) AUR_NONNULL(1, 3);
+
+/* `options` are those of the render, and of the integrator's own struct where they are part of one. Several
+ * threads call `gather` at once. */
+typedef struct aur_gather_method {
+    /* *asked becomes whether the options ask for it; else the integrator gathers as finalgather does. Errors:
+     * options that do not go together. */
+    aur_result (*begin)(const aur_gather_settings *options, aur_warnings warnings, bool *asked,
+                        aur_error *error);
+    /* The SET and number of the directions for `base` of diffuse_samples or glossy_samples; `set` holds
+     * `capacity` characters. */
+    aur_result (*choose)(const aur_gather_settings *options, size_t base, size_t capacity, char *set,
+                         size_t *count, aur_error *error);
+    /* Makes *state for that pattern, which outlives it; released also after an error. */
+    aur_result (*prepare)(const aur_gather_settings *options, size_t base,
+                          const aur_gather_directions *pattern, void **state, aur_error *error);
+    void (*release)(void *state); /* NULL is allowed */
+    /* Gathers: each lane is to be finished once. `memory` is 3 * AUR_GATHER_LANES floats a direction. */
+    void (*gather)(const void *state, uint32_t lanes, aur_gather_sweep *sweep, float *memory);
+} aur_gather_method;
+
+/* --- the integrator */
+
+/* An integrator of the caller's, beside those of the library. Its keys are fields of aur_gather_settings, or
+ * of a struct that begins with it; it takes those of `finalgather` too. It must outlive the render. */
 typedef struct aur_gather_integrator {
     size_t size; /* of the caller's struct */
     aur_row row; /* its name is none of the library's integrators */
+    /* Of the struct; 0: aur_gather_settings alone. Fields behind that begin as in `initial`, or with zeros
+     * where that is NULL. */
+    size_t settings_size;
+    const void *initial;
+    const aur_gather_method *method; /* NULL: none */
 } aur_gather_integrator;
 
 #ifdef __cplusplus

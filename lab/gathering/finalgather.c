@@ -6,10 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Rows of keys, each a field of aur_gather_options. */
+#include "levels.h"
+
+/* Rows of keys, each a field of lab_gather_settings. */
 #define LAB_FIELD(type_, name_, field_, default_, help_)                                                     \
     .name = (name_), .type = (type_), .help = (help_), .default_text = (default_),                           \
-    .offset = offsetof(aur_gather_options, field_), .size = sizeof(((aur_gather_options *)0)->field_)
+    .offset = offsetof(lab_gather_settings, field_), .size = sizeof(((lab_gather_settings *)0)->field_)
 #define LAB_BOOLEAN(name_, field_, default_, help_) LAB_FIELD(AUR_KEY_BOOLEAN, name_, field_, default_, help_)
 #define LAB_TEXT(name_, field_, default_, help_) LAB_FIELD(AUR_KEY_TEXT, name_, field_, default_, help_)
 #define LAB_INTEGER(name_, field_, minimum_, maximum_, default_, help_)                                      \
@@ -21,46 +23,51 @@
         __VA_ARGS__, NULL                                                                                    \
     }
 
-enum { MOST_LEVELS = 7 };
-
 static const aur_key keys[] = {
-    {LAB_TEXT("map", map, "lambert",
+    {LAB_TEXT("map", gather.map, "lambert",
               "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
-    {LAB_TEXT("scramble", scramble, "rotate (nets: digit)",
+    {LAB_TEXT("scramble", gather.scramble, "rotate (nets: digit)",
               "how a pattern is randomised: none, digit, owen, shift or rotate"),
      .computed = true},
-    {LAB_INTEGER("rotations", rotations, 0, 65536, "16",
+    {LAB_INTEGER("rotations", gather.rotations, 0, 65536, "16",
                  "randomisations made beforehand; 0 is one of its own for every pixel")},
-    {LAB_CHOICE("density", density, "optimal (weights=equal: same)",
+    {LAB_CHOICE("density", gather.density, "optimal (weights=equal: same)",
                 "directions follow the lobe, or its power 2/(s+1)", "same", "optimal"),
      .computed = true},
-    {LAB_CHOICE("weights", weights, "ratio", "how samples are weighed (Marques 2018, 2019)", "ratio", "equal",
-                "osw", "oswa", "mis", "oswa-solve")},
-    {LAB_BOOLEAN("clip", clip, "true", "glossy lobes end at the surface's horizon")},
-    {LAB_REAL("regularization", regularization, 0.0, 1e6, "1e-6 (oswa-solve: 0.5)",
+    {LAB_CHOICE("weights", gather.weights, "ratio", "how samples are weighed (Marques 2018, 2019)", "ratio",
+                "equal", "osw", "oswa", "mis", "oswa-solve")},
+    {LAB_BOOLEAN("clip", gather.clip, "true", "glossy lobes end at the surface's horizon")},
+    {LAB_REAL("regularization", gather.regularization, 0.0, 1e6, "1e-6 (oswa-solve: 0.5)",
               "added to the diagonal of optimal weights' systems"),
      .computed = true},
-    {LAB_REAL("smoothness", smoothness, 1.0, 2.0, "1.5", "s of the optimal weights and density"),
+    {LAB_REAL("smoothness", gather.smoothness, 1.0, 2.0, "1.5", "s of the optimal weights and density"),
      .minimum_open = true, .maximum_open = true},
-    {LAB_TEXT("photon_pattern", photon_pattern, "sobol", "SET of the photons' numbers")},
-    {LAB_CHOICE("decorrelation", decorrelation, "blue", "how pixels choose among the rotations", "blue",
-                "random", "none")},
-    {LAB_BOOLEAN("packets", packets, "true", "sixteen rays at a time, else one: the same image to rounding")},
+    {LAB_TEXT("photon_pattern", gather.photon_pattern, "sobol", "SET of the photons' numbers")},
+    {LAB_CHOICE("decorrelation", gather.decorrelation, "blue", "how pixels choose among the rotations",
+                "blue", "random", "none")},
+    {LAB_BOOLEAN("packets", gather.packets, "true",
+                 "sixteen rays at a time, else one: the same image to rounding")},
     {LAB_BOOLEAN("adaptive", adaptive, "false", "more directions where the light varies (Marques 2019)")},
-    {LAB_INTEGER("levels", levels, 1, MOST_LEVELS, "2", "extensions of an adaptive pattern")},
+    {LAB_INTEGER("levels", levels, 1, LAB_LEVEL_CAPACITY - 1, "2", "extensions of an adaptive pattern"),
+     .computed = true},
     {LAB_INTEGER("level_factor", level_factor, 2, 4, "4",
-                 "directions of a level over those of the one before: 2 or 4")},
+                 "directions of a level over those of the one before: 2 or 4"),
+     .computed = true},
     {LAB_REAL("threshold", threshold, 0.0, 1e6, "0.03 (entropy: 0.3)",
               "contrast above which the next level is gathered"),
      .computed = true},
-    {LAB_CHOICE("criterion", criterion, "variance", "how that contrast is measured", "entropy", "variance")},
-    {LAB_CHOICE("component", component, "all", "the lobes to gather", "all", "diffuse", "glossy")},
-    {LAB_CHOICE("incident", incident, "photons",
+    {LAB_CHOICE("criterion", criterion, "variance", "how that contrast is measured", "entropy", "variance"),
+     .computed = true},
+    {LAB_CHOICE("component", gather.component, "all", "the lobes to gather", "all", "diffuse", "glossy")},
+    {LAB_CHOICE("incident", gather.incident, "photons",
                 "what gather rays meet shines by its photons, or by what it emits alone", "photons",
                 "emitters")},
-    {LAB_INTEGER("pattern_seed", pattern_seed, 0, INFINITY, "0",
+    {LAB_INTEGER("pattern_seed", gather.pattern_seed, 0, INFINITY, "0",
                  "another randomisation of the pattern under the same seed")},
 };
+
+/* Of the lab's own options; the others have the library's defaults. */
+static const lab_gather_settings initial = {.criterion = LAB_CRITERION_DEFAULT, .threshold = -1.0f};
 
 const aur_gather_integrator lab_finalgather = {
     .size = sizeof lab_finalgather,
@@ -68,7 +75,10 @@ const aur_gather_integrator lab_finalgather = {
             .summary = "finalgather, whose keys it takes too, with those that reproduce papers",
             .source = "Marques 2013, Marques 2018, Marques 2019",
             .key_count = sizeof keys / sizeof keys[0],
-            .keys = keys}};
+            .keys = keys},
+    .settings_size = sizeof(lab_gather_settings),
+    .initial = &initial,
+    .method = &lab_gather_by_levels};
 
 static const aur_row *const rows[] = {&lab_finalgather.row};
 

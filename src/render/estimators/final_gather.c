@@ -8,58 +8,55 @@
 
 /* --- keys */
 
-typedef struct gather_data {
-    aur_gather_options options; /* first: what the keys are of, also those of a caller's integrator */
-    aur_gather_plan *plan;
-} gather_data;
-
-static const gather_data initial = {.options = AUR_GATHER_OPTIONS_INITIAL};
+/* integrator->data are the options, which a caller's integrator may have more of. */
+static const aur_gather_settings initial = AUR_GATHER_SETTINGS_INITIAL;
 
 enum { MOST = 1 << 30 };
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "diffuse_samples", diffuse_samples, 1, MOST, "64",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "diffuse_samples", diffuse_samples, 1, MOST, "64",
                         "directions per pixel for the diffuse lobe, shared out among its samples")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "glossy_samples", glossy_samples, 1, MOST, "64",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "glossy_samples", glossy_samples, 1, MOST, "64",
                         "directions per pixel for each glossy lobe")},
-    {AUR_KEY_OF_TEXT(aur_gather_options, "pattern", pattern, "spherical-fibonacci", "SET of the directions")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "split", split, 0, AUR_SAMPLES_PER_PIXEL_MAX, "0",
+    {AUR_KEY_OF_TEXT(aur_gather_settings, "pattern", pattern, "spherical-fibonacci",
+                     "SET of the directions")},
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "split", split, 0, AUR_SAMPLES_PER_PIXEL_MAX, "0",
                         "samples among which a pattern is shared out, the next ones share another; 0: all of "
                         "a pixel")},
-    {AUR_KEY_OF_CHOICE(aur_gather_options, "share", share, "false",
+    {AUR_KEY_OF_CHOICE(aur_gather_settings, "share", share, "false",
                        "neighbouring pixels share the diffuse light that they gather: of 4 x 4, or the "
                        "nearest alone",
                        "false", "true", "near")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "photons", photons, 1, MOST, "500000",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "photons", photons, 1, MOST, "500000",
                         "photons of the map that gather rays look up")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "photon_seed", photon_seed, 0, INFINITY, "0",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "photon_seed", photon_seed, 0, INFINITY, "0",
                         "the same photons in images of all seeds; 0: by the image's seed")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "caustic_photons", caustic_photons, 0, MOST, "0",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "caustic_photons", caustic_photons, 0, MOST, "0",
                         "photons of a map of caustics alone; 0 leaves them in the one map")},
-    {AUR_KEY_OF_REAL(aur_gather_options, "photons_per_texel", photons_per_texel, 1.0, 1e6, "16",
+    {AUR_KEY_OF_REAL(aur_gather_settings, "photons_per_texel", photons_per_texel, 1.0, 1e6, "16",
                      "photons that a texel of irradiance is the mean of")},
-    {AUR_KEY_OF_CHOICE(aur_gather_options, "debias", debias, "false",
+    {AUR_KEY_OF_CHOICE(aur_gather_settings, "debias", debias, "false",
                        "paths correct the bias of the photon map; only: the image is that correction alone",
                        "false", "true", "only")},
-    {AUR_KEY_OF_REAL(aur_gather_options, "continued", continued, 0.0, 1.0, "0.25",
+    {AUR_KEY_OF_REAL(aur_gather_settings, "continued", continued, 0.0, 1.0, "0.25",
                      "of debias: the share of gather rays that go on as paths"),
      .minimum_open = true},
-    {AUR_KEY_OF_REAL(aur_gather_options, "short_rays", short_rays, 0.0, 1e6, "2",
+    {AUR_KEY_OF_REAL(aur_gather_settings, "short_rays", short_rays, 0.0, 1e6, "2",
                      "gather rays that are shorter than so many widths of the texel that they meet go on as "
                      "paths")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "light_samples", light_samples, 1, 65536, "1",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "light_samples", light_samples, 1, 65536, "1",
                         "points on lights that each sample's shadow rays aim at")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "bright_samples", bright_samples, 0, 65536, "0",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "bright_samples", bright_samples, 0, 65536, "0",
                         "rays per pixel to brightly lit surfaces, drawn as lights are")},
-    {AUR_KEY_OF_CHOICE(aur_gather_options, "direct", direct, "nee",
+    {AUR_KEY_OF_CHOICE(aur_gather_settings, "direct", direct, "nee",
                        "direct light by shadow rays, by the gather rays, or not at all", "nee", "gather",
                        "none")},
     {AUR_KEY_OF_INTEGER(
-        aur_gather_options, "max_depth", max_depth, -1, 1 << 20, "-1",
+        aur_gather_settings, "max_depth", max_depth, -1, 1 << 20, "-1",
         "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
-    {AUR_KEY_OF_INTEGER(aur_gather_options, "edges", edge_samples, 0, 65536, "128",
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "edges", edge_samples, 0, 65536, "128",
                         "camera rays more where a pixel sees several things")},
-    {AUR_KEY_OF_CHOICE(aur_gather_options, "pixel", pixel, "filter",
+    {AUR_KEY_OF_CHOICE(aur_gather_settings, "pixel", pixel, "filter",
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
 };
 
@@ -88,30 +85,20 @@ static const aur_moved_key moved[] = {
     {NULL, NULL},
 };
 
-/* A key that does nothing was meant for something: 'levels' after a comma for the pattern, as a rule. */
-static void warn_of_idle_keys(const aur_gather_options *p, aur_parameters *parameters,
-                              const aur_warnings *warnings) {
-    static const char *const of_adaptive[] = {"levels", "level_factor", "criterion", "threshold"};
-    for (size_t i = 0; i < sizeof of_adaptive / sizeof of_adaptive[0] && !p->adaptive; ++i) {
-        const aur_parameter *const given = aur_parameters_find(parameters, of_adaptive[i]);
-        if (given != NULL)
-            aur_warn_at(warnings, given->location,
-                        "finalgather: '%s' belongs to adaptive=true and does nothing here; keys of a pattern "
-                        "stand in parentheses: pattern=(SET:%s=...)",
-                        of_adaptive[i], of_adaptive[i]);
-    }
-}
-
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    gather_data *const data = integrator->data;
-    aur_gather_options *const p = &data->options;
-    aur_result result = aur_gather_options_complete(p, error);
+    (void)parameters;
+    aur_gather_settings *const p = integrator->data;
+    const aur_gather_method *method = integrator->gather != NULL ? integrator->gather->method : NULL;
+    bool asked = false;
+    aur_result result = aur_gather_settings_complete(p, error);
+    if (result == AUR_OK && method != NULL)
+        result = method->begin(p, context->warnings, &asked, error);
+    method = asked ? method : NULL;
     if (result == AUR_OK)
         result = aur_scene_refuse_media(context->scene, "integrator 'finalgather'", error);
     if (result != AUR_OK)
         return result;
-    warn_of_idle_keys(p, parameters, &context->warnings);
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
     integrator->whole_tiles = p->share != AUR_SHARE_NONE;
     integrator->refines_lamp_edges = p->edge_samples > 0;
@@ -119,9 +106,12 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     static const char *const directions[] = {"directions"};
     static const char *const sharing[] = {"sharing.R", "sharing.G", "sharing.B"};
     const bool near = p->share == AUR_SHARE_NEAR;
-    integrator->extra_count = p->adaptive ? 1 : near ? 3 : 0;
+    integrator->extra_count = method != NULL ? 1 : near ? 3 : 0;
     integrator->extra_names = near ? sharing : directions;
-    return aur_gather_plan_create(p, context, &data->plan, error);
+    aur_gather_plan *plan;
+    result = aur_gather_plan_create(p, method, context, &plan, error);
+    integrator->made = plan;
+    return result;
 }
 
 /* The rays at edges are those of a step of the render: of at most four patterns, when it goes on in rounds,
@@ -129,23 +119,23 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 static aur_result look(const aur_view *view, const aur_integrator_context *context,
                        aur_integrator *integrator, aur_error *error) {
     enum { MOST_PATTERNS = 4 };
-    gather_data *const data = integrator->data;
-    const aur_gather_options *const p = &data->options;
-    const size_t looks = p->edge_samples / (MOST_PATTERNS * data->plan->samples_per_pattern);
+    const aur_gather_settings *const p = integrator->data;
+    aur_gather_plan *const plan = integrator->made;
+    const size_t looks = p->edge_samples / (MOST_PATTERNS * plan->samples_per_pattern);
     if (p->edge_samples == 0 || p->direct == AUR_DIRECT_NONE)
         return AUR_OK;
     const aur_result result =
-        aur_lamp_edges_find(view, (uint16_t)(looks > 1 ? looks : 1), context, &data->plan->lamp_edges, error);
-    integrator->lamp_looks = data->plan->lamp_edges;
+        aur_lamp_edges_find(view, (uint16_t)(looks > 1 ? looks : 1), context, &plan->lamp_edges, error);
+    integrator->lamp_looks = plan->lamp_edges;
     return result;
 }
 
 static void release(aur_integrator *integrator) {
-    aur_gather_plan_destroy(((gather_data *)integrator->data)->plan);
+    aur_gather_plan_destroy(integrator->made);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
-    return aur_gather_tile(((const gather_data *)integrator->data)->plan, tile);
+    return aur_gather_tile(integrator->made, tile);
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
@@ -153,7 +143,7 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
             .summary = "final gathering over a photon map, one pattern of directions an image",
             .source = "Christensen 1999, Marques 2013",
             AUR_ROW_KEYS(keys)},
-    .size = sizeof(gather_data),
+    .size = sizeof(aur_gather_settings),
     .initial = &initial,
     .moved = moved,
     .create = create,

@@ -2,6 +2,7 @@
 #include "render/film/integrator.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "points/base/error.h"
@@ -39,11 +40,6 @@ static aur_result find(const aur_parameters *parameters, const aur_gather_integr
     memcpy(all, rows, sizeof rows);
     const aur_table table = {
         .kind = aur_integrator_table.kind, .count = gather != NULL ? COUNT + 1 : COUNT, .rows = all};
-    for (size_t i = 0; gather != NULL && i < gather->row.key_count; ++i)
-        if (gather->row.keys[i].offset + gather->row.keys[i].size > sizeof(aur_gather_options))
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "integrator '%s': '%s' is no field of aur_gather_options", gather->row.name,
-                            gather->row.keys[i].name);
     return aur_table_find(&table, parameters, row, error);
 }
 
@@ -60,22 +56,43 @@ static aur_result refuse_moved(const aur_moved_key *moved, const aur_parameters 
 
 /* What an integrator is filled from. */
 typedef struct source {
-    const aur_row *row; /* whose keys are read: the descriptor's, or the caller's after those */
+    const aur_gather_integrator *gather;   /* where it is the caller's; else NULL */
     const aur_integrator_context *context; /* NULL: the keys are read and nothing is made */
 } source;
+
+/* Options of the caller's, with what they begin with. Keys beyond them are refused: they would be written
+ * there. */
+static aur_result make_options(const aur_gather_integrator *gather, aur_integrator *integrator,
+                               aur_error *error) {
+    const size_t least = integrator->descriptor->size;
+    const size_t size = gather->settings_size > least ? gather->settings_size : least;
+    for (size_t i = 0; i < gather->row.key_count; ++i)
+        if (gather->row.keys[i].offset + gather->row.keys[i].size > size)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "integrator '%s': '%s' is no field of its settings",
+                            gather->row.name, gather->row.keys[i].name);
+    integrator->gather = gather;
+    free(integrator->data);
+    integrator->data = calloc(1, size);
+    if (integrator->data == NULL)
+        return aur_fail_memory(error);
+    if (size > least && gather->initial != NULL)
+        memcpy(integrator->data, gather->initial, size);
+    return AUR_OK;
+}
 
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
     const source *const from = context;
     aur_integrator *const integrator = object;
     const aur_integrator_descriptor *const descriptor = integrator->descriptor;
-    aur_result result = AUR_OK;
-    if (descriptor->initial != NULL)
+    aur_result result = from->gather != NULL ? make_options(from->gather, integrator, error) : AUR_OK;
+    if (result == AUR_OK && descriptor->initial != NULL)
         memcpy(integrator->data, descriptor->initial, descriptor->size);
-    if (from->row != &descriptor->row)
+    if (result == AUR_OK && from->gather != NULL)
         result = aur_keys_read(descriptor->row.key_count, descriptor->row.keys, parameters, integrator->data,
                                error);
     if (result == AUR_OK)
-        result = aur_row_read(from->row, parameters, integrator->data, error);
+        result = aur_row_read(from->gather != NULL ? &from->gather->row : &descriptor->row, parameters,
+                              integrator->data, error);
     if (result != AUR_OK || from->context == NULL)
         return result;
     aur_integrator_context own = *from->context;
@@ -101,15 +118,18 @@ static aur_result create(aur_parameters *parameters, const aur_gather_integrator
                          const aur_integrator_context *context, aur_integrator **integrator,
                          aur_error *error) {
     source from = {.context = context};
+    const aur_row *row;
     *integrator = NULL;
     aur_parameters_ignore(parameters, &aur_integrator_table, context != NULL ? &context->warnings : NULL);
-    aur_result result = find(parameters, gather, &from.row, error);
+    aur_result result = find(parameters, gather, &row, error);
     if (result != AUR_OK)
         return result;
-    const bool is_callers = gather != NULL && from.row == &gather->row;
-    const aur_row *const row = is_callers ? &aur_integrator_final_gather.row : from.row;
-    if (!is_callers)
+    if (gather != NULL && row == &gather->row) {
+        from.gather = gather;
+        row = &aur_integrator_final_gather.row;
+    } else {
         result = refuse_moved(((const aur_integrator_descriptor *)row)->moved, parameters, error);
+    }
     return result == AUR_OK ? aur_plugin_create_row(&kind, row, parameters, &from, integrator, error)
                             : result;
 }

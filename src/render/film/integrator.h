@@ -79,7 +79,9 @@ static inline bool aur_integrator_knows_samples(const aur_integrator_context *co
 struct aur_integrator {
     const aur_integrator_descriptor *descriptor;
     const aur_scene *scene;
+    const aur_gather_integrator *gather; /* where it is the caller's own; else NULL */
     void *data;
+    void *made;                 /* by create, where it is not in `data` */
     bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
     bool whole_tiles;           /* all pixels of a tile have as many samples */
     bool refines_lamp_edges;    /* where neighbours see the edge of a lamp a pixel has more rays */

@@ -21,7 +21,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
                                            const aur_gather_lobe_rule *lobe_rule, size_t lane,
                                            uint64_t lobe) {
     const aur_gather_plan *const plan = places->plan;
-    const aur_gather_options *const policy = &plan->policy;
+    const aur_gather_settings *const policy = &plan->policy;
     const aur_gather_rule *const rule = &lobe_rule->rule;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return aur_gather_rule_rotation(rule, 0);
@@ -32,7 +32,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
     uint64_t tile =
         aur_hash4(plan->seed, aur_gather_places_hash(places, places->tile), places->bounces, lobe);
     /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
-    if (policy->adaptive)
+    if (plan->rules.method != NULL)
         tile = aur_hash2(tile, places->index);
     if (rule->nested) {
         const size_t pixel = aur_group_pixel(places->arrangement, places->group, lane);
@@ -56,7 +56,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
 
 size_t aur_gather_prepared_rotation(const aur_gather_places *places, size_t rotations, size_t lane,
                                     bool *mirrored) {
-    const aur_gather_options *const policy = &places->plan->policy;
+    const aur_gather_settings *const policy = &places->plan->policy;
     *mirrored = false;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return 0;

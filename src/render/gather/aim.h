@@ -43,7 +43,9 @@ bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_ru
 bool aur_gather_pools(const aur_gather_places *places, const aur_gather_lobe_rule *rule);
 
 /* One rule at the places of some lanes, to be traced direction by direction for their lobe number `lobe`. */
-typedef struct aur_gather_sweep {
+struct aur_gather_sweep {
+    const aur_gather_places *places;
+    aur_gather_sums *sums;
     const aur_gather_lobe_rule *rule;
     size_t lobe;
     uint32_t lanes;
@@ -52,7 +54,7 @@ typedef struct aur_gather_sweep {
     bool times_cosine[AUR_PACKET_SIZE];
     aur_gather_rotation rotations[AUR_PACKET_SIZE];
     aur_lobe_frames frames;
-} aur_gather_sweep;
+};
 
 void aur_gather_sweep_start(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
                             uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays);

@@ -7,9 +7,8 @@
 /* What the places reflect, by all lobes but specular ones, of direct and of gathered light. */
 void aur_gather_shade(const aur_gather_places *places, aur_gather_sums *sums);
 
-/* One lobe, which `rule` gathers in these lanes, by as many levels of it as the light asks for (Marques 2019,
- * section 6.2). */
-void aur_gather_by_levels(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+/* One lobe, which `rule` gathers in these lanes by the caller's method. */
+void aur_gather_by_method(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
                           uint32_t lanes, aur_gather_sums *sums);
 
 /* All lobes of places that have a merged rule, and of diffuse places that are among them. Returns the places

@@ -81,7 +81,7 @@ static aur_result find_or_trace(const aur_integrator_context *context,
 }
 
 /* A photon map, shared by all renders that ask for the same one. */
-static aur_result find_map(const aur_gather_options *p, const aur_integrator_context *context,
+static aur_result find_map(const aur_gather_settings *p, const aur_integrator_context *context,
                            aur_photon_options photons, const aur_irradiance_map **found, aur_error *error) {
     aur_sampler *sampler;
     aur_result result = aur_sampler_create(p->photon_pattern, photons.count, NULL, &sampler, error);
@@ -106,7 +106,7 @@ static aur_result find_map(const aur_gather_options *p, const aur_integrator_con
     return result;
 }
 
-static aur_result find_maps(const aur_gather_options *p, const aur_integrator_context *context,
+static aur_result find_maps(const aur_gather_settings *p, const aur_integrator_context *context,
                             aur_gather_light *light, aur_error *error) {
     const bool apart = p->caustic_photons > 0;
     const uint64_t own_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
@@ -158,7 +158,7 @@ static aur_result find_bright(const aur_integrator_context *context, const aur_i
     return result;
 }
 
-static aur_result find_light(const aur_gather_options *p, const aur_integrator_context *context,
+static aur_result find_light(const aur_gather_settings *p, const aur_integrator_context *context,
                              aur_gather_plan *plan, aur_error *error) {
     aur_gather_light *const light = &plan->light;
     light->draws = p->light_samples;
@@ -177,10 +177,11 @@ static aur_result find_light(const aur_gather_options *p, const aur_integrator_c
 
 /* --- the plan */
 
-static aur_result compile(aur_gather_plan *plan, const aur_gather_options *p,
-                          const aur_integrator_context *context, aur_error *error) {
-    const aur_gather_options *const policy = &plan->policy;
-    aur_result result = aur_gather_rules_create(p, context, &plan->rules, error);
+static aur_result compile(aur_gather_plan *plan, const aur_gather_settings *p,
+                          const aur_gather_method *method, const aur_integrator_context *context,
+                          aur_error *error) {
+    const aur_gather_settings *const policy = &plan->policy;
+    aur_result result = aur_gather_rules_create(p, method, context, &plan->rules, error);
     if (result == AUR_OK)
         result = aur_shape_classes_create(context->scene, &plan->classes, error);
     if (result == AUR_OK)
@@ -200,8 +201,9 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_options *p,
     return result;
 }
 
-aur_result aur_gather_plan_create(const aur_gather_options *p, const aur_integrator_context *context,
-                                  aur_gather_plan **plan, aur_error *error) {
+aur_result aur_gather_plan_create(const aur_gather_settings *p, const aur_gather_method *method,
+                                  const aur_integrator_context *context, aur_gather_plan **plan,
+                                  aur_error *error) {
     *plan = calloc(1, sizeof **plan);
     if (*plan == NULL)
         return aur_fail_memory(error);
@@ -214,7 +216,7 @@ aur_result aur_gather_plan_create(const aur_gather_options *p, const aur_integra
     (*plan)->part_stride = aur_gather_part_stride(own.samples_per_pixel);
     (*plan)->renews = p->split > 0;
     (*plan)->seed = aur_hash2(context->seed, p->pattern_seed);
-    const aur_result result = compile(*plan, p, &own, error);
+    const aur_result result = compile(*plan, p, method, &own, error);
     if (result != AUR_OK) {
         aur_gather_plan_destroy(*plan);
         *plan = NULL;

@@ -36,7 +36,7 @@ typedef struct aur_gather_light {
 
 typedef struct aur_gather_plan {
     const aur_scene *scene;
-    aur_gather_options policy;  /* whose texts are gone */
+    aur_gather_settings policy; /* whose texts are gone */
     size_t samples_per_pattern; /* among which the directions of a pattern are shared out in as many parts */
     size_t part_stride;         /* from the part of one sample to that of the next one, modulo that number */
     bool renews;                /* samples after those have other patterns, else the same again */
@@ -53,14 +53,16 @@ typedef struct aur_gather_plan {
     aur_onward onward; /* in place of the map, where it is too coarse or is corrected */
 } aur_gather_plan;
 
-/* The maps of photons come from the context's cache, which outlives the plan. Errors: MEMORY, those of
- * aur_irradiance_map_create, and what the patterns and weights say. */
-aur_result aur_gather_plan_create(const aur_gather_options *p, const aur_integrator_context *context,
-                                  aur_gather_plan **plan, aur_error *error);
+/* `method` is the caller's way to gather lobes, or NULL. The maps of photons come from the context's cache,
+ * which outlives the plan. Errors: MEMORY, those of aur_irradiance_map_create, and what the patterns and
+ * weights say. */
+aur_result aur_gather_plan_create(const aur_gather_settings *p, const aur_gather_method *method,
+                                  const aur_integrator_context *context, aur_gather_plan **plan,
+                                  aur_error *error);
 void aur_gather_plan_destroy(aur_gather_plan *plan); /* NULL is allowed */
 
 /* Adds the means of the tile's samples to its pixels, and the directions that were gathered with to an extra
- * channel when the plan is adaptive. Fails with MEMORY only. */
+ * channel where the caller's method chose them. Fails with MEMORY only. */
 aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile);
 
 /* Whether the light of a lobe comes by gather rays. */

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "points/quadrature/tables/weight_table.h"
-#include "render/gather/options.h"
+#include "render/gather/settings.h"
 #include "render/sampling/rule.h"
 
 typedef struct aur_ggx_rule_options {

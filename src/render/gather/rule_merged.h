@@ -9,7 +9,7 @@
 
 #include <aureole/quadrature.h>
 
-#include "render/gather/options.h"
+#include "render/gather/settings.h"
 #include "render/sampling/rule.h"
 
 typedef struct aur_merged_rule_options {

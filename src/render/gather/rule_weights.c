@@ -1,7 +1,6 @@
 #include "render/gather/rule_weights.h"
 
 #include <aureole/quadrature.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "points/base/error.h"
@@ -61,87 +60,6 @@ aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, do
     free(xyz);
     aur_potential_destroy(potential);
     return result;
-}
-
-/* --- levels */
-
-aur_result aur_gather_levels_set(const aur_gather_options *p, size_t base, size_t capacity, char *set,
-                                 size_t *count, aur_error *error) {
-    /* Beyond it a system for optimal weights takes longer than a picture. */
-    enum { MOST_DIRECTIONS = 1 << 24, MOST_OPTIMAL = 4096 };
-    *count = base;
-    for (size_t l = 0; l < p->levels; ++l) {
-        *count *= p->level_factor;
-        if (*count > MOST_DIRECTIONS)
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "finalgather: %zu directions extended %zu times by %zu are more than %d; use "
-                            "fewer levels",
-                            base, p->levels, p->level_factor, MOST_DIRECTIONS);
-    }
-    if (p->weights == AUR_WEIGHTS_OSW && *count > MOST_OPTIMAL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "finalgather: optimal weights of levels of up to %zu directions would take too long "
-                        "(at most %d); use fewer levels or weights=ratio",
-                        *count, MOST_OPTIMAL);
-    const size_t quadruplings = p->level_factor == 4 ? p->levels : (p->levels + 1) / 2;
-    snprintf(set, capacity, "esfg:base=%zu,levels=%zu,progression=%zu", base, quadruplings, p->level_factor);
-    return AUR_OK;
-}
-
-/* The weights and the error of a level that ends after `count` directions. `numbers` has room for two each.
- */
-static aur_result make_level(const aur_gather_options *p, const aur_gather_rule *rule,
-                             const aur_potential *potential, size_t count, const double *xyz, double *numbers,
-                             float **weights, float *worst, aur_error *error) {
-    const double smoothness = p->smoothness, mass = aur_potential_mass(potential);
-    double *const normalised = numbers + count;
-    *weights = malloc(count * sizeof **weights);
-    if (*weights == NULL)
-        return aur_fail_memory(error);
-    aur_result result = AUR_OK;
-    if (p->weights == AUR_WEIGHTS_OSW)
-        result = solve(count, xyz, potential, p->regularization, numbers, error);
-    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        if (p->weights != AUR_WEIGHTS_OSW) /* p/q, a mean */
-            numbers[i] = (double)rule->weights[i] / (double)count;
-        normalised[i] = numbers[i] / mass;
-        (*weights)[i] = (float)numbers[i];
-    }
-    double found = 0.0;
-    const aur_worst_case_options alone = {.size = sizeof alone, .threads = 1};
-    if (result == AUR_OK)
-        result = aur_worst_case_error(count, xyz, normalised, potential, &alone, &found, error);
-    /* K of a direction with itself, less the self-energy: the squared error of one random direction. */
-    const double diagonal = pow(2.0, 2.0 * smoothness - 1.0) / smoothness;
-    *worst = (float)(found / sqrt(diagonal - aur_potential_self_energy(potential)));
-    return result;
-}
-
-aur_result aur_gather_levels_create(const aur_gather_options *p, size_t base, const aur_gather_rule *rule,
-                                    aur_gather_levels *levels, aur_error *error) {
-    *levels = (aur_gather_levels){.count = p->levels + 1};
-    aur_potential *potential;
-    double *xyz;
-    aur_result result = begin(rule, rule->count, p->smoothness, &xyz, &potential, error);
-    if (result == AUR_OK)
-        widen(rule, 0, rule->count, xyz);
-    size_t end = base;
-    for (size_t l = 0; l < levels->count && result == AUR_OK; ++l, end *= p->level_factor) {
-        levels->ends[l] = end;
-        result = make_level(p, rule, potential, end, xyz, xyz + 3 * rule->count, &levels->weights[l],
-                            &levels->errors[l], error);
-    }
-    aur_potential_destroy(potential);
-    free(xyz);
-    if (result != AUR_OK)
-        aur_gather_levels_release(levels);
-    return result;
-}
-
-void aur_gather_levels_release(aur_gather_levels *levels) {
-    for (size_t l = 0; l < AUR_GATHER_LEVEL_CAPACITY; ++l)
-        free(levels->weights[l]);
-    *levels = (aur_gather_levels){0};
 }
 
 /* --- lobes that dip below the surface */

@@ -1,9 +1,8 @@
-/* Weights of one rule in the place of p/q: optimal ones for its own lobe (Marques 2018, section 5.2), those
- * of the levels of a pattern that grows (Marques 2019, section 6.2), and weights mended where a lobe dips
- * below the surface. */
+/* Weights of one rule in the place of p/q: optimal ones for its own lobe (Marques 2018, section 5.2), and
+ * weights mended where a lobe dips below the surface. */
 #pragma once
 
-#include "render/gather/options.h"
+#include "render/gather/settings.h"
 #include "render/sampling/rule.h"
 
 /* Replaces the weights of a rule whose directions are prepared by the optimal ones for its lobe, their sum
@@ -11,33 +10,6 @@
  * the shading point. */
 aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, double regularization,
                                     aur_error *error);
-
-/* --- levels */
-
-enum { AUR_GATHER_LEVEL_CAPACITY = 8 };
-
-/* Patterns that grow: the first directions of an extensible grid, then `level_factor` times as many, and so
- * on, each level with weights of its own. */
-typedef struct aur_gather_levels {
-    size_t count;                           /* levels; 0: the rule is used whole */
-    size_t ends[AUR_GATHER_LEVEL_CAPACITY]; /* directions of level l and those before it */
-    /* weights[l] + i: of direction i when level l is the last one; the sum of weight * f estimates the
-     * integral. */
-    float *weights[AUR_GATHER_LEVEL_CAPACITY];
-    /* The worst-case error of each level over that of one random direction: what the spread of the samples is
-     * to be multiplied by for an estimate of the error. */
-    float errors[AUR_GATHER_LEVEL_CAPACITY];
-} aur_gather_levels;
-
-/* The SET of a grid whose first level has `base` directions, and how many they are in all. Errors: ARGUMENT
- * for too many. */
-aur_result aur_gather_levels_set(const aur_gather_options *p, size_t base, size_t capacity, char *set,
-                                 size_t *count, aur_error *error);
-
-/* `rule` has been made from that set. */
-aur_result aur_gather_levels_create(const aur_gather_options *p, size_t base, const aur_gather_rule *rule,
-                                    aur_gather_levels *levels, aur_error *error);
-void aur_gather_levels_release(aur_gather_levels *levels);
 
 /* --- lobes that dip below the surface */
 

@@ -12,17 +12,18 @@ size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
 
 /* What rules of one kind, diffuse or glossy, have in common. */
 typedef struct rule_maker {
-    const aur_gather_options *p;
+    const aur_gather_settings *p;
     const aur_integrator_context *context;
     aur_gather_rule_options pattern;
-    size_t base;   /* directions that are asked for: of the first level, when adaptive */
-    size_t pixels; /* that split one pattern */
-    char set[80];  /* of adaptive rules: extensible grids in place of the pattern */
+    size_t base;                     /* directions that are asked for */
+    size_t pixels;                   /* that split one pattern */
+    const aur_gather_method *method; /* the caller's; or NULL */
+    char set[256];                   /* that the method chose in place of the pattern */
 } rule_maker;
 
 /* The pattern of all rules, but for its count. */
 static aur_result name_pattern(rule_maker *maker, aur_error *error) {
-    const aur_gather_options *const p = maker->p;
+    const aur_gather_settings *const p = maker->p;
     maker->pattern = (aur_gather_rule_options){.set = p->pattern,
                                                .optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL,
                                                .smoothness = p->smoothness,
@@ -35,26 +36,29 @@ static aur_result name_pattern(rule_maker *maker, aur_error *error) {
 static aur_result prepare(rule_maker *maker, size_t base, aur_error *error) {
     maker->base = base;
     maker->pattern.count = maker->pixels * aur_gather_split_count(base, maker->context->samples_per_pixel);
-    if (!maker->p->adaptive)
+    if (maker->method == NULL)
         return AUR_OK;
     maker->pattern.set = maker->set;
-    return aur_gather_levels_set(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
+    return maker->method->choose(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
 }
 
-static bool is_optimal(const aur_gather_options *p) {
+static bool is_optimal(const aur_gather_settings *p) {
     return p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
 }
 
-/* A rule with its levels, or with its weights. */
+/* A rule for the caller's method, or with its weights. */
 static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe_rule *lobe,
                        aur_error *error) {
-    const aur_gather_options *const p = maker->p;
+    const aur_gather_settings *const p = maker->p;
     const aur_result result = aur_gather_rule_create(&maker->pattern, exponent, &lobe->rule, error);
     if (result != AUR_OK)
         return result;
-    if (p->adaptive) {
+    if (maker->method != NULL) {
+        const aur_gather_rule *const rule = &lobe->rule;
+        const aur_gather_directions pattern = {rule->count, rule->exponent, rule->x,
+                                               rule->y,     rule->z,        rule->weights};
         lobe->directions = (float)maker->base;
-        return aur_gather_levels_create(p, maker->base, &lobe->rule, &lobe->levels, error);
+        return maker->method->prepare(p, maker->base, &pattern, &lobe->state, error);
     }
     lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
     return is_optimal(p) ? aur_gather_rule_optimise(&lobe->rule, p->smoothness, p->regularization, error)
@@ -89,7 +93,7 @@ static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wan
         return AUR_OK;
     ++rules->count;
     const aur_result result = make(maker, wanted->exponent, lobe, error);
-    lobe->clipped = maker->p->clip && !maker->p->adaptive;
+    lobe->clipped = maker->p->clip && maker->method == NULL;
     if (lobe->clipped)
         aur_gather_horizon_fill(wanted->exponent, &lobe->horizon);
     return result == AUR_OK && aur_merges_samples(maker->p->weights)
@@ -111,7 +115,7 @@ static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules,
     return result;
 }
 
-/* Never adaptive, and weighed by the draws themselves. */
+/* Never by the caller's method, and weighed by the draws themselves. */
 static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sampled, aur_error *error) {
     aur_gather_rule_options options = maker->pattern;
     options.set = maker->p->pattern;
@@ -152,9 +156,10 @@ static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, au
     return result;
 }
 
-aur_result aur_gather_rules_create(const aur_gather_options *p, const aur_integrator_context *context,
-                                   aur_gather_rules *rules, aur_error *error) {
-    *rules = (aur_gather_rules){0};
+aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gather_method *method,
+                                   const aur_integrator_context *context, aur_gather_rules *rules,
+                                   aur_error *error) {
+    *rules = (aur_gather_rules){.method = method};
     const size_t shapes = aur_scene_shape_count(context->scene);
     size_t most = 1;
     for (size_t i = 0; i < shapes; ++i)
@@ -165,8 +170,10 @@ aur_result aur_gather_rules_create(const aur_gather_options *p, const aur_integr
     rules->ggx_of_shape = calloc(shapes + 1, sizeof *rules->ggx_of_shape);
     if (rules->lobes == NULL || rules->of_shape == NULL || rules->ggx == NULL || rules->ggx_of_shape == NULL)
         return aur_fail_memory(error);
-    rule_maker maker = {
-        .p = p, .context = context, .pixels = p->share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
+    rule_maker maker = {.method = method,
+                        .p = p,
+                        .context = context,
+                        .pixels = p->share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
     rules->count = 1;
     aur_result result = name_pattern(&maker, error);
     maker.pattern.nested = p->share == AUR_SHARE_NEAR;
@@ -190,16 +197,17 @@ aur_result aur_gather_rules_create(const aur_gather_options *p, const aur_integr
     return result;
 }
 
-static void release(aur_gather_lobe_rule *lobe) {
+static void release(const aur_gather_method *method, aur_gather_lobe_rule *lobe) {
     aur_gather_rule_release(&lobe->rule);
-    aur_gather_levels_release(&lobe->levels);
+    if (method != NULL)
+        method->release(lobe->state);
     aur_merged_rule_destroy(lobe->merged);
 }
 
 void aur_gather_rules_release(aur_gather_rules *rules) {
     for (size_t i = 0; i < rules->count; ++i)
-        release(&rules->lobes[i]);
-    release(&rules->sampled);
+        release(rules->method, &rules->lobes[i]);
+    release(rules->method, &rules->sampled);
     for (size_t i = 0; i < rules->ggx_count; ++i)
         aur_ggx_rule_release(&rules->ggx[i]);
     free(rules->ggx);

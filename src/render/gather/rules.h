@@ -9,15 +9,17 @@
 
 typedef struct aur_gather_lobe_rule {
     aur_gather_rule rule;
-    float directions; /* that one sample of a pixel sends; when adaptive, those of the first level */
-    bool clipped;     /* the lobe ends at the horizon, and has a table of how much of it is left */
+    float
+        directions; /* that one sample of a pixel sends; with a caller's method, those that were asked for */
+    bool clipped;   /* the lobe ends at the horizon, and has a table of how much of it is left */
     aur_gather_horizon horizon;
-    aur_gather_levels levels; /* count 0: the rule is used whole */
-    aur_merged_rule *merged;  /* of glossy rules: serves the lobe together with a diffuse one; or NULL */
+    void *state;             /* of the caller's method, which gathers by the rule; NULL: it is used whole */
+    aur_merged_rule *merged; /* of glossy rules: serves the lobe together with a diffuse one; or NULL */
 } aur_gather_lobe_rule;
 
 typedef struct aur_gather_rules {
-    size_t count; /* at least 1 */
+    const aur_gather_method *method; /* of all lobes with a formula; or NULL */
+    size_t count;                    /* at least 1 */
     /* lobes[0] is for diffuse lobes; the exponents of the others differ. */
     aur_gather_lobe_rule *lobes;
     /* Evenly over the hemisphere, for lobes without a formula: see aur_gather_rule_square. Empty where no
@@ -36,8 +38,9 @@ typedef struct aur_gather_rules {
 } aur_gather_rules;
 
 /* Errors: MEMORY, and what the patterns and weights say. The rules are to be released in every case. */
-aur_result aur_gather_rules_create(const aur_gather_options *p, const aur_integrator_context *context,
-                                   aur_gather_rules *rules, aur_error *error);
+aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gather_method *method,
+                                   const aur_integrator_context *context, aur_gather_rules *rules,
+                                   aur_error *error);
 void aur_gather_rules_release(aur_gather_rules *rules);
 
 /* A count of directions or draws made one that the samples of a pixel split evenly: at least one each. */

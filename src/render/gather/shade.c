@@ -138,8 +138,8 @@ static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t 
     while (ruled != 0) {
         const aur_gather_lobe_rule *const rule = places->at[aur_first_lane(ruled)].rules[lobe];
         const uint32_t alike = lanes_of_rule(places, ruled, lobe, rule);
-        if (rule->levels.count > 0)
-            aur_gather_by_levels(places, rule, lobe, alike, sums);
+        if (rule->state != NULL)
+            aur_gather_by_method(places, rule, lobe, alike, sums);
         else
             by_rule(places, rule, lobe, alike, sums);
         ruled &= ~alike;

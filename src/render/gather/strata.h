@@ -26,7 +26,7 @@ enum { AUR_STRATUM_COUNT = 6 }; /* the last one takes what comes after */
 typedef struct aur_pixel_strata {
     uint32_t count;
     uint32_t samples;    /* whose radiance was valid */
-    uint64_t directions; /* gathered with, when adaptive */
+    uint64_t directions; /* gathered with by the caller's method */
     aur_stratum strata[AUR_STRATUM_COUNT];
 } aur_pixel_strata;
 

@@ -19,11 +19,11 @@ typedef struct aur_gather_sums {
     aur_vector radiance[AUR_PACKET_SIZE];
     uint32_t pooled_lanes; /* those that have something for the pool */
     aur_gather_pooled pooled[AUR_PACKET_SIZE];
-    uint32_t directions[AUR_PACKET_SIZE]; /* gathered with, when adaptive */
+    uint32_t directions[AUR_PACKET_SIZE]; /* gathered with by the caller's method */
     /* Working memory. */
     aur_gather_rays rays;
     /* Weights of merged samples, a sample's sixteen lanes together, for one lobe and then the other, and
-     * behind them room for one lane's. Of adaptive gathering: 3 * AUR_PACKET_SIZE for each direction. */
+     * behind them room for one lane's. Of the caller's method: 3 * AUR_PACKET_SIZE for each direction. */
     float *numbers;
 } aur_gather_sums;
 

@@ -24,10 +24,10 @@ typedef struct gather_tile {
 /* NULL when out of memory. */
 static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     const aur_gather_rules *const rules = &plan->rules;
-    /* For each direction of the largest adaptive rule, or for the samples of merged ones. */
+    /* For each direction of the largest rule of the caller's method, or for the samples of merged ones. */
     size_t numbers =
         rules->merged != NULL ? 2 * aur_merged_rule_samples(rules->merged) * (AUR_PACKET_SIZE + 1) : 0;
-    for (size_t i = 0; i < rules->count && plan->policy.adaptive; ++i)
+    for (size_t i = 0; i < rules->count && rules->method != NULL; ++i)
         if (3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count > numbers)
             numbers = 3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count;
     gather_tile *const work = aligned_alloc(64, (sizeof *work + 63) / 64 * 64);
@@ -248,7 +248,7 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
 }
 
 static void add_means(const gather_tile *work, aur_tile *tile) {
-    const aur_gather_options *const policy = &work->places.plan->policy;
+    const aur_gather_settings *const policy = &work->places.plan->policy;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
             const aur_pixel_strata *const pixel =
@@ -265,7 +265,7 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
                 for (size_t c = 0; c < 3; ++c)
                     aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
             }
-            if (policy->adaptive)
+            if (work->places.plan->rules.method != NULL)
                 aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
         }
 }

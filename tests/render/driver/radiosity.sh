@@ -60,7 +60,7 @@ expect 2 "has 2 dimensions, not 16" "$office" radiosity:sequence=jittered
 expect 2 "at most|no more than" "$office" radiosity:sequence=lcg,paths=999999999999
 expect 2 "sobbol.*sobol" "$office" radiosity:sequence=sobbol
 expect 2 "no digits to scramble" "$office" radiosity:sequence=r2,randomizations=2
-for key in scramble=owen interval=9; do expect 2 "has no '${key%=*}' any more: .*aureole/radiosity.h" "$office" "radiosity:$key"; done
+for key in scramble=owen interval=9; do expect 2 "has no '${key%=*}' any more: .*aureole-render/radiosity.h" "$office" "radiosity:$key"; done
 for key in emission=area directions=cosine; do expect 2 "has no '${key%=*}' any more: 'walk=paper'" "$office" "radiosity:$key"; done
 expect 2 "has no 'weights' any more: .*finalgather-lab" "$office" radiosity:weights=osw
 expect 2 "cannot be continued" "$office" radiosity:sequence=hammersley,epsilon=1e-3

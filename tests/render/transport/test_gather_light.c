@@ -22,13 +22,13 @@ static void write_points(const char *path, unsigned factor) {
 static const aur_irradiance_map *map_of(const aur_integrator_context *context, const char *path) {
     char set[1024];
     snprintf(set, sizeof set, "file:%s", path);
-    aur_gather_options p = AUR_GATHER_OPTIONS_INITIAL;
+    aur_gather_settings p = AUR_GATHER_SETTINGS_INITIAL;
     p.diffuse_samples = p.glossy_samples = 4;
     p.photons = PHOTONS;
     p.photon_pattern = set;
     aur_gather_plan *plan;
     aur_error error = {0};
-    if (aur_gather_plan_create(&p, context, &plan, &error) != AUR_OK)
+    if (aur_gather_plan_create(&p, NULL, context, &plan, &error) != AUR_OK)
         fail_msg("%s", error.message);
     const aur_irradiance_map *const map = plan->light.map;
     aur_gather_plan_destroy(plan);

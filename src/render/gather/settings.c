@@ -1,4 +1,4 @@
-#include "render/gather/options.h"
+#include "render/gather/settings.h"
 
 #include <aureole/quadrature.h>
 
@@ -13,13 +13,11 @@ enum {
     OPTIMAL = 1 << 2, /* density */
     SHARE = 1 << 3,
     SHARE_NEAR = 1 << 4,
-    ADAPTIVE = 1 << 5,
-    DEBIAS = 1 << 6,
-    CAUSTICS = 1 << 7,
-    NO_ROTATIONS = 1 << 8,
-    NOT_DITHERED = 1 << 9,   /* decorrelation */
-    NOT_FIBONACCI = 1 << 10, /* pattern or scramble */
-    FACTOR_3 = 1 << 11
+    DEBIAS = 1 << 5,
+    CAUSTICS = 1 << 6,
+    NO_ROTATIONS = 1 << 7,
+    NOT_DITHERED = 1 << 8, /* decorrelation */
+    NOT_FIBONACCI = 1 << 9 /* pattern or scramble */
 };
 
 /* Options that do not go together: none may have all of a row's bits. */
@@ -32,28 +30,17 @@ static const struct {
      "equal weights are for density=same; for density=optimal take weights=ratio"},
     {MERGED | NO_ROTATIONS, AUR_ERROR_ARGUMENT,
      "weights of merged samples need prepared rotations, not rotations=0"},
-    {SHARE | ADAPTIVE, AUR_ERROR_UNSUPPORTED, "share does not go with adaptive=true"},
     {SHARE | NOT_DITHERED, AUR_ERROR_UNSUPPORTED, "share needs decorrelation=blue"},
     {SHARE | MERGED, AUR_ERROR_UNSUPPORTED, "share needs weights=ratio, equal or osw"},
     {SHARE_NEAR | NOT_FIBONACCI, AUR_ERROR_UNSUPPORTED,
      "share=near has spherical Fibonacci sets that complete each other: leave 'pattern' and 'scramble' out"},
     {DEBIAS | SHARE, AUR_ERROR_UNSUPPORTED,
      "debias corrects the bias of the photon map, not that of share: leave one of them out"},
-    {DEBIAS | ADAPTIVE, AUR_ERROR_UNSUPPORTED,
-     "debias corrects the bias of the photon map, not that of adaptive=true: leave one of them out"},
     {DEBIAS | CAUSTICS, AUR_ERROR_UNSUPPORTED,
      "debias corrects the bias of the photon map, not that of caustic_photons: leave one of them out"},
-    {ADAPTIVE | MERGED, AUR_ERROR_UNSUPPORTED,
-     "adaptive gathering grows each lobe's pattern by itself: weights of merged samples (oswa, mis) do not "
-     "go "
-     "with it; take osw, ratio or equal"},
-    {ADAPTIVE | NOT_FIBONACCI, AUR_ERROR_UNSUPPORTED,
-     "adaptive gathering takes its patterns from extensible spherical Fibonacci grids: leave 'pattern' and "
-     "'scramble' out"},
-    {ADAPTIVE | FACTOR_3, AUR_ERROR_ARGUMENT, "'level_factor' is 2 or 4, not 3"},
 };
 
-static unsigned asked_of(const aur_gather_options *o) {
+static unsigned asked_of(const aur_gather_settings *o) {
     const bool fibonacci = strcmp(o->pattern, "spherical-fibonacci") == 0 &&
                            (o->scramble == NULL || strcmp(o->scramble, "rotate") == 0);
     const struct {
@@ -65,13 +52,11 @@ static unsigned asked_of(const aur_gather_options *o) {
         {o->density == AUR_GATHER_DENSITY_OPTIMAL, OPTIMAL},
         {o->share != AUR_SHARE_NONE, SHARE},
         {o->share == AUR_SHARE_NEAR, SHARE_NEAR},
-        {o->adaptive, ADAPTIVE},
         {o->debias != AUR_DEBIAS_NONE, DEBIAS},
         {o->caustic_photons > 0, CAUSTICS},
         {o->rotations == 0, NO_ROTATIONS},
         {o->decorrelation != AUR_DECORRELATION_BLUE, NOT_DITHERED},
         {!fibonacci, NOT_FIBONACCI},
-        {o->level_factor == 3, FACTOR_3},
     };
     unsigned asked = 0;
     for (size_t i = 0; i < sizeof bits / sizeof bits[0]; ++i)
@@ -79,13 +64,11 @@ static unsigned asked_of(const aur_gather_options *o) {
     return asked;
 }
 
-aur_result aur_gather_options_complete(aur_gather_options *o, aur_error *error) {
+aur_result aur_gather_settings_complete(aur_gather_settings *o, aur_error *error) {
     if (o->density == AUR_GATHER_DENSITY_DEFAULT)
         o->density = o->weights == AUR_WEIGHTS_EQUAL ? AUR_GATHER_DENSITY_SAME : AUR_GATHER_DENSITY_OPTIMAL;
     if (o->regularization < 0.0) /* as published for the published method */
         o->regularization = o->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
-    if (o->threshold < 0.0f) /* by measurement: see docs/papers/gathering.md */
-        o->threshold = o->criterion == AUR_CRITERION_ENTROPY ? 0.3f : 0.03f;
     if (o->debias == AUR_DEBIAS_ONLY)
         o->direct = AUR_DIRECT_NONE;
     const unsigned asked = asked_of(o);

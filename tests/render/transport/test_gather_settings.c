@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "program/lab/gather.h"
-#include "render/gather/options.h"
+#include "render/gather/settings.h"
 
-#define INITIAL AUR_GATHER_OPTIONS_INITIAL
+#define INITIAL AUR_GATHER_SETTINGS_INITIAL
 
-static aur_result complete(aur_gather_options options, char message[AUR_ERROR_MESSAGE_CAPACITY]) {
+static aur_result complete(aur_gather_settings options, char message[AUR_ERROR_MESSAGE_CAPACITY]) {
     aur_error error = {0};
-    const aur_result result = aur_gather_options_complete(&options, &error);
+    const aur_result result = aur_gather_settings_complete(&options, &error);
     strcpy(message, error.message);
     return result;
 }
@@ -20,66 +20,61 @@ static aur_result complete(aur_gather_options options, char message[AUR_ERROR_ME
 /* Defaults that follow from other options, and those that are given. */
 static void defaults_follow(void **state) {
     (void)state;
-    aur_gather_options o = INITIAL;
-    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    aur_gather_settings o = INITIAL;
+    assert_int_equal(aur_gather_settings_complete(&o, NULL), AUR_OK);
     assert_int_equal(o.density, AUR_GATHER_DENSITY_OPTIMAL);
-    assert_true(o.regularization == 1e-6 && o.threshold == 0.03f && o.direct == AUR_DIRECT_NEE);
-    o = (aur_gather_options)INITIAL;
+    assert_true(o.regularization == 1e-6 && o.direct == AUR_DIRECT_NEE);
+    o = (aur_gather_settings)INITIAL;
     o.weights = AUR_WEIGHTS_EQUAL;
-    o.criterion = AUR_CRITERION_ENTROPY;
     o.debias = AUR_DEBIAS_ONLY;
-    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    assert_int_equal(aur_gather_settings_complete(&o, NULL), AUR_OK);
     assert_int_equal(o.density, AUR_GATHER_DENSITY_SAME);
-    assert_true(o.threshold == 0.3f && o.direct == AUR_DIRECT_NONE);
-    o = (aur_gather_options)INITIAL;
+    assert_int_equal(o.direct, AUR_DIRECT_NONE);
+    o = (aur_gather_settings)INITIAL;
     o.weights = AUR_WEIGHTS_SOLVE;
-    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
+    assert_int_equal(aur_gather_settings_complete(&o, NULL), AUR_OK);
     assert_true(o.regularization == 0.5);
-    o = (aur_gather_options)INITIAL;
+    o = (aur_gather_settings)INITIAL;
     o.regularization = 0.25;
-    o.threshold = 0.0f;
-    assert_int_equal(aur_gather_options_complete(&o, NULL), AUR_OK);
-    assert_true(o.regularization == 0.25 && o.threshold == 0.0f);
+    assert_int_equal(aur_gather_settings_complete(&o, NULL), AUR_OK);
+    assert_true(o.regularization == 0.25);
 }
 
 /* Every single change of the defaults, by the bits of `change`. */
-enum { CHANGES = 16 };
-static aur_gather_options changed(unsigned change) {
-    aur_gather_options o = INITIAL;
+enum { CHANGES = 14 };
+static aur_gather_settings changed(unsigned change) {
+    aur_gather_settings o = INITIAL;
     const aur_gather_weights weights[] = {AUR_WEIGHTS_EQUAL, AUR_WEIGHTS_OSW, AUR_WEIGHTS_OSWA,
                                           AUR_WEIGHTS_MIS, AUR_WEIGHTS_SOLVE};
     for (size_t i = 0; i < 5; ++i)
         o.weights = (change >> i & 1u) != 0 ? weights[i] : o.weights;
     o.density = (change >> 5 & 1u) != 0 ? AUR_GATHER_DENSITY_OPTIMAL : o.density;
     o.share = (change >> 6 & 1u) != 0 ? AUR_SHARE_BLOCKS : (change >> 7 & 1u) != 0 ? AUR_SHARE_NEAR : o.share;
-    o.adaptive = (change >> 8 & 1u) != 0;
-    o.debias = (change >> 9 & 1u) != 0 ? AUR_DEBIAS_ALL : o.debias;
-    o.caustic_photons = (change >> 10 & 1u) != 0 ? 9 : 0;
-    o.rotations = (change >> 11 & 1u) != 0 ? 0 : o.rotations;
-    o.decorrelation = (change >> 12 & 1u) != 0 ? AUR_DECORRELATION_RANDOM : o.decorrelation;
-    o.pattern = (change >> 13 & 1u) != 0 ? "sobol" : o.pattern;
-    o.scramble = (change >> 14 & 1u) != 0 ? "shift" : NULL;
-    o.level_factor = (change >> 15 & 1u) != 0 ? 3 : o.level_factor;
+    o.debias = (change >> 8 & 1u) != 0 ? AUR_DEBIAS_ALL : o.debias;
+    o.caustic_photons = (change >> 9 & 1u) != 0 ? 9 : 0;
+    o.rotations = (change >> 10 & 1u) != 0 ? 0 : o.rotations;
+    o.decorrelation = (change >> 11 & 1u) != 0 ? AUR_DECORRELATION_RANDOM : o.decorrelation;
+    o.pattern = (change >> 12 & 1u) != 0 ? "sobol" : o.pattern;
+    o.scramble = (change >> 13 & 1u) != 0 ? "shift" : NULL;
     return o;
 }
 
 /* What is refused, as conditions on the fields. */
-static bool is_refused(const aur_gather_options *o) {
+static bool is_refused(const aur_gather_settings *o) {
     const bool merged = o->weights >= AUR_WEIGHTS_OSWA, share = o->share != AUR_SHARE_NONE;
     const bool other_set = strcmp(o->pattern, "sobol") == 0 || o->scramble != NULL;
     return (o->weights == AUR_WEIGHTS_EQUAL && o->density == AUR_GATHER_DENSITY_OPTIMAL) ||
-           (merged && (o->rotations == 0 || share || o->adaptive)) ||
-           (share && (o->adaptive || o->decorrelation != AUR_DECORRELATION_BLUE)) ||
+           (merged && (o->rotations == 0 || share)) ||
+           (share && o->decorrelation != AUR_DECORRELATION_BLUE) ||
            (o->share == AUR_SHARE_NEAR && other_set) ||
-           (o->debias != AUR_DEBIAS_NONE && (share || o->adaptive || o->caustic_photons > 0)) ||
-           (o->adaptive && (other_set || o->level_factor == 3));
+           (o->debias != AUR_DEBIAS_NONE && (share || o->caustic_photons > 0));
 }
 
 static void exclusions_are_those_of_pairs(void **state) {
     (void)state;
     size_t refused = 0;
     for (unsigned change = 0; change < 1u << CHANGES; ++change) {
-        const aur_gather_options o = changed(change);
+        const aur_gather_settings o = changed(change);
         char message[AUR_ERROR_MESSAGE_CAPACITY];
         const bool fails = complete(o, message) != AUR_OK;
         if (fails != is_refused(&o))
@@ -98,17 +93,12 @@ static void messages_name_both(void **state) {
         const char *one, *other;
     } cases[] = {
         {1u << 0 | 1u << 5, AUR_ERROR_ARGUMENT, "equal weights", "density=optimal"},
-        {1u << 3 | 1u << 11, AUR_ERROR_ARGUMENT, "merged samples", "rotations=0"},
-        {1u << 6 | 1u << 8, AUR_ERROR_UNSUPPORTED, "share", "adaptive=true"},
-        {1u << 6 | 1u << 12, AUR_ERROR_UNSUPPORTED, "share", "decorrelation=blue"},
+        {1u << 3 | 1u << 10, AUR_ERROR_ARGUMENT, "merged samples", "rotations=0"},
+        {1u << 6 | 1u << 11, AUR_ERROR_UNSUPPORTED, "share", "decorrelation=blue"},
         {1u << 7 | 1u << 2, AUR_ERROR_UNSUPPORTED, "share", "weights=ratio, equal or osw"},
-        {1u << 7 | 1u << 14, AUR_ERROR_UNSUPPORTED, "share=near", "'scramble'"},
-        {1u << 9 | 1u << 7, AUR_ERROR_UNSUPPORTED, "debias", "share"},
-        {1u << 9 | 1u << 8, AUR_ERROR_UNSUPPORTED, "debias", "adaptive=true"},
-        {1u << 9 | 1u << 10, AUR_ERROR_UNSUPPORTED, "debias", "caustic_photons"},
-        {1u << 8 | 1u << 4, AUR_ERROR_UNSUPPORTED, "adaptive", "take osw"},
-        {1u << 8 | 1u << 13, AUR_ERROR_UNSUPPORTED, "adaptive", "'pattern'"},
-        {1u << 8 | 1u << 15, AUR_ERROR_ARGUMENT, "level_factor", "2 or 4"},
+        {1u << 7 | 1u << 13, AUR_ERROR_UNSUPPORTED, "share=near", "'scramble'"},
+        {1u << 8 | 1u << 7, AUR_ERROR_UNSUPPORTED, "debias", "share"},
+        {1u << 8 | 1u << 9, AUR_ERROR_UNSUPPORTED, "debias", "caustic_photons"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         char message[AUR_ERROR_MESSAGE_CAPACITY];
@@ -144,13 +134,13 @@ static const aur_key one_key[] = {{.name = "turns",
                                    .help = "rotations",
                                    .default_text = "16",
                                    .maximum = 65536,
-                                   .offset = offsetof(aur_gather_options, rotations),
+                                   .offset = offsetof(aur_gather_settings, rotations),
                                    .size = sizeof(size_t)}};
 static const aur_key stray_key[] = {{.name = "stray",
                                      .type = AUR_KEY_INTEGER,
                                      .default_text = "1",
                                      .maximum = 9,
-                                     .offset = sizeof(aur_gather_options) - 4,
+                                     .offset = sizeof(aur_gather_settings) - 4,
                                      .size = sizeof(uint64_t)}};
 #define STUDY(keys_)                                                                                         \
     {                                                                                                        \
@@ -188,7 +178,12 @@ static void caller_errors(void **state) {
         {"study", NULL, AUR_ERROR_NAME, "study"},
         {"studi", &study, AUR_ERROR_NAME, "did you mean 'study'"},
         {"study:turn=1", &study, AUR_ERROR_NAME, "did you mean 'turns'"},
-        {"study:stray=1", &stray, AUR_ERROR_ARGUMENT, "no field of aur_gather_options"},
+        {"study:stray=1", &stray, AUR_ERROR_ARGUMENT, "no field of its settings"},
+        {"finalgather-lab:adaptive=true,share=true", &lab_finalgather, AUR_ERROR_UNSUPPORTED, "share"},
+        {"finalgather-lab:adaptive=true,debias=true", &lab_finalgather, AUR_ERROR_UNSUPPORTED, "debias"},
+        {"finalgather-lab:adaptive=true,pattern=sobol", &lab_finalgather, AUR_ERROR_UNSUPPORTED, "'pattern'"},
+        {"finalgather-lab:adaptive=true,weights=mis", &lab_finalgather, AUR_ERROR_UNSUPPORTED, "take osw"},
+        {"finalgather-lab:adaptive=true,level_factor=3", &lab_finalgather, AUR_ERROR_ARGUMENT, "2 or 4"},
         {"study:debias=true,share=true", &study, AUR_ERROR_UNSUPPORTED, "share"},
         {"finalgather:rotations=0", &lab_finalgather, AUR_ERROR_NAME, "key of 'finalgather-lab'"},
     };
@@ -202,11 +197,85 @@ static void caller_errors(void **state) {
     }
 }
 
+/* --- a method of the caller's */
+
+static aur_result always(const aur_gather_settings *options, aur_warnings warnings, bool *asked,
+                         aur_error *error) {
+    (void)options, (void)warnings, (void)error;
+    *asked = true;
+    return AUR_OK;
+}
+
+static aur_result same_set(const aur_gather_settings *options, size_t base, size_t capacity, char *set,
+                           size_t *count, aur_error *error) {
+    (void)error;
+    snprintf(set, capacity, "%s", options->pattern);
+    *count = base;
+    return AUR_OK;
+}
+
+static aur_result keep(const aur_gather_settings *options, size_t base, const aur_gather_directions *pattern,
+                       void **state, aur_error *error) {
+    (void)options, (void)base, (void)error;
+    aur_gather_directions *const kept = malloc(sizeof *kept);
+    assert_non_null(kept);
+    *kept = *pattern;
+    *state = kept;
+    return AUR_OK;
+}
+
+/* Every direction once, with its weight. */
+static void gather_plainly(const void *state, uint32_t lanes, aur_gather_sweep *sweep, float *memory) {
+    const aur_gather_directions *const pattern = state;
+    float sums[AUR_GATHER_LANES][3] = {{0}};
+    for (size_t i = 0; i < pattern->count; ++i) {
+        float(*const values)[AUR_GATHER_LANES] =
+            (float(*)[AUR_GATHER_LANES])(memory + 3 * AUR_GATHER_LANES * i);
+        aur_gather_trace(sweep, lanes, i, values);
+        for (size_t lane = 0; lane < AUR_GATHER_LANES; ++lane)
+            for (size_t c = 0; c < 3; ++c)
+                sums[lane][c] += pattern->weights[i] * values[c][lane] / (float)pattern->count;
+    }
+    for (size_t lane = 0; lane < AUR_GATHER_LANES; ++lane)
+        if ((lanes >> lane & 1u) != 0)
+            aur_gather_finish(sweep, lane, sums[lane], pattern->count, 1);
+}
+
+/* A method that does what gathering does has its image, to rounding; the directions of both samples are
+ * counted. */
+static void caller_gathers(void **state) {
+    (void)state;
+    static const aur_gather_method method = {
+        .begin = always, .choose = same_set, .prepare = keep, .release = free, .gather = gather_plainly};
+    aur_gather_integrator own = lab_finalgather;
+    own.row.name = "own";
+    own.method = &method;
+#define KEYS ":photons=500,diffuse_samples=24,glossy_samples=12,decorrelation=none,clip=false,edges=0,split=1"
+    aur_image *images[2];
+    assert_int_equal(render("finalgather-lab" KEYS, &lab_finalgather, &images[0], NULL), AUR_OK);
+    assert_int_equal(render("own" KEYS, &own, &images[1], NULL), AUR_OK);
+#undef KEYS
+    assert_int_equal(aur_image_channel_count(images[0]), 3);
+    assert_int_equal(aur_image_channel_count(images[1]), 4);
+    const size_t counted = aur_image_find_channel(images[1], "directions");
+    size_t hits = 0;
+    for (size_t i = 0; i < 8 * 8; ++i) {
+        const float *const found = aur_image_data(images[1]) + 4 * i;
+        for (size_t c = 0; c < 3; ++c)
+            assert_relative((double)found[c], (double)aur_image_data(images[0])[3 * i + c], 1e-5);
+        assert_true(found[counted] >= 0.0f && found[counted] <= 48.0f);
+        hits += found[counted] == 48.0f;
+    }
+    assert_true(hits > 4);
+    aur_image_destroy(images[0]);
+    aur_image_destroy(images[1]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_follow),    cmocka_unit_test(exclusions_are_those_of_pairs),
         cmocka_unit_test(messages_name_both), cmocka_unit_test(caller_has_integrators),
-        cmocka_unit_test(caller_errors),
+        cmocka_unit_test(caller_errors),      cmocka_unit_test(caller_gathers),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
