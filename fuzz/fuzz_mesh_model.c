@@ -1,7 +1,7 @@
 /* Models that are one mesh: a model and, after the first zero byte in a text, its material library. */
 #include "fuzz.h"
 #include "render/scene/importers/meshes/mesh_data.h"
-#include "render/scene/importers/model/mesh_model.h"
+#include "render/scene/importers/model/import.h"
 
 typedef struct library {
     const uint8_t *data;

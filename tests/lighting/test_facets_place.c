@@ -2,7 +2,7 @@
 #include <aureole/statistics.h>
 #include <string.h>
 
-#include "lighting/viewfactors/box_tree.h"
+#include "lighting/viewfactors/covers.h"
 #include "moved_mesh.h"
 #include "points/base/text.h"
 

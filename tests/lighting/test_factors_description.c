@@ -1,8 +1,8 @@
 /* What is reported of view factors as a whole: by the matrix itself, or by the parts that it is put together
  * from. */
+#include "lighting/viewfactors/closed_pairs.h"
 #include "lighting/viewfactors/exchange.h"
 #include "lighting/viewfactors/facet_rays.h"
-#include "lighting/viewfactors/visits.h"
 #include "mesh_text.h"
 #include "points/base/random.h"
 

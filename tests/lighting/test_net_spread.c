@@ -1,5 +1,5 @@
 /* What the parts of one set say of the whole: numbers whose variances fall with a known power of the size. */
-#include "lighting/viewfactors/net_spread.h"
+#include "lighting/viewfactors/sky_slices.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "lighting/viewfactors/merged_facets.h"
 #include "lighting/viewfactors/sky_slices.h"
 #include "mesh_text.h"
 #include "points/base/simd.h"

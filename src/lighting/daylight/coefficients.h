@@ -4,7 +4,7 @@
 #include "lighting/daylight/hours.h"
 #include "lighting/daylight/product.h"
 #include "lighting/irradiance/look.h"
-#include "render/scene/lights/open_sky.h"
+#include "render/scene/lights/sky_model.h"
 
 /* The radiance of the ground in the scene that is traced: what it sends is found as well as the sky's. */
 static const double AUR_DAYLIGHT_GROUND = 0.25;

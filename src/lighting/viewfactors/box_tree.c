@@ -1,4 +1,4 @@
-#include "lighting/viewfactors/box_tree.h"
+#include "lighting/viewfactors/covers.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "lighting/viewfactors/contour.h"
-#include "lighting/viewfactors/hull.h"
 #include "points/base/array.h"
 
 /* Up to so many patches all pairs are looked at. */

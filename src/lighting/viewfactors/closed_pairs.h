@@ -1,7 +1,35 @@
 /* Pairs of patches that certainly see each other wholly, with the contour integral. */
 #pragma once
 
-#include "lighting/viewfactors/visits.h"
+#include "lighting/viewfactors/covers.h"
+#include "lighting/viewfactors/facet_rays.h"
+#include "lighting/viewfactors/facets.h"
+#include "points/base/parallel.h"
+
+/* What rays from every patch arrive at, counted for each randomisation. */
+
+/* The patches that the rays of one patch arrive at. */
+typedef struct aur_visits_row {
+    size_t count;
+    uint32_t *patches; /* ascending */
+    uint16_t *hits;    /* [count][randomizations] */
+} aur_visits_row;
+
+typedef struct aur_visits {
+    size_t patch_count, randomizations;
+    size_t rays; /* of one randomisation */
+    aur_visits_row *rows;
+    double *sky, *back; /* [patch_count][randomizations], in rays */
+    /* The rows that a patch stands in: those of sources[starts[i]] .. sources[starts[i + 1] - 1], at
+     * places[...] of theirs. */
+    size_t *starts;
+    uint32_t *sources, *places;
+} aur_visits;
+
+/* Errors: CANCELLED, MEMORY. */
+aur_result aur_visits_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t randomizations,
+                            const aur_parallel_options *parallel, aur_visits *visits, aur_error *error);
+void aur_visits_release(aur_visits *visits);
 
 /* Of one patch, the pairs with those that come after it in the order of rows and patches. */
 typedef struct aur_closed_row {
@@ -28,3 +56,29 @@ aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_visits *vis
                                  const aur_parallel_options *parallel, aur_closed_pairs *pairs,
                                  aur_error *error);
 void aur_closed_pairs_release(aur_closed_pairs *pairs);
+
+/* Whether anything stands between two facets: the hull of two polygons, held against all facets. */
+
+enum { AUR_HULL_CORNERS = 4, AUR_HULL_PLANES = 2 + 4 * AUR_HULL_CORNERS * AUR_HULL_CORNERS };
+
+/* The hull of two polygons, each of at most four corners and in front of the other's plane: where all light
+ * between them is. Everything in it is in front of all planes. */
+typedef struct aur_hull {
+    size_t counts[2]; /* corners of each polygon, those of the first one first */
+    size_t corner_count, plane_count;
+    double corners[2 * AUR_HULL_CORNERS][3];
+    double lower[3], upper[3];
+    aur_plane planes[AUR_HULL_PLANES]; /* the first two are those of the polygons */
+    double tight;                      /* rounding of heights in double precision */
+    double slack; /* to which files know positions, by the hull's size and by its thickness */
+} aur_hull;
+
+void aur_hull_make(const aur_plane planes[2], const size_t counts[2], double (*const polygons[2])[3],
+                   aur_hull *hull);
+
+/* Whether certainly no facet but the given two crosses the hull. A facet is outside when a plane of the hull
+ * or its own plane separates the two. Facets that reach into the hull by no more than the slack touch it,
+ * unless they cover a part of one of the polygons. So "false" may be wrong, and "true" is not, but for edges
+ * that are lower than the slack. */
+bool aur_hull_is_empty(const aur_hull *hull, const aur_facets *facets, const aur_box_tree *tree,
+                       const size_t facet[2]);

@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include "lighting/viewfactors/box_tree.h"
 #include "points/base/array.h"
 #include "points/base/parallel.h"
 

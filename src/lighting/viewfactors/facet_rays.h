@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lighting/viewfactors/facets.h"
+#include "points/base/parallel.h"
 
 /* What a ray arrives at, if no patch. */
 #define AUR_TARGET_SKY UINT32_MAX
@@ -35,3 +36,13 @@ void aur_facet_pattern_release(aur_facet_pattern *pattern);
  * `along` (else NULL; not 0) all rays go that way. */
 void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t patch,
                      uint64_t randomization, const double *along, uint32_t *targets);
+
+/* y = F x along rays, of the rows of facets. */
+
+/* The mean over `count` randomisations of the pattern from `first` on; what each ray meets brings home its x.
+ * `sky` (may be NULL) is the part that leaves the scene. With `sun` (may be NULL; not 0), y is instead the
+ * irradiance of light from that direction, whose length is the irradiance of what faces it; x is not used.
+ * Errors: CANCELLED, MEMORY. */
+aur_result aur_facet_product(const aur_facets *facets, const aur_facet_pattern *pattern, size_t first,
+                             size_t count, const aur_parallel_options *parallel, const double *sun,
+                             const double *x, double *y, double *sky, aur_error *error);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/facet_product.h"
+#include "lighting/viewfactors/facet_rays.h"
 #include "lighting/viewfactors/upper_walk.h"
 #include "lighting/viewfactors/view_factors.h"
 #include "points/base/options.h"

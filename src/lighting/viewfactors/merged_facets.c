@@ -1,9 +1,9 @@
-#include "lighting/viewfactors/merged_facets.h"
+#include "lighting/viewfactors/sky_slices.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/box_tree.h"
+#include "lighting/viewfactors/covers.h"
 
 /* A polygon's corner and the next one, the smaller first. */
 typedef struct side {

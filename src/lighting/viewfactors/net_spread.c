@@ -1,4 +1,4 @@
-#include "lighting/viewfactors/net_spread.h"
+#include "lighting/viewfactors/sky_slices.h"
 
 #include <math.h>
 

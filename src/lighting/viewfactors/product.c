@@ -1,7 +1,7 @@
 /* y = F x by rays alone. */
 #include <stdlib.h>
 
-#include "lighting/viewfactors/facet_product.h"
+#include "lighting/viewfactors/facet_rays.h"
 #include "lighting/viewfactors/view_factors.h"
 
 enum { BLOCK = 64 };

@@ -3,12 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/box_tree.h"
 #include "lighting/viewfactors/covers.h"
-#include "lighting/viewfactors/merged_facets.h"
-#include "lighting/viewfactors/net_spread.h"
 #include "lighting/viewfactors/slice_kernel.h"
-#include "lighting/viewfactors/slice_samples.h"
 #include "points/base/random.h"
 
 /* The half planes of a facet end in a line through one of its places, along the axis of space in which there

@@ -1,4 +1,4 @@
-#include "lighting/viewfactors/slice_samples.h"
+#include "lighting/viewfactors/sky_slices.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "lighting/viewfactors/visits.h"
+#include "lighting/viewfactors/closed_pairs.h"
 
 #include <stdlib.h>
 #include <string.h>

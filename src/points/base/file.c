@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include "points/base/array.h"
-#include "points/base/file_roles.h"
 #include "points/base/ranks.h"
 
 static aur_result fail_write(aur_error *error, const char *path, int code) {

@@ -41,3 +41,13 @@ aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_
 
 /* stat(2), likewise; false where there is no such file. */
 bool aur_file_status(const char *path, struct stat *status);
+
+/* Which files this process reads and which it writes, so that no output replaces an input. Nothing is
+ * recorded before aur_file_announce_output (core.h) has been called. Files are compared by device and inode.
+ */
+
+/* Records an input file; its errors, ARGUMENT, name `path` where it was announced as an output. */
+aur_result aur_file_note_input(const char *path, const struct stat *status, aur_error *error);
+
+/* Whether `path`, which has this status, was read as an input: ARGUMENT. */
+aur_result aur_file_refuse_input(const char *path, const struct stat *status, aur_error *error);

@@ -1,4 +1,4 @@
-#include "points/base/file_roles.h"
+#include "points/base/file.h"
 
 #include <libgen.h>
 #include <limits.h>

@@ -1,4 +1,4 @@
-#include "points/base/orientation.h"
+#include "points/base/vector3d.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -45,3 +45,10 @@ static inline void aur_frame3(const double z[3], double x[3], double y[3]) {
     y[1] = sign + z[1] * z[1] * a;
     y[2] = -z[1];
 }
+
+/* On which side of a line a point of the plane lies, exactly. */
+
+/* Twice the signed area of the triangle a, b, c: positive when it turns to the left. The sign is exact
+ * (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates"), and
+ * so is 0, for coordinates whose products neither overflow nor underflow; the value is rounded. */
+double aur_orientation(const double a[2], const double b[2], const double c[2]);

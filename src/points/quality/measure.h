@@ -66,3 +66,6 @@ aur_result aur_series_create(aur_series *series, size_t row_count, size_t column
 
 /* The sum of squared weights (N without weights): the mean power of a random set's spectrum. */
 double aur_sum_of_squares(const aur_points_view *points);
+
+/* The smallest Euclidean distance of two of at least two points. */
+aur_result aur_smallest_distance(const aur_measure_request *request, double *distance, aur_error *error);

@@ -1,5 +1,5 @@
 /* How near the nearest two points are. */
-#include "points/quality/spacing.h"
+#include "points/quality/measure.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "program/cli/complete.h"
+#include "program/cli/listing.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "program/cli/complete.h"
+#include "program/cli/listing.h"
 
 /* bash breaks words at ':' and '=': they are joined for the question, and what bash keeps is taken off the
  * answers. */

@@ -16,3 +16,10 @@ void cli_forgive_names(cli_call *call);
 int cli_print_thing(const char *kind, const char *name, report_format format);
 /* What `aureole help VERB` prints; returns CLI_SUCCESS. */
 int cli_print_verb_help(const cli_verb *verb);
+
+/* The program as one of several processes that do one job. */
+
+/* Runs the verb as `run` does, together with the other processes that a launcher has started, if there are
+ * any: rank 0 speaks and writes for all. Returns the exit status. */
+int cli_run_ranks(const cli_verb *verb, int argc, char **argv,
+                  int (*run)(const cli_verb *verb, int argc, char **argv));

@@ -24,3 +24,9 @@ void cli_write_key_help(const aur_key *key, char text[CLI_HELP_CAPACITY]);
  * name, which is the first column, what stands in the column "summary" (or the last one), and below it the
  * other columns that say something. */
 int cli_finish_listing(report_table *table, report_format format);
+
+/* What may stand at a place of the command line, for the shells. */
+
+/* Prints what the last of `count` words may become, one a line with a tab and its help after it; ":file" and
+ * ":folder" stand for names of files and folders. The first word is the verb. */
+void cli_complete(const cli_verb *const *verbs, size_t count, char **words);

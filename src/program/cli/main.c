@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "program/cli/kinds.h"
-#include "program/cli/ranks.h"
 
 #define VERBS(ROW)                                                                                           \
     ROW(sets)                                                                                                \

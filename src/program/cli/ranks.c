@@ -1,4 +1,4 @@
-#include "program/cli/ranks.h"
+#include "program/cli/kinds.h"
 
 #include <aureole/ranks.h>
 #include <stdio.h>

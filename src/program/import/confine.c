@@ -1,7 +1,7 @@
 #if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* syscall */
 #endif
-#include "program/import/confine.h"
+#include "program/import/writer.h"
 
 #include <signal.h>
 #include <stddef.h>

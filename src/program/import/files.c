@@ -1,9 +1,8 @@
-#include "program/import/files.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/import/stream.h"
+#include "program/import/writer.h"
 
 typedef struct open_file {
     size_t size, at;

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/import/json.h"
-#include "program/import/stream.h"
+#include "program/import/writer.h"
 
 void gltf_read(writer *self, const char *name) {
     enum { HEADER = 20 }; /* of a .glb: 12 bytes of the file and 8 of the chunk that holds the JSON */

@@ -1,6 +1,9 @@
 /* What assimp leaves out of glTF: digits of nodes beyond those of floats, and the strength of emission. */
 #pragma once
 
+#include <assimp/material.h>
+#include <stddef.h>
+
 #include "program/import/writer.h"
 
 typedef struct json_value gltf_node;
@@ -15,3 +18,48 @@ const gltf_node *gltf_child(const writer *self, const gltf_node *node, size_t in
 void gltf_refine(const gltf_node *node, double matrix[16]);
 /* KHR_materials_emissive_strength of a material, or 1. */
 float gltf_emissive_strength(const writer *self, unsigned material);
+
+/* JSON as a tree: what assimp leaves out of a glTF file is looked up in it. */
+
+typedef enum json_kind { JSON_NULL, JSON_BOOLEAN, JSON_NUMBER, JSON_TEXT, JSON_ARRAY, JSON_OBJECT } json_kind;
+
+typedef struct json_value {
+    json_kind kind;
+    double number;    /* of a boolean 0 or 1 */
+    const char *name; /* of a member, else NULL */
+    struct json_value *first, *next;
+    size_t count;              /* of an array's items or an object's members */
+    struct json_value **items; /* of an array */
+} json_value;
+
+/* Of a text that a zero byte ends, which is changed; NULL where it is no JSON or memory is out. Texts that
+ * are no names are not kept. The tree stays until the process ends. */
+json_value *json_parse(char *text);
+
+/* These take NULL and give NULL, or `otherwise`, where there is no such thing. */
+const json_value *json_member(const json_value *object, const char *name);
+const json_value *json_item(const json_value *array, size_t index);
+double json_number(const json_value *value, double otherwise);
+
+/* Pictures of materials as <texture>s. */
+
+/* A material's texture, by assimp's kind and number. */
+typedef struct slot {
+    enum aiTextureType type;
+    unsigned index;
+} slot;
+
+/* How a texture's picture becomes a <texture>. */
+typedef struct picture_use {
+    slot from;
+    const char *name, *channel;
+    bool raw;
+    float factor[3], cutoff;
+} picture_use;
+
+/* Whether there is one that can be read. */
+bool picture_exists(writer *self, const struct aiMaterial *material, slot from);
+/* As a <texture>; there must be one. */
+void picture_put(writer *self, const struct aiMaterial *material, const picture_use *use);
+/* A share of the surface's light: a channel of a texture times a number, or that number. */
+void picture_put_share(writer *self, const struct aiMaterial *material, const picture_use *use);

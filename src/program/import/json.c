@@ -1,4 +1,4 @@
-#include "program/import/json.h"
+#include "program/import/gltf.h"
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -11,10 +11,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "program/import/confine.h"
-#include "program/import/files.h"
 #include "program/import/gltf.h"
-#include "program/import/stream.h"
 #include "program/import/writer.h"
 
 static bool ends_with(const char *name, const char *ending) {

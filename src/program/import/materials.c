@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "program/import/gltf.h"
-#include "program/import/pictures.h"
 
 static const slot base_slot = {aiTextureType_BASE_COLOR, 0}, diffuse_slot = {aiTextureType_DIFFUSE, 0},
                   metal_slot = {aiTextureType_METALNESS, 0},

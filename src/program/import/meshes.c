@@ -1,7 +1,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/import/stream.h"
 #include "program/import/writer.h"
 
 /* The columns of a mesh's PLY. */

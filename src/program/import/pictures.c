@@ -1,12 +1,11 @@
-#include "program/import/pictures.h"
+#include "program/import/gltf.h"
 
 #include <assimp/GltfMaterial.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/import/files.h"
-#include "program/import/stream.h"
+#include "program/import/writer.h"
 
 /* A picture that the model holds, as a file: packed as it is, or texels behind the header of a TGA. */
 static unsigned file_of_image(writer *self, unsigned index) {

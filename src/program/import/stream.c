@@ -1,4 +1,4 @@
-#include "program/import/stream.h"
+#include "program/import/writer.h"
 
 #include <errno.h>
 #include <stdarg.h>

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "points/base/text.h"
-#include "program/import/stream.h"
 
 static void put(writer *self, char kind, const char *text) {
     fputc(kind, self->records);

@@ -2,8 +2,10 @@
  * are made of it. */
 #pragma once
 
+#include <assimp/cfileio.h>
 #include <assimp/scene.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 #include "points/base/error.h"
@@ -62,3 +64,28 @@ float writer_number(const struct aiMaterial *material, const char *key, float ot
 bool writer_color(const struct aiMaterial *material, const char *key, float color[4]);
 /* Which of a mesh's texture coordinates its material uses. */
 unsigned writer_uv_set(writer *self, const struct aiMaterial *material);
+
+/* The program's side of render/scene/importers/model/message.h. What cannot be sent or received ends the
+ * program: nobody is there to be told. */
+
+void stream_send(aur_import_kind kind, uint32_t value, size_t size, const void *data);
+/* In two pieces, one after the other. */
+void stream_send_two(aur_import_kind kind, size_t head_size, const void *head, size_t size, const void *data);
+/* The next message, of this kind. *data is malloc'ed, with a zero byte after it; returns the value. */
+uint32_t stream_receive(aur_import_kind kind, size_t *size, char **data);
+/* Sends what has gone wrong, and ends the program. */
+_Noreturn void stream_fail(aur_result result, const char *format, ...) AUR_PRINTF(2, 3);
+_Noreturn void stream_fail_memory(void);
+
+/* Files that assimp opens: the library reads them. */
+
+/* Replaces %XX by the bytes that are meant, in names of glTF. */
+void files_decode_address(char *text);
+/* As aiFileIO has them; UserData: the name of a model that names others by addresses, or NULL. */
+struct aiFile *files_open(struct aiFileIO *io, const char *name, const char *mode);
+void files_close(struct aiFileIO *io, struct aiFile *file);
+
+/* What the process may do from here on: read and write its socket, and take memory. */
+
+/* Ends with the process `parent`. No file can be opened or grow, and no process or connection made. */
+void confine_self(long parent);

@@ -1,6 +1,6 @@
 /* The file is the identity, then a line for each measurement: "SECONDS KEY: VALUE VALUE ...", where a line
  * that an interruption cut off is dropped. */
-#include "program/lab/kept.h"
+#include "program/lab/run.h"
 
 #include <aureole/ranks.h>
 #include <aureole/text.h>

@@ -1,12 +1,30 @@
 /* The state of a run, for the files that make it. */
 #pragma once
 
+#include <aureole/core.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <time.h>
 
-#include <stdio.h>
-
-#include "program/lab/kept.h"
 #include "program/lab/lab.h"
+
+/* What a run has measured so far, in a file that outlives an interruption. */
+
+typedef struct lab_kept lab_kept;
+
+/* Takes up the file of a run of the same `identity` (a line), or begins it anew. Errors: WRITE, MEMORY. */
+aur_result lab_kept_open(const char *path, const char *identity, lab_kept **kept, aur_error *error);
+void lab_kept_close(lab_kept *kept); /* NULL is allowed */
+
+/* Whether there is anything from an earlier run, and the processor seconds that it took. */
+bool lab_kept_continues(const lab_kept *kept);
+double lab_kept_seconds(const lab_kept *kept);
+
+/* The numbers of a key; false when there are none. */
+bool lab_kept_find(const lab_kept *kept, const char *key, size_t count, double *values);
+/* `seconds` are all that the run has taken. Errors: WRITE. */
+aur_result lab_kept_add(lab_kept *kept, const char *key, size_t count, const double *values, double seconds,
+                        aur_error *error);
 
 enum { LAB_FURTHER_TABLES = 8 };
 
@@ -34,3 +52,10 @@ void lab_run_path(const lab_run *run, const char *what, const char *extension, c
 /* Writes a table there; `listed` among the files that the user is told of. */
 aur_result lab_run_save(lab_run *run, const report_table *table, const char *what, const char *notes,
                         bool listed, aur_error *error);
+
+/* Whether what was measured agrees with what is published. */
+
+/* The numbers of a row; those that are not there are NaN. */
+lab_verdict lab_judge(double measured, double low, double high, double published, double factor);
+/* "agrees", "within a factor of 1.5", "differs", "not published". */
+void lab_verdict_text(lab_verdict verdict, double factor, char text[64]);

@@ -10,7 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "program/watch/socket.h"
+#include "program/watch/server.h"
 
 /* Pixels a side of the parts in which a picture is sent, as tev's own client does. */
 enum { TILE = 128, DEFAULT_PORT = 14158 };

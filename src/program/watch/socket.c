@@ -1,4 +1,4 @@
-#include "program/watch/socket.h"
+#include "program/watch/server.h"
 
 #include <aureole/text.h>
 #include <errno.h>

@@ -1,4 +1,4 @@
-#include "render/adaptive/outliers.h"
+#include "render/adaptive/rivals.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,5 @@
 #include <math.h>
 
-#include "render/adaptive/outliers.h"
 #include "render/adaptive/rivals.h"
 #include "render/film/film.h"
 

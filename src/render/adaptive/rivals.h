@@ -3,6 +3,7 @@
 
 #include "render/adaptive/candidates.h"
 #include "render/adaptive/choose.h"
+#include "render/adaptive/trial.h"
 
 /* Of the error asked, the bias that may be left; the noise makes the rest of the square. */
 #define AUR_BIAS_PART 0.6
@@ -54,3 +55,18 @@ double aur_rivals_planned_rays(const aur_rivals *rivals, const aur_choice *choic
  * which final gathering may take, would pay for. */
 aur_result aur_rivals_find_map(aur_rivals *rivals, aur_choice *choice, double rays, double worth,
                                aur_error *error);
+
+/* Pixels that have an error of their own beside all others. */
+
+/* What they make of a trial: rounds give such pixels more samples, so that the directions of a pattern are
+ * for the others. */
+typedef struct aur_outliers {
+    double rest;  /* of the trial's squared error, what the others have; 1 where no pixels stand out */
+    double price; /* rays that the trial needs to bring them to the error of the others, over its own */
+} aur_outliers;
+
+/* The hundredth of all pixels in which samples of path tracing vary most, where they have most of the error
+ * of a trial by another integrator: a lamp that is smaller than a pixel, or its image in a mirror. What an
+ * integrator finds seldom lies anywhere, and hardly in the same pixels as what the other one does. Both
+ * trials are of the same pixels and have had a round; `path` lends its scratch. */
+aur_outliers aur_outliers_find(aur_trial *path, const aur_trial *trial);

@@ -2,7 +2,6 @@
  * with any number of samples each, weighted by the power heuristic (Veach 1997). A mirror shows the lights.
  */
 #include "render/film/integrator.h"
-#include "render/vertex/first_surface.h"
 #include "render/vertex/vertex.h"
 
 typedef struct direct_data {

@@ -1,5 +1,5 @@
 #include "render/gather/places.h"
-#include "render/trace/coherence.h"
+#include "render/trace/packet_rays.h"
 
 /* The merged rule of a place whose lobes are one diffuse and one glossy lobe, both with a formula, and
  * specular ones. */

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "render/image/channels.h"
+#include "render/image/format.h"
 
 size_t aur_channel_layer(const char *name) {
     const char *const dot = strrchr(name, '.');

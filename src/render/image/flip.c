@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "render/image/metric.h"
+#include "render/image/format.h"
 
 /* Pixels a degree in the paper's setting, a screen 0.7 m wide of 3840 pixels seen from 0.7 m (section 4.1).
  */

@@ -2,12 +2,13 @@
  * it, and one line in AUR_IMAGE_FORMATS. */
 #pragma once
 
-#include "render/image/image.h"
+#include <openexr.h>
 #include <stdbool.h>
 #include <stdio.h>
 
 #include "points/base/error.h"
 #include "points/base/keys.h"
+#include "render/image/image.h"
 
 /* Values (pixels times channels) that a picture may have: 4 GiB of floats. A file that claims more lies. */
 #define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
@@ -77,3 +78,68 @@ void aur_image_list_channels(const aur_image *image, size_t capacity, char *text
 /* Red, green and blue, or an ARGUMENT error that names the channels that there are. `name` may be NULL. */
 aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
                                    aur_error *error);
+
+/* What reading and writing EXR share. */
+
+/* What a context of OpenEXR Core carries for its callbacks. */
+typedef struct aur_exr_stream {
+    aur_result result; /* of the first message */
+    aur_error *error;
+    const unsigned char *input; /* reading */
+    size_t size;                /* of input or output */
+    unsigned char *output;      /* writing */
+    size_t capacity;
+} aur_exr_stream;
+
+/* Rows of a picture whose strides OpenEXR can count. */
+static inline bool aur_exr_rows_fit(size_t width, size_t channel_count) {
+    return width <= INT32_MAX / sizeof(float) / channel_count;
+}
+
+/* The stream whose calls of OpenEXR this thread makes, or NULL: what aur_exr_note writes to. OpenEXR gives
+ * its handler of messages a context only, and holds a lock meanwhile that asking the context for its user
+ * data would wait for without end. */
+void aur_exr_listen(aur_exr_stream *stream);
+
+/* The handler of messages: keeps the first one in the stream's error. */
+void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *message);
+
+/* The result of a failed call: what was noted, or else the code's own text. */
+aur_result aur_exr_fail(const aur_exr_stream *stream, exr_result_t code);
+
+/* The roles of channels, by the names that OpenEXR and other programs give them, in either case. */
+
+typedef enum aur_channel_role {
+    AUR_CHANNEL_RED, /* the order in which channels of a layer are sorted */
+    AUR_CHANNEL_GREEN,
+    AUR_CHANNEL_BLUE,
+    AUR_CHANNEL_X,
+    AUR_CHANNEL_Y, /* luminance, or the second of X, Y, Z */
+    AUR_CHANNEL_ALPHA,
+    AUR_CHANNEL_Z, /* depth, or the third of X, Y, Z */
+    AUR_CHANNEL_OTHER,
+    AUR_CHANNEL_RY, /* (R - Y) / Y */
+    AUR_CHANNEL_BY,
+    AUR_CHANNEL_DATA /* known, and no colour */
+} aur_channel_role;
+
+/* The length of a name's layer, its dot included; 0 without one. */
+size_t aur_channel_layer(const char *name);
+aur_channel_role aur_channel_role_of(const char *name);
+/* The first channel of a role in the layer that the name `layer` stands in; SIZE_MAX when there is none. */
+size_t aur_image_find_role(const aur_image *image, const char *layer, aur_channel_role role);
+
+/* What the measures of difference share. */
+
+/* The places of red, green and blue in two pictures that can be compared. */
+typedef struct aur_color_pair {
+    size_t reference[3], image[3];
+} aur_color_pair;
+
+/* ARGUMENT with the place of the first value of the channels that is not finite; `what` is whose it is. */
+aur_result aur_image_check_finite(const char *what, const aur_image *image, const size_t channels[3],
+                                  aur_error *error);
+
+/* ARGUMENT when sizes differ, there is no colour or a value is not finite. */
+aur_result aur_image_check_pair(const aur_image *reference, const aur_image *image, aur_color_pair *pair,
+                                aur_error *error);

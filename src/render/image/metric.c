@@ -1,8 +1,6 @@
-#include "render/image/metric.h"
+#include "render/image/format.h"
 
 #include <math.h>
-
-#include "render/image/format.h"
 
 aur_result aur_image_check_finite(const char *what, const aur_image *image, const size_t channels[3],
                                   aur_error *error) {

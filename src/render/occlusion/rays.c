@@ -1,6 +1,6 @@
 #include "render/occlusion/rays.h"
 
-#include "render/trace/coherence.h"
+#include "render/trace/packet_rays.h"
 
 /* --- places */
 

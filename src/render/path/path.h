@@ -6,7 +6,7 @@
 #include "render/film/integrator.h"
 #include "render/path/path_lanes.h"
 #include "render/trace/shape_class.h"
-#include "render/vertex/looks.h"
+#include "render/vertex/lamps.h"
 #include "render/vertex/vertex.h"
 
 typedef struct aur_path {

@@ -5,7 +5,7 @@
 
 #include "points/base/internal.h"
 #include "render/path/path.h"
-#include "render/trace/lanes.h"
+#include "render/trace/packet_rays.h"
 
 /* Is told of light that a lane finds in the sky: from where, how much, and whether it came straight. */
 typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight);

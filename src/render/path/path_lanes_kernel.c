@@ -2,7 +2,7 @@
  * code; plain operations in one order without contraction: the bits are the same everywhere. */
 #include "render/path/path.h"
 #include "render/scene/materials/sampling.h"
-#include "render/trace/coherence.h"
+#include "render/trace/packet_rays.h"
 #include "render/vertex/candidates.h"
 #include "render/vertex/vertex.h"
 

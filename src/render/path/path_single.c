@@ -1,7 +1,7 @@
 /* One path by itself: the clear form, which paths in packets are compared with. */
 #include "render/path/path.h"
 #include "render/vertex/candidates.h"
-#include "render/vertex/first_surface.h"
+#include "render/vertex/vertex.h"
 
 /* What a point on a light brings along the path if nothing lies between; u chooses the light and the point.
  */

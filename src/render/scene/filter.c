@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "points/base/parameters.h"
-#include "render/scene/materials/erf.h"
+#include "render/scene/materials/sampling.h"
 
 static const aur_filter filters[] = {
     {AUR_FILTER_BOX, 0.5f},

@@ -1,4 +1,3 @@
-#include "render/scene/overlap_cut.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +6,6 @@
 #include "points/base/array.h"
 #include "points/base/polygon.h"
 #include "render/scene/overlaps.h"
-#include "render/scene/own_group.h"
 
 enum { MOST_CORNERS = 16, FEW_CORNERS = 8 };
 

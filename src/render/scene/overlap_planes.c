@@ -1,4 +1,4 @@
-#include "render/scene/overlap_planes.h"
+#include "render/scene/overlaps.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,13 @@
 /* Triangles that lie in one plane and overlap. */
 #pragma once
 
+#include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "points/base/error.h"
 #include "points/base/internal.h"
+#include "render/scene/scene_data.h"
 
 /* The `count` triangles that `context` knows, in any coordinates: corners[some] of those from `first` on. */
 typedef struct aur_triangle_source {
@@ -37,3 +39,43 @@ typedef struct aur_overlaps {
 AUR_INTERNAL aur_result aur_overlaps_find(const aur_triangle_source *triangles, size_t threads,
                                           aur_overlaps *overlaps, aur_error *error);
 AUR_INTERNAL void aur_overlaps_release(aur_overlaps *overlaps);
+
+/* Surfaces in one plane: the first in the file wins. */
+
+/* Cuts off meshes what triangles that come before, in the order of shapes and triangles, cover in their plane
+ * (overlaps.h), before they are recentred: rays and lights then meet the first of such surfaces only. Shapes
+ * of groups are cut by others of their group alone. Leaves in scene->overlap how many triangles were cut, and
+ * the first pair. Does what scene->overlap_rule says. Errors: MEMORY. */
+aur_result aur_scene_cut_overlaps(aur_scene *scene, size_t threads, aur_error *error);
+
+/* One counted warning, if something was cut. */
+void aur_scene_warn_of_overlaps(const aur_scene *scene, const aur_warnings *warnings);
+
+/* Which triangles may have a part of their plane in common with others. */
+
+/* How far apart triangles may be, by the larger one's extent and the largest of their coordinates. */
+static inline double aur_overlap_slack(double extent, double largest) {
+    return 1e-6 * extent + 4.0 * DBL_EPSILON * largest;
+}
+
+/* How far the normal of a triangle may be off, by its least altitude. Those of triangles that overlap differ
+ * by at most the sum of both. */
+static inline double aur_overlap_tilt(double slack, double altitude) {
+    return 4.0 * slack / altitude;
+}
+
+enum {
+    AUR_PLANE_ALONE,  /* overlaps at most triangles that are UNLIKE */
+    AUR_PLANE_SHARED, /* may overlap others */
+    AUR_PLANE_UNLIKE, /* much larger or narrower than most: may overlap any */
+};
+
+/* Marks the triangles by hashing their planes; the marks depend on nothing but the triangles. Returns the
+ * number of those that are UNLIKE, or SIZE_MAX: no memory. */
+size_t aur_planes_mark(const aur_triangle_source *triangles, uint8_t *marks);
+
+/* A group of shapes for one instance alone. */
+
+/* Gives the instance a group with copies of the shapes of its own one, all of them meshes in doubles. Errors:
+ * MEMORY. */
+aur_result aur_instance_own_group(aur_scene *scene, aur_instance *instance, aur_error *error);

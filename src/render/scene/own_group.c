@@ -1,4 +1,4 @@
-#include "render/scene/own_group.h"
+#include "render/scene/overlaps.h"
 
 #include <stdlib.h>
 #include <string.h>

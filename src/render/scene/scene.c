@@ -6,7 +6,7 @@
 #include "points/base/options.h"
 #include "render/scene/importers/rad/rad.h"
 #include "render/scene/materials/sampling.h"
-#include "render/scene/overlap_cut.h"
+#include "render/scene/overlaps.h"
 #include "render/scene/scene_data.h"
 
 static void find_sphere(aur_scene *scene) {

@@ -3,7 +3,36 @@
 
 #include <string.h>
 
-#include "render/trace/lanes.h"
+#include "points/base/vector.h"
+#include "render/scene/packet.h"
+
+/* Sets of a packet's sixteen lanes: bit k of a mask stands for lane k. All lanes of a mask are visited, from
+ * the lowest one on, by
+ *
+ *     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+ *         const size_t lane = aur_first_lane(rest);
+ */
+
+/* The lowest lane of a mask that is not 0. */
+static inline uint32_t aur_first_lane(uint32_t lanes) {
+    return (uint32_t)__builtin_ctz(lanes);
+}
+
+static inline uint32_t aur_lane_count(uint32_t lanes) {
+    return (uint32_t)__builtin_popcount(lanes);
+}
+
+static inline bool aur_has_lane(uint32_t lanes, size_t lane) {
+    return (lanes >> lane & 1u) != 0;
+}
+
+/* The lanes whose flag is -1; the others' is 0. */
+static inline uint32_t aur_lanes_set(const int flags[AUR_PACKET_SIZE]) {
+    uint32_t lanes = 0;
+    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        lanes |= (uint32_t)(flags[k] & 1) << k;
+    return lanes;
+}
 
 /* Takes all rays out of the packet. */
 static inline void aur_packet_empty(aur_packet *packet) {
@@ -14,4 +43,15 @@ static inline void aur_packet_empty(aur_packet *packet) {
 static inline void aur_packet_set_lanes(aur_packet *packet, uint32_t lanes) {
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
         packet->valid[k] = -(int)(lanes >> k & 1u);
+}
+
+/* Whether the rays that leave 16 places in like directions make a coherent packet: where the places lie on
+ * one plane, nearly. A function of positions and normals, never of timing. */
+
+/* 1 where a place is off the plane of another one: `offset` leads there, `normal` is the plane's, and
+ * `cosine` that of the angle between the two places' normals. The limits are 6 degrees each. Without
+ * branches, for loops over lanes. */
+static inline uint32_t aur_is_off_plane(aur_vector offset, aur_vector normal, float cosine) {
+    const float height = aur_vector_dot(offset, normal);
+    return (uint32_t)(cosine < 0.995f) | (uint32_t)(height * height > 0.01f * aur_vector_dot(offset, offset));
 }

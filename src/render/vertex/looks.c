@@ -1,4 +1,3 @@
-#include "render/vertex/looks.h"
 
 #include <math.h>
 #include <stdio.h>

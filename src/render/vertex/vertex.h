@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/film/integrator.h"
+#include "render/film/tile.h"
 #include "render/vertex/shading.h"
 
 /* --- random numbers of a vertex */
@@ -128,3 +129,23 @@ typedef struct aur_walk {
 void aur_walk_add_emission(const aur_scene *scene, const aur_surface *surface, aur_walk *walk);
 /* Goes on by a direction that u in [0,1)^3 draws; false where the path ends. */
 bool aur_walk_scatter(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3], aur_walk *walk);
+
+/* The surface that a camera ray sees. */
+
+/* The nearest surface along *ray, which begins anew behind each light that it passes when lights are hidden;
+ * false when there is none. */
+static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitters, aur_ray *ray,
+                                       aur_surface *surface, aur_counters *counters) {
+    enum { MOST_LIGHTS = 1000 }; /* hidden ones, one behind the other */
+    for (size_t i = 0; i < MOST_LIGHTS; ++i) {
+        aur_hit hit;
+        if (!aur_scene_intersect(scene, ray, &hit))
+            return false;
+        aur_scene_surface(scene, ray, &hit, surface);
+        if (!hide_emitters || surface->emitter == AUR_NO_EMITTER)
+            return true;
+        *ray = aur_surface_ray(surface, ray->direction);
+    }
+    ++counters->cut;
+    return false;
+}

@@ -6,7 +6,7 @@
 
 #include "points/base/cache_file.h"
 #include "points/base/random.h"
-#include "points/pointset/relax/power_diagram.h"
+#include "points/pointset/relax/relaxation.h"
 
 static char folder[] = "/tmp/aureole-test-XXXXXX";
 

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "points/base/simd.h"
-#include "points/quadrature/linear/cholesky.h"
 #include "points/quadrature/linear/solve.h"
 
 /* The kernel for s = 3/2 of a spiral of points, with the default regularisation: what the weights ask for. */

@@ -7,7 +7,7 @@
 
 #include "check.h"
 #include "points/base/simd.h"
-#include "points/quadrature/potential/potential_table.h"
+#include "points/quadrature/potential/potential.h"
 #include "points/quadrature/tables/weight_table.h"
 
 #define PI 3.14159265358979323846

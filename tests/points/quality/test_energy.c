@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "points/quality/pairs/pair_sum.h"
-#include "points/quality/sphere/hemisphere.h"
+#include "points/quality/sphere/fibonacci_sum.h"
 #include "sphere_sets.h"
 
 #include "points/base/simd.h"

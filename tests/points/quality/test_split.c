@@ -3,8 +3,6 @@
 #include <string.h>
 
 #include "points/base/simd.h"
-#include "points/quality/split/kernel.h"
-#include "points/quality/split/near.h"
 #include "points/quality/split/split.h"
 #include "sphere_sets.h"
 

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "points/base/vector3d.h"
-#include "points/quality/spacing.h"
-#include "points/quality/sphere/sphere_grid.h"
+#include "points/quality/measure.h"
 #include "points/quality/sphere/voronoi.h"
 #include "sphere_sets.h"
 

@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "points/sphere/sets/lebedev.h"
-#include "points/sphere/sets/t_design.h"
+#include "points/sphere/sets/reference.h"
 
 enum { AXES = 64 };
 

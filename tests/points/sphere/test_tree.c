@@ -1,6 +1,6 @@
 #include "sphere_check.h"
 
-#include "points/sphere/nearest/tree.h"
+#include "points/sphere/nearest/inverse.h"
 
 static int nearest_first(const void *a, const void *b) {
     const aur_found *const p = a, *const q = b;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/adaptive/outliers.h"
+#include "render/adaptive/rivals.h"
 
 enum { REPLICAS = 4, PIXELS = 400, FEW = PIXELS / 100 };
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "points/base/orientation.h"
 #include "points/base/random.h"
+#include "points/base/vector3d.h"
 #include "render/scene/importers/meshes/triangulate.h"
 
 enum { MOST = 4096 };

@@ -2,7 +2,6 @@
 #include "check.h"
 
 #include "points/base/random.h"
-#include "render/trace/coherence.h"
 #include "render/trace/interleave.h"
 #include "render/trace/packet_rays.h"
 

@@ -1,6 +1,10 @@
 /* Golden ratio sequences and sets (Schretter 2012). */
 #pragma once
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #include "points/pointset/fraction128.h"
 #include "points/pointset/words.h"
 
@@ -30,3 +34,29 @@ static inline uint64_t aur_golden_next(const aur_golden_order *order, uint64_t i
     while (index >= order->count);
     return index;
 }
+
+/* Additive recurrences: coordinate d of point i is start + i steps[d] modulo 1. */
+
+enum { AUR_R2_DIMENSIONS = 64 };
+
+typedef struct aur_recurrence {
+    uint64_t start; /* in units of 2^-64 */
+    aur_fraction128 steps[AUR_R2_DIMENSIONS];
+} aur_recurrence;
+
+/* The golden ratio sequence from s in [0,1), one dimension. */
+void aur_recurrence_golden(double s, aur_recurrence *recurrence);
+/* Roberts' sequence in 1 to 64 dimensions. */
+void aur_recurrence_r2(size_t dimension, aur_recurrence *recurrence);
+
+/* Rank-1 lattices and the golden-ratio limit of Fibonacci ones. */
+
+enum { AUR_LATTICE_CAPACITY = 256 };
+
+typedef struct aur_lattice {
+    double offset; /* of the first coordinate, in steps */
+    bool golden;   /* the second coordinate is i / Phi */
+    uint64_t vector[AUR_LATTICE_CAPACITY];
+} aur_lattice;
+
+void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice);

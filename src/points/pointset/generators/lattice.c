@@ -2,7 +2,7 @@
  * generating vector g; N up to 2^48. fibonacci-lattice (Schretter 2012, eq. 3; Marques 2013, sec. 3.1): N =
  * F_k and g = (1, F_{k-1}); for any other N, the limit ((i + offset) / N, i / Phi). Random access. Error
  * O(log N / N) for a good vector, and far better for periodic smooth functions. */
-#include "points/pointset/generators/lattice.h"
+#include "points/pointset/generators/golden.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -6,7 +6,6 @@
  * r2 (Roberts 2018): coordinate d of point i is 1/2 + i t^(d+1) modulo 1, where 1/t is the root above 1 of
  * x^(s+1) = x + 1 in s dimensions: the golden ratio for s = 1, the plastic number for s = 2. Error
  * O(log^2 N / N) (measured in two dimensions). */
-#include "points/pointset/generators/recurrence.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
  * limit of infinitely many such points, where the shares are the cells of a power diagram. As many rounds as
  * leave the sites as regular as the paper's: less than those of bnot. A table: n up to 2^20. Error about
  * N^-3/4 and lower for smooth functions; no alignments. */
-#include "points/pointset/relax/transport.h"
+#include "points/pointset/relax/relaxation.h"
 
 enum { VERSION = 2, ROUNDS = 8 };
 

@@ -2,7 +2,7 @@
  * the middles of cells of equal area. The number of rounds is fixed and small: a full descent ends in
  * crystals, whose patches the paper breaks up by jitter. A table: n up to 2^20. Error about N^-3/4 and lower
  * for smooth functions; no alignments. */
-#include "points/pointset/relax/transport.h"
+#include "points/pointset/relax/relaxation.h"
 
 enum { VERSION = 2, ROUNDS = 30 };
 

@@ -1,4 +1,4 @@
-#include "points/pointset/relax/power_diagram.h"
+#include "points/pointset/relax/relaxation.h"
 
 #include <math.h>
 #include <string.h>

@@ -49,3 +49,37 @@ typedef struct aur_relaxation {
 /* Makes set->data a table of the points that are computed from the seed, or takes it from what an earlier
  * call has kept (points/base/cache_file.h). */
 aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error);
+
+/* Blue noise by optimal transport on the torus. */
+
+/* Points that own equal areas, each near the middle of its own, in random order. In each of the rounds all
+ * points move to the middles: few leave the points irregular, many make crystals. A round takes time about
+ * n. Errors: MEMORY. */
+aur_result aur_transport_relax(uint64_t seed, unsigned rounds, size_t count, aur_point2 *sites,
+                               aur_error *error);
+
+/* Power diagrams of weighted sites on the torus [0,1)^2: the cell of a site is where |x - site|^2 - weight is
+ * least. */
+
+enum { AUR_POWER_EDGES = 24 }; /* more edges than a cell ever has here; beyond them none is recorded */
+
+typedef struct aur_power_cell {
+    double area;
+    aur_point2 centre; /* of mass, from the site */
+    size_t edge_count;
+    uint32_t neighbours[AUR_POWER_EDGES]; /* the site across each edge; the site itself for an image of it */
+    double slopes[AUR_POWER_EDGES];       /* how the area grows with the difference of weights: length / (2
+                                             distance) */
+} aur_power_cell;
+
+typedef struct aur_power_diagram {
+    size_t count;
+    const aur_point2 *sites;
+    const double *weights;
+    aur_site_grid grid; /* filled with the sites */
+    aur_power_cell *cells;
+    bool warm; /* the cells are those of sites and weights that were much like these: where to begin */
+} aur_power_diagram;
+
+/* Computes all cells; they are independent of each other and of the number of threads. */
+void aur_power_diagram_compute(aur_power_diagram *diagram);

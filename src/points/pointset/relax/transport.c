@@ -4,13 +4,12 @@
  * is the graph Laplacian with length / (2 distance) on each edge; conjugate gradients), sites for given
  * weights by moving to the centres. From one random site in each of n cells, whose density is even already,
  * so that nothing has to move far. */
-#include "points/pointset/relax/transport.h"
+#include "points/pointset/relax/relaxation.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/pointset/relax/power_diagram.h"
 #include "points/pointset/sets.h"
 
 enum {

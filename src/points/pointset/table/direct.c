@@ -1,8 +1,7 @@
 /* The direct generators: a set on the stack, with the generator's own data where it needs any. */
 #include <math.h>
 
-#include "points/pointset/generators/lattice.h"
-#include "points/pointset/generators/recurrence.h"
+#include "points/pointset/generators/golden.h"
 #include "points/pointset/sets.h"
 
 /* `size` 0 stands for as many points as the set has at most. */

@@ -1,4 +1,4 @@
-#include "points/quadrature/exact/basis.h"
+#include "points/quadrature/exact/transform.h"
 
 #include <math.h>
 #include <stdlib.h>

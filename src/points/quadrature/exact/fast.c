@@ -6,8 +6,6 @@
 
 #include "points/base/parallel.h"
 #include "points/base/vector.h"
-#include "points/quadrature/exact/fourier.h"
-#include "points/quadrature/exact/window.h"
 
 enum { WIDTH = AUR_WINDOW_WIDTH, BAND = 64, LANE = 16 };
 

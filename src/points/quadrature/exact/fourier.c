@@ -1,4 +1,4 @@
-#include "points/quadrature/exact/fourier.h"
+#include "points/quadrature/exact/fast.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "points/quadrature/exact/window.h"
+#include "points/quadrature/exact/fast.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "points/quadrature/linear/cholesky.h"
+#include "points/quadrature/linear/solve.h"
 
 /* The doubles of a register, and how many rows a tile of `subtract` has. */
 #if AUR_KERNEL_WIDE && defined(__AVX512F__)

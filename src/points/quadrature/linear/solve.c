@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "points/base/memory.h"
-#include "points/quadrature/linear/cholesky.h"
 
 aur_result aur_check_system_size(size_t size, aur_error *error) {
     const double needed = (double)size * (double)size * sizeof(double);

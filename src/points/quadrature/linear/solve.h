@@ -1,9 +1,11 @@
 /* Symmetric positive definite systems, on one thread. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "points/base/error.h"
+#include "points/base/simd.h"
 
 /* Solves matrix * X = right, in place. `matrix` (size * size, row major) is read on and below its diagonal
  * and destroyed there; `right` holds `columns` vectors one after another. *condition, unless NULL, gets an
@@ -18,3 +20,30 @@ double aur_hold_sum(size_t size, double *solution, const double *ones);
 /* Refuses a system of that size when its matrix is larger than the machine's memory, saying how much it
  * takes. */
 aur_result aur_check_system_size(size_t size, aur_error *error);
+
+/* The Cholesky factorisation K = L L^T of symmetric positive definite matrices, row by row in memory.
+ *
+ * Every entry is what the plain algorithm gives, L_ij = (K_ij - L_i0 L_j0 - L_i1 L_j1 - ...) / L_jj, with its
+ * terms subtracted one by one in this order, without contraction, and the division done as a product with
+ * 1 / L_jj. Blocks, widths of registers and instruction sets change only which entries are worked on at one
+ * time, so the bits are the same on every processor. */
+
+typedef struct aur_cholesky {
+    /* Replaces matrix[size * size], read on and below its diagonal, by L; inverse[size] gets the reciprocals
+     * of L's diagonal, and work has room for aur_cholesky_work(size) doubles. What stands above the diagonal
+     * is lost. False when the matrix is not positive definite. */
+    bool (*factor)(size_t size, double *matrix, double *inverse, double *work);
+    /* Solves K X = right in place, for `columns` vectors one after another. */
+    void (*solve)(size_t size, const double *matrix, const double *inverse, size_t columns, double *right);
+} aur_cholesky;
+
+AUR_KERNELS(const aur_cholesky, aur_cholesky);
+
+/* Columns are factored so many at a time, within blocks of so many. */
+enum { AUR_CHOLESKY_NARROW = 16, AUR_CHOLESKY_WIDE = 128 };
+
+/* Strips of the widest tile, as deep as the widest block of columns. */
+static inline size_t aur_cholesky_work(size_t size) {
+    return (size + AUR_CHOLESKY_NARROW) *
+           (size > AUR_CHOLESKY_WIDE ? AUR_CHOLESKY_WIDE : AUR_CHOLESKY_NARROW);
+}

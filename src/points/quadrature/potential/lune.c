@@ -1,4 +1,4 @@
-#include "points/quadrature/potential/lune.h"
+#include "points/quadrature/potential/potential.h"
 
 #include <math.h>
 

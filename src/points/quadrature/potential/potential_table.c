@@ -1,4 +1,4 @@
-#include "points/quadrature/potential/potential_table.h"
+#include "points/quadrature/potential/potential.h"
 
 #include <math.h>
 #include <stdlib.h>

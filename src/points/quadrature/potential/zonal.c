@@ -1,5 +1,5 @@
 /* Legendre series of the kernel and of cos^m; see docs/papers/marques-2018.md for the derivation. */
-#include "points/quadrature/potential/zonal.h"
+#include "points/quadrature/potential/potential.h"
 
 #include <aureole/quadrature.h>
 #include <math.h>

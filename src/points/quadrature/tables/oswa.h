@@ -5,7 +5,6 @@
 #include <stdbool.h>
 
 #include "points/quadrature/potential/potential.h"
-#include "points/quadrature/potential/potential_table.h"
 
 /* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
 struct aur_oswa {

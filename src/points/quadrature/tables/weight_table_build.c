@@ -1,10 +1,14 @@
 /* Building tables of OSWA weights: where samples cross the horizon, and the solves at both sides. */
+
+#include <inttypes.h>
 #include <math.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "points/base/bytes.h"
+#include "points/base/cache_file.h"
 #include "points/base/parallel.h"
 #include "points/quadrature/tables/weight_table.h"
 
@@ -299,6 +303,29 @@ aur_result aur_weight_table_build(const aur_oswa_options *options, const aur_wei
     if (result != AUR_OK) {
         aur_weight_table_destroy(*table);
         *table = NULL;
+    }
+    return result;
+}
+
+static const char cache_kind[] = "weights";
+
+aur_result aur_weight_table_find(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                 size_t threads, const aur_progress *progress, aur_weight_table **table,
+                                 aur_error *error) {
+    char key[AUR_WEIGHT_TABLE_KEY_CAPACITY];
+    const uint64_t identity = aur_build_identity();
+    const bool keeps = identity != 0 && aur_weight_table_key(options, grid, identity, key) == AUR_OK;
+    size_t size = 0;
+    void *data = keeps ? aur_cache_file_read(cache_kind, key, &size) : NULL;
+    const bool found =
+        data != NULL && aur_weight_table_parse("cache", size, data, options, table, NULL) == AUR_OK;
+    free(data);
+    if (found)
+        return AUR_OK;
+    const aur_result result = aur_weight_table_build(options, grid, threads, progress, table, error);
+    if (result == AUR_OK && keeps && aur_weight_table_print(*table, &size, &data, NULL) == AUR_OK) {
+        aur_cache_file_write(cache_kind, key, size, data);
+        free(data);
     }
     return result;
 }

@@ -10,7 +10,7 @@
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
 #include "points/quality/rotations/rotations.h"
-#include "points/sphere/nearest/tree.h"
+#include "points/sphere/nearest/inverse.h"
 #include "points/sphere/quaternion.h"
 
 /* The first polyhedron's half side, as a tangent: almost 90 degrees. */

@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/quadrature/exact/fourier.h"
-#include "points/quadrature/exact/window.h"
+#include "points/quadrature/exact/fast.h"
 
 enum { WIDTH = AUR_WINDOW_WIDTH, BAND = 64, FEWEST = 1024 };
 

@@ -1,6 +1,5 @@
 /* Power spectra: how a set of points looks to waves of each frequency. A random set has the power 1
  * everywhere on average. The angular spectrum is in spectrum_sphere.c. */
-#include "points/quality/spectrum/spectrum.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,10 +5,9 @@
 
 #include "points/base/error.h"
 #include "points/base/vector.h"
-#include "points/quadrature/exact/basis.h"
+#include "points/quadrature/exact/transform.h"
 #include "points/quality/spectrum/gridded.h"
-#include "points/quality/spectrum/spectrum.h"
-#include "points/quality/split/powers.h"
+#include "points/quality/split/split.h"
 
 enum {
     BLOCK = 128,

@@ -8,7 +8,7 @@
  * (v.x) sin t >= 0, which is half a turn. Of three points two have indices of the same parity, so that such
  * pairs are enough. The entrances and exits are counted in bins of t, which bounds from above what any event
  * in a bin can give; only caps that could beat the best one so far are looked at point by point. */
-#include "points/quality/sphere/cap.h"
+#include "points/quality/sphere/voronoi.h"
 
 #include <math.h>
 #include <stdatomic.h>

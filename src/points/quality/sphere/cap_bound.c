@@ -4,7 +4,7 @@
 
 #include "points/base/error.h"
 #include "points/base/vector.h"
-#include "points/quality/sphere/cap.h"
+#include "points/quality/sphere/voronoi.h"
 
 static int highest_first(const void *a, const void *b) {
     const aur_height *const p = a;

@@ -1,6 +1,6 @@
 /* A fan of triangles about the pole, one for each side of the polygon, with signs: of each the part within
  * the rim is a triangle where the side is within it, else a sector of the cap. */
-#include "points/quality/sphere/cap_part.h"
+#include "points/quality/sphere/voronoi.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "points/quality/sphere/cell.h"
+#include "points/quality/sphere/voronoi.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,9 +2,8 @@
 #include <math.h>
 
 #include "points/base/vector.h"
+#include "points/quality/measure.h"
 #include "points/quality/rotations/rotations.h"
-#include "points/quality/spacing.h"
-#include "points/quality/sphere/cap_part.h"
 #include "points/quality/sphere/voronoi.h"
 
 /* Radians. */

@@ -7,7 +7,6 @@
 #include "points/quality/pairs/pair_sum.h"
 #include "points/quality/rotations/rotations.h"
 #include "points/quality/sphere/fibonacci_sum.h"
-#include "points/quality/sphere/hemisphere.h"
 #include "points/quality/split/split.h"
 
 /* From here on the sum by lags is faster than that over pairs. */

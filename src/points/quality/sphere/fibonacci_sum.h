@@ -12,3 +12,14 @@ int aur_is_spherical_fibonacci(const aur_points_view *points);
  * sphere or (the first half of a set of 2 * count) on the hemisphere. */
 aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur_measure_options *options,
                                       aur_twofold *sum, aur_error *error);
+
+/* Mean distances on the hemisphere. */
+
+/* The mean distance from a point of the unit sphere with height z, -1 <= z <= 1, to the hemisphere z >= 0; to
+ * the last bits. */
+double aur_hemisphere_potential(double z);
+
+/* The mean distance of two points of the hemisphere, 32 / (9 pi), to twice the precision. */
+static inline aur_twofold aur_hemisphere_mean_distance(void) {
+    return (aur_twofold){1.1317684842090334, 7.806110843826092e-17};
+}

@@ -4,7 +4,6 @@
 #include "points/base/error.h"
 #include "points/quality/pairs/pair_sum.h"
 #include "points/quality/rotations/rotations.h"
-#include "points/quality/split/kernel.h"
 #include "points/quality/split/split.h"
 
 /* In distances by the widest vectors. */

@@ -1,4 +1,4 @@
-#include "points/quality/sphere/sphere_grid.h"
+#include "points/quality/sphere/voronoi.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,9 +8,6 @@
 #include "points/base/array.h"
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
-#include "points/quality/sphere/cap_part.h"
-#include "points/quality/sphere/cell.h"
-#include "points/quality/sphere/sphere_grid.h"
 
 /* A point and two directions across it: the frame of its cell. */
 typedef struct cell_frame {

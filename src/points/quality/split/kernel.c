@@ -1,4 +1,4 @@
-#include "points/quality/split/kernel.h"
+#include "points/quality/split/split.h"
 
 #include <math.h>
 #include <stdbool.h>

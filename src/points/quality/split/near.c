@@ -1,4 +1,4 @@
-#include "points/quality/split/near.h"
+#include "points/quality/split/split.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The rest of the kernel at a row of points: eight running sums, so
  * that the bits do not depend on how wide the registers are. */
 #include "points/base/simd_lanes.h"
-#include "points/quality/split/near.h"
+#include "points/quality/split/split.h"
 
 enum { SUMS = 8, PARTS = SUMS / AUR_LANES };
 

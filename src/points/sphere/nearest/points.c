@@ -7,7 +7,7 @@
 #include "points/base/options.h"
 #include "points/base/parallel.h"
 #include "points/pointset/points.h"
-#include "points/sphere/nearest/tree.h"
+#include "points/sphere/nearest/inverse.h"
 
 enum { MOST_DIMENSIONS = 8, QUERIES_PER_ITEM = 256 };
 

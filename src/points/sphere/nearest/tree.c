@@ -1,4 +1,4 @@
-#include "points/sphere/nearest/tree.h"
+#include "points/sphere/nearest/inverse.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /* Quadrature of the sphere with octahedral symmetry and positive weights (Lebedev 1976), about a third fewer
  * points than plain means of the same degree need. scripts/lebedev_table.py solves for the orbits. */
-#include "points/sphere/sets/lebedev.h"
+#include "points/sphere/sets/reference.h"
 
 #include <stdlib.h>
 #include <string.h>

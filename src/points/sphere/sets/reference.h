@@ -14,3 +14,16 @@ typedef struct aur_reference {
 aur_result aur_reference_find(const char *set, size_t size, const aur_reference *references,
                               const aur_native_request *request, const aur_reference **found,
                               aur_error *error);
+
+/* The table of Lebedev's rules by their orbits. */
+
+enum { AUR_LEBEDEV_COUNT = 10 };
+
+/* Their rows are orbits. */
+extern const aur_reference aur_lebedev_rules[AUR_LEBEDEV_COUNT];
+
+/* The table of symmetric spherical designs: each of its points and the opposite. */
+
+enum { AUR_T_DESIGN_COUNT = 13 };
+
+extern const aur_reference aur_t_designs[AUR_T_DESIGN_COUNT];

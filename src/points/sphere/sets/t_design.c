@@ -1,7 +1,7 @@
 /* Symmetric spherical t-designs (Delsarte, Goethals and Seidel 1977; Womersley 2018): points whose plain mean
  * is exact for polynomials up to degree t. scripts/t_design_table.py solves for them. The second half of the
  * points are the opposites of the first. */
-#include "points/sphere/sets/t_design.h"
+#include "points/sphere/sets/reference.h"
 
 #include <stdlib.h>
 

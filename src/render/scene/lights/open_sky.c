@@ -1,4 +1,4 @@
-#include "render/scene/lights/open_sky.h"
+#include "render/scene/lights/sky_model.h"
 
 #include <aureole/text.h>
 #include <stdlib.h>

@@ -4,6 +4,8 @@
 
 #include "points/base/error.h"
 #include "points/base/internal.h"
+#include "render/scene/lights/sun_position.h"
+#include "render/scene/scene.h"
 
 /* The radiance of a direction, but for a factor, is
  *
@@ -55,3 +57,20 @@ AUR_INTERNAL double aur_sky_model_indicatrix(const aur_sky_model *sky, double an
 /* The irradiance of the sky on the horizontal plane: the integral of its radiance times cos Z, to 1e-10 of
  * it where the formula is nowhere below 0. */
 double aur_sky_model_irradiance(const aur_sky_model *sky);
+
+/* A scene under a sky of the same radiance everywhere, in the place of all its lights: from it come daylight
+ * coefficients. */
+
+/* A view of another scene, which must outlive it. */
+typedef struct aur_open_sky {
+    const aur_scene *scene; /* what rays are to be traced in: the sky is its only light */
+    aur_sun_position frame; /* where up, north and east are; without a sun */
+    size_t lamps;           /* lights of the scene that are left out but for those beyond it */
+} aur_open_sky;
+
+/* The radiance is 1 above the horizon and `ground` below. `up` and `north` all 0: those of the scene's sky;
+ * where it has none, +z and +y for scenes of Radiance, else +y and -z. Errors: FORMAT (directions that are
+ * 0 or lie along each other), MEMORY. */
+AUR_INTERNAL aur_result aur_open_sky_create(const aur_scene *scene, double ground, const double up[3],
+                                            const double north[3], aur_open_sky *open, aur_error *error);
+AUR_INTERNAL void aur_open_sky_release(aur_open_sky *open); /* may be zero */

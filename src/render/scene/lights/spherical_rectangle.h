@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 #include "points/base/simd.h"
-#include "render/scene/bilinear.h"
 #include "render/scene/packet.h"
+#include "render/scene/patches.h"
 
 typedef struct aur_rectangle {
     aur_vector corner, x, y; /* x and y: unit, along the edges, perpendicular */

@@ -1,9 +1,9 @@
 /* The arithmetic of spherical rectangles for one point, without branches and calls, so that loops over it
  * become vector code. Plain operations in one order without contraction: every instruction set gives the same
  * bits. */
-#include "render/scene/bilinear.h"
 #include "render/scene/lights/arcs.h"
 #include "render/scene/lights/spherical_rectangle.h"
+#include "render/scene/patches.h"
 
 /* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */
 static inline float rectangle_part(float x) {

@@ -1,7 +1,9 @@
 /* The walk from the tree of elements to the objects of a scene, and what builds an object of each kind. */
 #pragma once
 
+#include "points/base/parameters.h"
 #include "render/image/image.h"
+#include "render/scene/importers/xml/xml.h"
 #include "render/scene/scene_data.h"
 
 typedef struct aur_loader aur_loader;
@@ -56,3 +58,19 @@ aur_object_builder aur_build_bsdf, aur_build_texture, aur_build_emitter, aur_bui
 aur_object_builder aur_build_medium, aur_build_phase, aur_build_volume;
 aur_object_builder aur_build_film, aur_build_filter, aur_build_sampler, aur_build_sensor;
 aur_object_builder aur_build_integrator;
+
+/* Property elements (<float>, <rgb>, <transform>, ...) of an object's node become its parameters. */
+
+/* Whether a tag is a property's. */
+bool aur_xml_is_property(const char *tag);
+
+/* Adds the property that the node is. */
+aur_result aur_loader_add_property(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters);
+
+/* <transform> elements. */
+
+/* Adds the transform that a node's steps make, one after another. */
+aur_result aur_xml_add_transform(const aur_xml_node *node, aur_parameters *parameters, aur_error *error);
+
+/* Reads three numbers from `value`, or from x, y, z; those that are not given become `missing`. */
+aur_result aur_xml_read_triple(const aur_xml_node *node, double missing, double triple[3], aur_error *error);

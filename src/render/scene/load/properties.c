@@ -1,4 +1,4 @@
-#include "render/scene/load/properties.h"
+#include "render/scene/load/loader.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +6,6 @@
 
 #include "points/base/text.h"
 #include "render/scene/load/spectrum.h"
-#include "render/scene/load/transforms.h"
 
 typedef struct property {
     aur_xml_rule rule;

@@ -4,7 +4,6 @@
 
 #include "points/base/array.h"
 #include "render/scene/load/loader.h"
-#include "render/scene/load/properties.h"
 
 /* The type of instances. Their objects are an aur_instance and those of groups an aur_shape_group, not an
  * aur_shape. */

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "render/scene/load/loader.h"
-#include "render/scene/load/properties.h"
 #include "render/scene/load/spectrum.h"
 
 static const aur_object_kind kinds[] = {

@@ -1,4 +1,4 @@
-#include "render/scene/load/transforms.h"
+#include "render/scene/load/loader.h"
 
 #include <math.h>
 #include <string.h>

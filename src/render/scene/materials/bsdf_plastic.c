@@ -5,7 +5,7 @@
  * once.
  */
 #include "render/scene/materials/fresnel.h"
-#include "render/scene/materials/rough_coat.h"
+#include "render/scene/materials/microfacet.h"
 #include "render/scene/materials/sampling.h"
 #include "render/scene/materials/texture.h"
 

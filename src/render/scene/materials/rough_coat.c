@@ -1,4 +1,4 @@
-#include "render/scene/materials/rough_coat.h"
+#include "render/scene/materials/microfacet.h"
 
 #include "points/base/gauss.h"
 #include "render/scene/materials/fresnel.h"

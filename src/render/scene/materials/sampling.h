@@ -64,3 +64,9 @@ static inline aur_vector aur_mirror(aur_vector direction) {
 static inline float aur_luminance(aur_vector color) {
     return 0.212671f * color.x + 0.715160f * color.y + 0.072169f * color.z;
 }
+
+/* The inverse of the error function, for drawing from Gaussians. */
+
+/* x with erf(x) = y for -1 < y < 1, to a few parts in 10^7 (Giles 2012, "Approximating the erfinv function",
+ * single precision). */
+float aur_inverse_erf(float y);

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "render/image/channels.h"
+#include "render/image/format.h"
 #include "render/scene/materials/texture.h"
 
 typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;

@@ -1,4 +1,4 @@
-#include "render/scene/importers/meshes/corner_tree.h"
+#include "render/scene/importers/meshes/ring.h"
 
 #include <math.h>
 #include <stdlib.h>

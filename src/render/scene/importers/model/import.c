@@ -9,8 +9,6 @@
 #include "points/base/module.h"
 #include "points/base/ranks.h"
 #include "render/scene/importers/model/named_files.h"
-#include "render/scene/importers/model/node_records.h"
-#include "render/scene/importers/model/surroundings.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
 

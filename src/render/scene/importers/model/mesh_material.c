@@ -1,4 +1,4 @@
-#include "render/scene/importers/model/mesh_material.h"
+#include "render/scene/importers/model/import.h"
 
 #include <math.h>
 #include <stdlib.h>

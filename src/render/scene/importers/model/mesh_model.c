@@ -1,4 +1,4 @@
-#include "render/scene/importers/model/mesh_model.h"
+#include "render/scene/importers/model/import.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,8 +6,6 @@
 #include <string.h>
 
 #include "points/base/array.h"
-#include "render/scene/importers/model/mesh_material.h"
-#include "render/scene/importers/model/surroundings.h"
 
 typedef struct mesh_model {
     const aur_model_source *source;

@@ -7,7 +7,6 @@
 #include "points/base/names.h"
 #include "points/base/text.h"
 #include "render/scene/importers/model/import.h"
-#include "render/scene/importers/model/mesh_model.h"
 
 /* Of what assimp reads, the forms that others than their own program write. */
 bool aur_model_is_name(const char *path) {

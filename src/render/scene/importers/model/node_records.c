@@ -1,4 +1,4 @@
-#include "render/scene/importers/model/node_records.h"
+#include "render/scene/importers/model/import.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "render/scene/importers/model/surroundings.h"
+#include "render/scene/importers/model/import.h"
 
 #include <math.h>
 #include <string.h>
