@@ -59,19 +59,38 @@ static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_samp
 
 enum { PAIR_LIGHT = 0, PAIR_POSITION = 1, PAIR_DIRECTION = 2, PAIR_BOUNCE = 3, PAIRS_A_BOUNCE = 2 };
 
+static bool emit(const batch *work, const aur_stream *stream, aur_ray *ray, aur_vector *power) {
+    float light[2], position[2], direction[2];
+    aur_stream_pair(stream, PAIR_LIGHT, light);
+    aur_stream_pair(stream, PAIR_POSITION, position);
+    aur_stream_pair(stream, PAIR_DIRECTION, direction);
+    return aur_light_emit(work->scene,
+                          (const float[5]){light[0], position[0], position[1], direction[0], direction[1]},
+                          ray, power);
+}
+
+/* A photon that arrives from `in`, seen by `parts` of the material; false: no memory. */
+static bool arrive(const batch *work, const aur_hit *hit, const aur_surface *surface, aur_vector in,
+                   aur_vector power, unsigned parts, photon_chunk *chunk) {
+    const float side = aur_vector_dot(surface->geometric_normal, in);
+    aur_photon photon = {.position = surface->position,
+                         .normal = aur_vector_scale(surface->geometric_normal, side < 0 ? -1.0f : 1.0f),
+                         .direction = in,
+                         .power = power,
+                         .element = aur_element_of(work->elements, hit),
+                         .behind = side < 0.0f,
+                         .glossy = (parts & AUR_SCATTERS_GLOSSY) != 0};
+    aur_element_coordinates(work->scene, hit, surface, photon.coordinates);
+    return !aur_vector_is_finite(power) || store(chunk, photon);
+}
+
 static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
     const aur_stream stream = {work->sampler,
                                aur_hash3(work->options->seed, 0x70686f746f6e, path / work->paths_a_set),
                                (uint32_t)(path % work->paths_a_set)};
-    float light[2], position[2], direction[2];
-    aur_stream_pair(&stream, PAIR_LIGHT, light);
-    aur_stream_pair(&stream, PAIR_POSITION, position);
-    aur_stream_pair(&stream, PAIR_DIRECTION, direction);
     aur_ray ray;
     aur_vector power;
-    if (!aur_light_emit(work->scene,
-                        (const float[5]){light[0], position[0], position[1], direction[0], direction[1]},
-                        &ray, &power))
+    if (!emit(work, &stream, &ray, &power))
         return true;
     const bool unlimited = work->options->max_edges > LONGEST_PATH;
     const size_t limit = unlimited ? LONGEST_PATH : work->options->max_edges;
@@ -85,24 +104,13 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         aur_scene_surface(work->scene, &ray, &hit, &surface);
         const aur_vector in = aur_vector_scale(ray.direction, -1.0f);
         const aur_shading shading = aur_shading_at(&surface, in);
-        const float side = aur_vector_dot(surface.geometric_normal, in);
         /* Gather rays go on by the other lobes, and ask for no photons. */
         const unsigned parts = aur_bsdf_scatters(surface.bsdf, shading.view.z) &
                                (unsigned)(AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY);
         const bool is_caustic = specular_so_far && edge > 1;
-        if (parts != 0 && (kind == AUR_PHOTONS_ALL || is_caustic == (kind == AUR_PHOTONS_CAUSTIC))) {
-            aur_photon photon = {.position = surface.position,
-                                 .normal =
-                                     aur_vector_scale(surface.geometric_normal, side < 0 ? -1.0f : 1.0f),
-                                 .direction = in,
-                                 .power = power,
-                                 .element = aur_element_of(work->elements, &hit),
-                                 .behind = side < 0.0f,
-                                 .glossy = (parts & AUR_SCATTERS_GLOSSY) != 0};
-            aur_element_coordinates(work->scene, &hit, &surface, photon.coordinates);
-            if (aur_vector_is_finite(power) && !store(chunk, photon))
-                return false;
-        }
+        if (parts != 0 && (kind == AUR_PHOTONS_ALL || is_caustic == (kind == AUR_PHOTONS_CAUSTIC)) &&
+            !arrive(work, &hit, &surface, in, power, parts, chunk))
+            return false;
         const uint32_t pair = PAIR_BOUNCE + PAIRS_A_BOUNCE * (uint32_t)(edge - 1);
         float lobe[2], towards[2];
         aur_stream_pair(&stream, pair, lobe);
