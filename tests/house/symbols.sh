@@ -35,7 +35,7 @@ sed -n 's/@@AUREOLE_[A-Z_]*PRIVATE_.*//p' aureole-render.txt aureole-lighting.tx
 # Every struct of options has a function that fills its defaults, which bindings can call: no inline code does.
 while read -r name; do
   grep -qrE "\b${name}_init\(" "$source_tree/include" || { echo "no function fills $name"; status=1; }
-done < <(grep -rhoE '^typedef struct aur_[a-z0-9_]*_options\b' "$source_tree"/include/*/*.h | sed 's/.* //')
+done < <(grep -rhA1 -E '^typedef struct aur_[a-z0-9_]*_options\b' "$source_tree"/include/*/*.h | grep -B1 'size_t size;' | sed -n 's/^typedef struct \(aur_[a-z0-9_]*\).*/\1/p')
 grep -rnE '^static inline aur_.*_(default|options)\(' "$source_tree"/include/*/*.h && { echo "defaults in inline code"; status=1; }
 
 # Besides them the program does, which is a client of the public headers too, and the tests of two rooms.
