@@ -39,7 +39,10 @@ cat colours.rad a.rad b.rad >ab.rad
   cmp ab.csv three.csv || fail "facets of several files"
 # An XML scene goes on in a file of Radiance's.
 printf '<scene version="3.0.0"><emitter type="constant"/></scene>' >sky.xml
-"$aureole" irradiance -q sky.xml whole.rad --sensors points.pts -n 16 >/dev/null || fail "XML and .rad"
+"$aureole" irradiance -q sky.xml whole.rad --sensors points.pts -n 16 >sky.csv || fail "XML and .rad"
+# Materials of Radiance have no ids that a scene could have, too.
+printf '<scene version="3.0.0"><emitter type="constant"/><bsdf type="diffuse" id="m0"/></scene>' >sky.xml
+"$aureole" irradiance -q sky.xml whole.rad --sensors points.pts -n 16 | cmp - sky.csv || fail "an id of XML changes .rad"
 
 printf 'white polygon p 0 0 10 0 0 0 1 0 0 2 0 0 1\n' >bad.rad
 refused "bad.rad:1: " irradiance colours.rad lamp.rad bad.rad --sensors points.pts

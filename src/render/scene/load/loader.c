@@ -79,6 +79,9 @@ static const char *id_at(const void *ids, size_t index) {
 
 static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur_xml_node **target) {
     static const aur_xml_rule rule = {"ref", 1, {"id", "name"}};
+    *target = node->target;
+    if (node->target != NULL)
+        return AUR_OK;
     const aur_result result = aur_xml_check(node, &rule, self->error);
     if (result != AUR_OK)
         return result;

@@ -175,6 +175,12 @@ void aur_node_numbers(aur_nodes *nodes, aur_xml_node *parent, const char *tag, c
     aur_node_set_numbers(nodes, node, "value", count, numbers);
 }
 
+void aur_node_refer(aur_nodes *nodes, aur_xml_node *parent, aur_xml_node *target) {
+    aur_xml_node *const node = aur_node_add(nodes, parent, "ref");
+    if (node != NULL)
+        node->target = target;
+}
+
 const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *otherwise) {
     const char *value = NULL;
     if (nodes->result == AUR_OK)

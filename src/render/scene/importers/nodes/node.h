@@ -22,6 +22,7 @@ struct aur_xml_node {
     size_t attribute_count, attribute_capacity;
     aur_xml_attribute *attributes;
     aur_xml_node *first_child, *last_child, *next;
+    aur_xml_node *target; /* of a <ref> without an id: aur_node_refer */
     /* The loader's: what the node has become. */
     aur_xml_state state;
     void *object;
@@ -103,5 +104,7 @@ void aur_node_set(aur_nodes *nodes, aur_xml_node *node, const char *name, const 
     AUR_PRINTF(4, 5);
 void aur_node_set_numbers(aur_nodes *nodes, aur_xml_node *node, const char *name, size_t count,
                           const double *numbers);
+/* <ref> to another node. */
+void aur_node_refer(aur_nodes *nodes, aur_xml_node *parent, aur_xml_node *target);
 /* The value of $name: that of -D, or of a <default> above, or else `otherwise`; NULL after a failure. */
 const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *otherwise);

@@ -144,10 +144,11 @@ static aur_result read_material(aur_rad *self, const aur_rad_primitive *item) {
     aur_result result = need_void(self, item);
     if (result != AUR_OK)
         return result;
-    aur_rad_material material = {.name = item->name, .row = item->row, .id = self->scene->bsdf_count++};
+    aur_rad_material material = {.name = item->name, .row = item->row};
     for (size_t i = 0; i < 3; ++i)
         material.radiance[i] = item->numbers[i];
     result = item->row->add(self, item, &material);
+    material.bsdf = self->parent->last_child;
     return result == AUR_OK ? add_material(self, material) : result;
 }
 

@@ -12,7 +12,7 @@ bool aur_rad_is_name(const char *path);
 typedef struct aur_rad_material aur_rad_material;
 typedef struct aur_rad_scene {
     aur_arena *arena; /* of names */
-    size_t material_count, material_capacity, bsdf_count;
+    size_t material_count, material_capacity;
     aur_rad_material *materials;
     const aur_warnings *warnings;
     aur_error *left_out; /* the last thing that is not read; those before it have been warned of */

@@ -25,7 +25,7 @@ typedef struct aur_rad_primitive {
 struct aur_rad_material {
     aur_rad_word name; /* its text is in the scene's arena */
     const aur_rad_row *row;
-    size_t id; /* its <bsdf> is m0, m1, ... */
+    aur_xml_node *bsdf; /* of those that do not emit */
     double radiance[3];
     /* In the scene's arena, where the material is not supported: the error of the first surface that uses it.
      */

@@ -12,7 +12,7 @@
 static aur_result add_material(aur_rad *self, aur_xml_node *shape, const aur_rad_material *material) {
     aur_nodes *const nodes = self->nodes;
     if (!material->row->emits)
-        aur_node_set(nodes, aur_node_add(nodes, shape, "ref"), "id", "m%zu", material->id);
+        aur_node_refer(nodes, shape, material->bsdf);
     else
         aur_node_numbers(nodes, aur_node_object(nodes, shape, "emitter", "area"), "rgb", "radiance", 3,
                          material->radiance);
@@ -103,23 +103,18 @@ static aur_result add_source(aur_rad *self, const aur_rad_primitive *item, const
 
 /* --- materials */
 
-static aur_xml_node *add_bsdf(aur_rad *self, const char *type, const aur_rad_material *material) {
-    aur_xml_node *const bsdf = aur_node_object(self->nodes, self->parent, "bsdf", type);
-    aur_node_set(self->nodes, bsdf, "id", "m%zu", material->id);
-    return bsdf;
-}
-
 static aur_result add_diffuse(aur_rad *self, const aur_rad_primitive *item,
                               const aur_rad_material *material) {
     const double *const x = item->numbers;
+    (void)material;
     if (x[3] != 0.0)
         return aur_rad_fail(
             self, item->type.line, AUR_ERROR_UNSUPPORTED,
             "%.*s: a specularity of %g is not read: Radiance's model of it is none of ours; 0 is "
             "exact",
             (int)item->type.length, item->type.text, x[3]);
-    aur_xml_node *const diffuse =
-        aur_node_object(self->nodes, add_bsdf(self, "twosided", material), "bsdf", "diffuse");
+    aur_xml_node *const diffuse = aur_node_object(
+        self->nodes, aur_node_object(self->nodes, self->parent, "bsdf", "twosided"), "bsdf", "diffuse");
     aur_node_numbers(self->nodes, diffuse, "rgb", "reflectance", 3, x);
     return self->nodes->result;
 }
@@ -127,7 +122,8 @@ static aur_result add_diffuse(aur_rad *self, const aur_rad_primitive *item,
 static aur_result add_glass(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material) {
     const double *const x = item->numbers;
     aur_nodes *const nodes = self->nodes;
-    aur_xml_node *const glass = add_bsdf(self, "glass", material);
+    aur_xml_node *const glass = aur_node_object(nodes, self->parent, "bsdf", "glass");
+    (void)material;
     aur_node_property(nodes, glass, "float", "int_ior", "%.17g", item->number_count > 3 ? x[3] : 1.52);
     aur_node_property(nodes, glass, "float", "ext_ior", "1");
     aur_node_numbers(nodes, glass, "rgb", "transmissivity", 3, x);
