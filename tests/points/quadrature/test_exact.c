@@ -563,7 +563,8 @@ static void searches_tell(void **state) {
     assert_non_null(weights);
     for (int k = 0; k < 2; ++k) {
         double *const xyz = points_of(sets[k], N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
-        aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+        aur_exact_options options = {.size = sizeof options};
+        aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
         search_progress seen = {0};
         options.threads = 1;
         options.progress = (aur_progress){.function = follow_search, .user = &seen};

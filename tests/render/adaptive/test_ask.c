@@ -219,7 +219,8 @@ static void test_unknown_progress(void **state) {
     aur_render_options options = small(1);
     options.integrator = "finalgather:photons=2000,diffuse_samples=8,glossy_samples=4";
     options.progress = (aur_progress){keep_progress, &record};
-    aur_ask_options wish = aur_ask_options_default();
+    aur_ask_options wish = {.size = sizeof wish};
+    aur_ask_options_init(&wish, NULL);
     wish.error = 0.06;
     assert_int_equal(aur_ask_create(f->renderer, &options, &wish, &record.asked, NULL), AUR_OK);
     assert_int_equal(aur_ask_run(record.asked, NULL), AUR_OK);
