@@ -120,7 +120,6 @@ static aur_result create(aur_parameters *parameters, const aur_gather_integrator
     source from = {.context = context};
     const aur_row *row;
     *integrator = NULL;
-    aur_parameters_ignore(parameters, &aur_integrator_table, context != NULL ? &context->warnings : NULL);
     aur_result result = find(parameters, gather, &row, error);
     if (result != AUR_OK)
         return result;
@@ -130,6 +129,7 @@ static aur_result create(aur_parameters *parameters, const aur_gather_integrator
     } else {
         result = refuse_moved(((const aur_integrator_descriptor *)row)->moved, parameters, error);
     }
+    aur_parameters_ignore(parameters, row, context != NULL ? &context->warnings : NULL);
     return result == AUR_OK ? aur_plugin_create_row(&kind, row, parameters, &from, integrator, error)
                             : result;
 }

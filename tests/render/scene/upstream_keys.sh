@@ -62,6 +62,10 @@ grep -q "shape 'disk' has no 'shutter_open'" wrong.said || { cat wrong.said; exi
 "$aureole" render without.xml --spp 2 --width 6 --integrator path:strict_normals=true -o strict.exr 2>strict.said || { cat strict.said; exit 1; }
 grep -q "integrator 'path': 'strict_normals' has no effect: it is always so" strict.said || { cat strict.said; exit 1; }
 "$aureole" render without.xml -q --spp 2 --width 6 --integrator ao:max_depth=4 -o strict.exr || exit 1
+for integrator in finalgather finalgather-lab; do
+  "$aureole" render without.xml -q --spp 2 --width 6 --integrator $integrator:photons=1000,max_depth=1 -o $integrator.exr || exit 1
+done
+cmp finalgather.exr finalgather-lab.exr || { echo "the lab's integrator does not read max_depth"; exit 1; }
 
 unknown="<float name='wzwzwzwzwzwz' value='1'/>"
 for body in "<shape type='serialized'><string name='filename' value='none'/>@</shape>" "<shape type='sphere'>@</shape>" \

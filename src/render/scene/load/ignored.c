@@ -69,20 +69,12 @@ static const aur_row *const rows[] = {KIND(integrator), KIND(bsdf),   KIND(textu
 const aur_table aur_ignored_table = {
     .kind = "ignored", .summary = "Mitsuba's parameters that do nothing here", AUR_TABLE_ROWS(rows)};
 
-static const aur_row *find_row(const aur_table *table, const char *name) {
-    for (size_t i = 0; i < table->count; ++i)
-        if (strcmp(table->rows[i]->name, name) == 0)
-            return table->rows[i];
-    return NULL;
-}
-
-void aur_parameters_ignore(aur_parameters *parameters, const aur_table *table, const aur_warnings *warnings) {
+void aur_parameters_ignore(aur_parameters *parameters, const aur_row *reader, const aur_warnings *warnings) {
     static const char start[] = "of no effect: ";
-    const aur_row *const names = find_row(&aur_ignored_table, table->kind);
-    const aur_row *const reader = find_row(table, parameters->plugin);
-    for (size_t i = 0; names != NULL && i < parameters->count; ++i) {
+    const size_t kind = aur_names_find(aur_names_of_table(&aur_ignored_table), parameters->kind);
+    for (size_t i = 0; kind < aur_ignored_table.count && i < parameters->count; ++i) {
         aur_parameter *const item = &parameters->items[i];
-        const aur_key *const key = aur_row_find_key(names, item->name);
+        const aur_key *const key = aur_row_find_key(rows[kind], item->name);
         if (key == NULL || (reader != NULL && aur_row_find_key(reader, item->name) != NULL))
             continue;
         item->used = true;

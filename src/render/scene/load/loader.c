@@ -173,8 +173,11 @@ aur_result aur_loader_build(aur_loader *self, aur_xml_node *node) {
     --self->depth;
     self->node = node;
     const aur_object_kind *const kind = aur_loader_find_kind(self, node->tag);
-    if (result == AUR_OK && kind->table != NULL)
-        aur_parameters_ignore(&parameters, kind->table, self->warnings);
+    const aur_row *row = NULL;
+    if (result == AUR_OK && kind->table != NULL) {
+        aur_table_find(kind->table, &parameters, &row, NULL); /* what is unknown is an error below */
+        aur_parameters_ignore(&parameters, row, self->warnings);
+    }
     if (result == AUR_OK)
         result = kind->build(self, &parameters, &node->object);
     aur_parameters_release(&parameters);
