@@ -101,18 +101,12 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
     return descriptor->create != NULL ? descriptor->create(parameters, &own, integrator, error) : AUR_OK;
 }
 
-static void release(void *object) {
-    aur_integrator *const integrator = object;
-    if (integrator->descriptor->release != NULL)
-        integrator->descriptor->release(integrator);
-}
-
 static const aur_plugin_kind kind = {.table = &aur_integrator_table,
                                      .size = sizeof(aur_integrator),
                                      .data = offsetof(aur_integrator, data),
                                      .data_size = offsetof(aur_integrator_descriptor, size),
                                      .fill = fill,
-                                     .release = release};
+                                     .release = aur_integrator_release};
 
 static aur_result create(aur_parameters *parameters, const aur_gather_integrator *gather,
                          const aur_integrator_context *context, aur_integrator **integrator,
@@ -145,8 +139,4 @@ aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_int
     const aur_result result = create(parameters, gather, NULL, &integrator, error);
     aur_integrator_destroy(integrator);
     return result;
-}
-
-void aur_integrator_destroy(aur_integrator *integrator) {
-    aur_plugin_destroy(&kind, integrator);
 }

@@ -122,4 +122,17 @@ aur_integrator_factory aur_integrator_create;
 aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
                                 aur_error *error);
 
-void aur_integrator_destroy(aur_integrator *integrator);
+/* Frees what its data point to. */
+static inline void aur_integrator_release(void *object) {
+    aur_integrator *const integrator = object;
+    if (integrator->descriptor->release != NULL)
+        integrator->descriptor->release(integrator);
+}
+
+static inline void aur_integrator_destroy(aur_integrator *integrator) {
+    if (integrator == NULL)
+        return;
+    aur_integrator_release(integrator);
+    free(integrator->data);
+    free(integrator);
+}
