@@ -20,17 +20,6 @@ static const char *depth_of(const aur_parameters *parameters) {
     return NULL;
 }
 
-/* What final gathering needs besides where nobody knows how many samples a pixel will have: patterns of few
- * samples, which their first samples cover too. */
-static const char *split_of(const char *wanted) {
-    static const char name[] = "finalgather";
-    const size_t length = sizeof name - 1;
-    if (strncmp(wanted, name, length) != 0 || strstr(wanted, "split=") != NULL ||
-        (wanted[length] != '\0' && wanted[length] != ':'))
-        return "";
-    return wanted[length] == ':' ? ",split=8" : ":split=8";
-}
-
 aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
                           aur_error *error) {
     const aur_parameters *const own = aur_scene_integrator(scene);
@@ -42,7 +31,7 @@ aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **int
     const char *const depth = wanted == NULL ? depth_of(own) : NULL;
     const char *const text = wanted != NULL ? wanted : aur_scene_has_media(scene) ? "volpath" : "path";
     const char *const key = depth != NULL ? ":max_depth=" : "";
-    const char *const more = wanted != NULL ? split_of(wanted) : depth != NULL ? depth : "";
+    const char *const more = depth != NULL ? depth : "";
     const size_t capacity = strlen(text) + strlen(key) + strlen(more) + 1;
     *integrator = malloc(capacity);
     if (*integrator == NULL)

@@ -11,7 +11,7 @@
 /* integrator->data are the options, which a caller's integrator may have more of. */
 static const aur_gather_settings initial = AUR_GATHER_SETTINGS_INITIAL;
 
-enum { MOST = 1 << 30 };
+enum { MOST = 1 << 30, UNKNOWN_SPLIT = 8 };
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "diffuse_samples", diffuse_samples, 1, MOST, "64",
@@ -91,6 +91,9 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     aur_gather_settings *const p = integrator->data;
     const aur_gather_method *method = integrator->gather != NULL ? integrator->gather->method : NULL;
     bool asked = false;
+    /* Of few samples, which its first ones cover too, where the final sample count is unknown. */
+    if (p->split == 0 && !aur_integrator_knows_samples(context))
+        p->split = UNKNOWN_SPLIT;
     aur_result result = aur_gather_settings_complete(p, error);
     if (result == AUR_OK && method != NULL)
         result = method->begin(p, context->warnings, &asked, error);

@@ -38,6 +38,10 @@ limit=4000000 # KiB; sanitizers reserve terabytes, and are not limited
 "$aureole" render "$scene" "${small[@]}" --integrator $gather,split=8 --rays 2e6 -o h.exr -t 3 -q
 cmp g.exr h.exr || fail "threads changed the picture, or the split is another one"
 
+# So does the lab's integrator.
+(ulimit -v $limit; "$aureole" render "$scene" "${small[@]}" --integrator finalgather-lab:${gather#*:} --rays 2e6 -o i.exr -t 2 -q) || fail "finalgather-lab"
+cmp g.exr i.exr || fail "the lab's integrator has another picture"
+
 # A picture that was chosen, or that a clock has ended, is made again by the command that is said.
 again() { # OPTION...
   "$aureole" render "$scene" "$@" -o c.exr 2> said

@@ -59,6 +59,13 @@ for key in map=lambert weights=oswa adaptive=true packets=false; do
 done
 edit 's/<integrator type="[^"]*">/<integrator type="finalgather"><string name="weights" value="osw"\/>/'
 expect 2 "bad.xml:[0-9]+:[0-9]+: .*has no 'weights' any more: it is a key of 'finalgather-lab'" bad.xml
+sed 's/type="finalgather"/type="finalgather-lab"/' bad.xml >lab.xml
+"$aureole" info lab.xml >lab.txt || fail "the lab's integrator in a scene: $(cat lab.txt)"
+for from in "lab.xml" "box.xml --integrator finalgather-lab:weights=osw"; do
+  # shellcheck disable=SC2086
+  "$aureole" render $from -q --width 8 --height 8 --spp 1 -o "${from%%.*}.exr" || fail "$from: render"
+done
+cmp lab.exr box.exr || fail "the lab's integrator has another image in a scene"
 expect 2 "diffuse_samples.*at least 1|diffuse_samples.*between 1" box.xml --integrator finalgather:diffuse_samples=0
 expect 2 "component.*one of all, diffuse, glossy" box.xml --integrator finalgather-lab:component=shiny
 expect 2 "spherical-fibonaci.*spherical-fibonacci" box.xml --integrator finalgather:pattern=spherical-fibonaci
