@@ -132,14 +132,9 @@ typedef struct aur_output {
  * number. */
 AUR_API size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride);
 
-/* Points first .. first+count-1 in any layout. Errors: ARGUMENT for a range beyond the set or an output that
- * contradicts itself, CAPACITY. */
-AUR_API aur_result aur_pointset_generate(const aur_pointset *pointset, uint64_t first, size_t count,
-                                         const aur_output *output, aur_error *error) AUR_NONNULL(1, 4);
-
-/* The same for some of the coordinates: dimension .. dimension + dimension_count - 1, as if the points had no
- * others. What a walk of many dimensions asks for, step by step. Errors: also ARGUMENT for a dimension beyond
- * the set. */
+/* Coordinates dimension .. dimension + dimension_count - 1 of the points first .. first+count-1 in any
+ * layout, as if the points had no others. Errors: ARGUMENT for a dimension or a range beyond the set or an
+ * output that contradicts itself, CAPACITY. */
 AUR_API aur_result aur_pointset_coordinates(const aur_pointset *pointset, size_t dimension,
                                             size_t dimension_count, uint64_t first, size_t count,
                                             const aur_output *output, aur_error *error) AUR_NONNULL(1, 6);
@@ -157,100 +152,11 @@ AUR_API aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t
 AUR_API double aur_pointset_coordinate(const aur_pointset *pointset, uint64_t index, size_t dimension)
     AUR_NONNULL(1);
 
-/* How a direct generator randomises its points; NULL or all zero: not at all. */
-typedef struct aur_randomization {
-    aur_scramble scramble;
-    uint64_t seed;
-} aur_randomization;
-
-/* Direct generators: the sets above without anything made ready, without allocation, from any thread. Points
- * first .. first+count-1, the same bits as the set of that name gives. Errors: ARGUMENT for a dimension,
- * size, range or parameter that the set does not have, UNSUPPORTED for a scrambling without meaning there,
- * CAPACITY. A size that is not a power of a net's base is no error: the net is then incomplete. */
-
-/* Each coordinate a hash of (seed, dimension, index). Any n and dimension. Error N^-1/2. */
-AUR_API aur_result aur_random_points(size_t dimension, uint64_t seed, uint64_t first, size_t count,
-                                     const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* x <- 16807 x modulo 2^31 - 1 (Park, Miller 1988), coordinate c of point i is x_{i d + c + 1} / (2^31 - 1),
- * x_0 = 1 for seed 0. n d <= 2^31 - 2. Error N^-1/2. */
-AUR_API aur_result aur_lcg_points(size_t dimension, uint64_t seed, uint64_t first, size_t count,
-                                  const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* x <- 9102 / x + 36884165 modulo 2^31 - 1 with 1/0 = 0 (Eichenauer, Lehn 1986), coordinate c of point i is
- * x_{i d + c} / (2^31 - 1), x_0 = 0 for seed 0. n d <= 2^31 - 1. Error N^-1/2. */
-AUR_API aur_result aur_icg_points(size_t dimension, uint64_t seed, uint64_t first, size_t count,
-                                  const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* One random point in each of `size` cells of equal area of the square (Cook 1986). size <= 2^40. Error
- * between N^-3/4 (edges) and N^-1 (smooth). */
-AUR_API aur_result aur_jittered_points(uint64_t size, uint64_t seed, uint64_t first, size_t count,
-                                       const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* The radical inverse in base 2, one dimension (van der Corput 1935). n <= 2^48. Error log N / N. */
-AUR_API aur_result aur_van_der_corput_points(const aur_randomization *randomization, uint64_t first,
-                                             size_t count, const aur_output *output, aur_error *error)
-    AUR_NONNULL(4);
-
-/* Radical inverses in the first `dimension` primes (Halton 1960). dimension <= 6542, n <= 2^48, any n is as
- * good as another. Error log^d N / N. */
-AUR_API aur_result aur_halton_points(size_t dimension, const aur_randomization *randomization, uint64_t first,
-                                     size_t count, const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* i / size, then radical inverses in the first primes (Hammersley 1960). dimension <= 6542, size <= 2^48.
- * Error log^(d-1) N / N. */
-AUR_API aur_result aur_hammersley_points(size_t dimension, uint64_t size,
-                                         const aur_randomization *randomization, uint64_t first, size_t count,
-                                         const aur_output *output, aur_error *error) AUR_NONNULL(6);
-
-/* Sobol 1967 by Joe, Kuo 2008, in natural order: aligned runs of 2^m points are nets. Any dimension (beyond
- * 1024: shuffled and Owen-scrambled repeats), n <= 2^53; best at powers of two. Error log^d N / N. */
-AUR_API aur_result aur_sobol_points(size_t dimension, const aur_randomization *randomization, uint64_t first,
-                                    size_t count, const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* Niederreiter 1988 in base 2. dimension <= 1024, n <= 2^53; best at powers of two. Error log^d N / N. */
-AUR_API aur_result aur_niederreiter_points(size_t dimension, const aur_randomization *randomization,
-                                           uint64_t first, size_t count, const aur_output *output,
-                                           aur_error *error) AUR_NONNULL(5);
-
-/* The (0,m,2)-net of Larcher, Pillichshammer 2001: i / size beside a digit-summing radical inverse. size <=
- * 2^48, a net at powers of two. Error log N / N. */
-AUR_API aur_result aur_larcher_pillichshammer_points(uint64_t size, const aur_randomization *randomization,
-                                                     uint64_t first, size_t count, const aur_output *output,
-                                                     aur_error *error) AUR_NONNULL(5);
-
-/* ((i + offset) / size, i F_{k-1} / F_k) for size = F_k, with i / Phi for any other size (Schretter 2012, eq.
- * 3; Marques 2013, sec. 3.1). size <= 2^48, 0 <= offset < 1. Error log N / N. */
-AUR_API aur_result aur_fibonacci_lattice_points(uint64_t size, double offset,
-                                                const aur_randomization *randomization, uint64_t first,
-                                                size_t count, const aur_output *output, aur_error *error)
-    AUR_NONNULL(6);
-
-/* i vector[d] / size modulo 1, exactly (Sloan, Joe 1994). dimension <= 256, size <= 2^48, vector[d] < 2^48.
- * Error log^d N / N for a good vector. */
-AUR_API aur_result aur_rank1_points(size_t dimension, const uint64_t *vector, uint64_t size,
-                                    const aur_randomization *randomization, uint64_t first, size_t count,
-                                    const aur_output *output, aur_error *error) AUR_NONNULL(2, 7);
-
-/* 1/2 + i t^(d+1) modulo 1 with t^s + t^(s+1) = 1 (Roberts 2018), exact to a double. dimension <= 64, any n.
- * Error log^d N / N as far as measured. */
-AUR_API aur_result aur_r2_points(size_t dimension, const aur_randomization *randomization, uint64_t first,
-                                 size_t count, const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
-/* s + (i + 1) / Phi modulo 1 (Schretter 2012, eq. 4), one dimension, exact to a double. 0 <= s < 1, any n.
- * Error log N / N. */
-AUR_API aur_result aur_golden_points(double s, const aur_randomization *randomization, uint64_t first,
-                                     size_t count, const aur_output *output, aur_error *error) AUR_NONNULL(5);
-
 /* A whole golden point set in time proportional to `count` (Schretter 2012, eqs 6-7): coordinates G_s(i), i =
  * 1, .., count, beside the same numbers in ascending order. It has no first and no part: the order is
  * followed from its smallest number. 0 <= s < 1, count <= 2^32. */
 AUR_API aur_result aur_golden_set_points(double s, size_t count, const aur_output *output, aur_error *error)
     AUR_NONNULL(3);
-
-/* The same from two seeds (appendix): G_s in ascending order beside G_r(i), i = 0, .., count - 1. */
-AUR_API aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output,
-                                                   aur_error *error) AUR_NONNULL(4);
 
 /* Points in arrays of the caller's: they are only read, and neither copied nor kept. What measures and writes
  * points takes one of these, so that arrays of any program can be given as they are. */

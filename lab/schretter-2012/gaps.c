@@ -102,12 +102,10 @@ static aur_result run(lab_run *run, aur_error *error) {
     static const char *const of_points[] = {"sequence", "x", "element", NULL};
     const size_t most = lab_run_options(run)->quick ? 128 : MOST;
     sequence corput = {.name = "van der Corput"}, golden = {.name = "golden ratio"};
-    const aur_output to_corput = {.capacity = MOST, .doubles = corput.numbers};
-    const aur_output to_golden = {.capacity = MOST, .doubles = golden.numbers};
     /* The paper counts from 1; the library's golden sequence does too. */
-    aur_result result = aur_van_der_corput_points(NULL, 1, MOST, &to_corput, error);
+    aur_result result = schretter_numbers("van-der-corput", 1, MOST, corput.numbers, error);
     if (result == AUR_OK)
-        result = aur_golden_points(0.0, NULL, 0, MOST, &to_golden, error);
+        result = schretter_numbers("golden", 0, MOST, golden.numbers, error);
     if (result != AUR_OK)
         return result;
     report_table *const points = lab_table(run, "five", of_points);

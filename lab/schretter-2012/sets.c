@@ -7,6 +7,7 @@
 
 #include "program/lab/lab.h"
 #include "program/lab/points.h"
+#include "schretter.h"
 
 enum { SIDE = 360, SIZES = 9, SETS = 8 };
 
@@ -80,8 +81,7 @@ static aur_result check_projections(lab_run *run, aur_error *error) {
     aur_result result =
         aur_golden_set_points(0.0, COUNT, &(aur_output){.capacity = 2 * COUNT, .doubles = points}, error);
     if (result == AUR_OK)
-        result = aur_golden_points(0.0, NULL, 0, COUNT, &(aur_output){.capacity = COUNT, .doubles = numbers},
-                                   error);
+        result = schretter_numbers("golden", 0, COUNT, numbers, error);
     if (result != AUR_OK)
         return result;
     size_t same = 0, found = 0;

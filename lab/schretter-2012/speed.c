@@ -45,13 +45,26 @@ static void corput_digits(numbers to) {
     }
 }
 
+aur_result schretter_numbers(const char *sequence, uint64_t first, size_t count, double *to,
+                             aur_error *error) {
+    aur_pointset_options options = {.size = sizeof options};
+    aur_pointset *set = NULL;
+    aur_result result = aur_pointset_options_init(first + count, &options, error);
+    options.dimension = 1;
+    if (result == AUR_OK)
+        result = aur_pointset_create(sequence, &options, &set, error);
+    if (result == AUR_OK)
+        result = aur_pointset_points(set, first, count, count, to, error);
+    aur_pointset_destroy(set);
+    return result;
+}
+
 static void golden_library(numbers to) {
-    aur_golden_points(0.0, NULL, 0, NUMBERS, &(aur_output){.capacity = NUMBERS, .doubles = to.doubles}, NULL);
+    schretter_numbers("golden", 0, NUMBERS, to.doubles, NULL);
 }
 
 static void corput_library(numbers to) {
-    aur_van_der_corput_points(NULL, 1, NUMBERS, &(aur_output){.capacity = NUMBERS, .doubles = to.doubles},
-                              NULL);
+    schretter_numbers("van-der-corput", 1, NUMBERS, to.doubles, NULL);
 }
 
 static const struct {

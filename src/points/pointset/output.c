@@ -187,11 +187,6 @@ aur_result aur_pointset_coordinates(const aur_pointset *pointset, size_t dimensi
     return emit(pointset, pointset->seed, dimension, dimension_count, first, count, output, error);
 }
 
-aur_result aur_pointset_generate(const aur_pointset *pointset, uint64_t first, size_t count,
-                                 const aur_output *output, aur_error *error) {
-    return aur_pointset_emit(pointset, pointset->seed, first, count, output, error);
-}
-
 aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t seed, uint64_t first, size_t count,
                                   const aur_output *output, aur_error *error) {
     if (pointset->scramble == AUR_SCRAMBLE_NONE)
@@ -201,8 +196,8 @@ aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t seed, u
 
 aur_result aur_pointset_points(const aur_pointset *pointset, uint64_t first, size_t count, size_t capacity,
                                double *points, aur_error *error) {
-    return aur_pointset_generate(pointset, first, count,
-                                 &(aur_output){.capacity = capacity, .doubles = points}, error);
+    return aur_pointset_emit(pointset, pointset->seed, first, count,
+                             &(aur_output){.capacity = capacity, .doubles = points}, error);
 }
 
 double aur_pointset_coordinate(const aur_pointset *pointset, uint64_t index, size_t dimension) {

@@ -202,6 +202,17 @@ static void add_pixel(aur_tile *tile, size_t x, size_t y, const area *a, bool sh
     }
 }
 
+static aur_result make_halton(uint64_t first, size_t count, double (*points)[HALTON_DIMENSIONS]) {
+    const aur_pointset_options options = {
+        .size = sizeof options, .count = first + count, .dimension = HALTON_DIMENSIONS};
+    aur_pointset *set = NULL;
+    aur_result result = aur_pointset_create("halton", &options, &set, NULL);
+    if (result == AUR_OK)
+        result = aur_pointset_points(set, first, count, HALTON_DIMENSIONS * count, points[0], NULL);
+    aur_pointset_destroy(set);
+    return result;
+}
+
 aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) {
     const aur_radiosity_image *const image = integrator->data;
     const bool shared = image->share_neighbours;
@@ -213,11 +224,10 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     double(*const halton)[HALTON_DIMENSIONS] = malloc(tile->count * sizeof *halton + 1);
     aur_result result =
         a.pixels != NULL && points != NULL && order != NULL && halton != NULL ? AUR_OK : AUR_ERROR_MEMORY;
+    if (result == AUR_OK)
+        result = make_halton(tile->first, tile->count, halton);
     if (result == AUR_OK) {
         const workspace work = {image, tile->view, order, tile->first, halton};
-        const aur_output output = {.capacity = HALTON_DIMENSIONS * (size_t)tile->count, .doubles = halton[0]};
-        aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output,
-                          NULL); /* it cannot fail */
         for (size_t i = 0; i < pixel_count && result == AUR_OK; ++i) {
             a.pixels[i].points = points + i * tile->count;
             make_pixel(&work, a.x0 + i % a.columns, a.y0 + i / a.columns, tile->first, tile->count,

@@ -59,53 +59,16 @@ static void prepared_sets(void) {
     accept(aur_pointset_points(set, 0, COUNT, 3 * COUNT, buffer, &error), &error);
     require(aur_pointset_coordinate(set, 3, 1) == buffer[7] && isnan(aur_pointset_coordinate(set, COUNT, 0)),
             "aur_pointset_coordinate");
-    accept(aur_pointset_generate(set, 0, COUNT, &output, &error), &error);
     accept(aur_pointset_coordinates(set, 1, 1, 0, COUNT, &output, &error), &error);
     accept(aur_pointset_randomize(set, 1, 0, COUNT, &output, &error), &error);
     refuse(aur_pointset_points(set, 0, COUNT, COUNT, buffer, &error), AUR_ERROR_CAPACITY, &error);
-    refuse(aur_pointset_generate(set, 1, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_pointset_coordinates(set, 0, 2, 1, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
     refuse(aur_pointset_coordinates(set, 1, 2, 0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
     aur_pointset_destroy(set);
     aur_pointset_destroy(NULL);
     require(aur_output_capacity(AUR_LAYOUT_ARRAYS, 2, COUNT, 0) == 2 * COUNT, "aur_output_capacity");
-}
-
-static void direct_generators(void) {
-    const aur_randomization shift = {AUR_SCRAMBLE_SHIFT, 1};
-    const uint64_t vector[] = {1, 5};
-    accept(aur_random_points(3, 1, 0, COUNT, &output, &error), &error);
-    accept(aur_lcg_points(3, 1, 0, COUNT, &output, &error), &error);
-    accept(aur_icg_points(3, 1, 0, COUNT, &output, &error), &error);
-    accept(aur_jittered_points(COUNT, 1, 0, COUNT, &output, &error), &error);
-    accept(aur_van_der_corput_points(&shift, 0, COUNT, &output, &error), &error);
-    accept(aur_halton_points(3, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_hammersley_points(3, COUNT, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_sobol_points(3, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_niederreiter_points(3, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_larcher_pillichshammer_points(COUNT, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_fibonacci_lattice_points(COUNT, 0.5, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_rank1_points(2, vector, COUNT, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_r2_points(3, &shift, 0, COUNT, &output, &error), &error);
-    accept(aur_golden_points(0.5, &shift, 0, COUNT, &output, &error), &error);
     accept(aur_golden_set_points(0.5, COUNT, &output, &error), &error);
-    accept(aur_golden_set_points_two_seeds(0.5, 0.25, COUNT, &output, &error), &error);
-    refuse(aur_random_points(3, 1, 0, COUNT, &small, &error), AUR_ERROR_CAPACITY, &error);
-    refuse(aur_lcg_points(0, 1, 0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_icg_points(1, 1, UINT64_MAX, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_jittered_points(0, 1, 0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_van_der_corput_points(NULL, 0, COUNT, &small, &error), AUR_ERROR_CAPACITY, &error);
-    refuse(aur_halton_points(6543, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_hammersley_points(3, 0, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_sobol_points(0, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_niederreiter_points(1025, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_larcher_pillichshammer_points(COUNT, NULL, 1, COUNT, &output, &error), AUR_ERROR_ARGUMENT,
-           &error);
-    refuse(aur_fibonacci_lattice_points(COUNT, 1.0, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_rank1_points(257, vector, COUNT, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_r2_points(65, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_golden_points(NAN, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
     refuse(aur_golden_set_points(0.5, 0, &output, &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_golden_set_points_two_seeds(0.5, 1.0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
 }
 
 static void neighbours(void) {
@@ -344,7 +307,6 @@ int main(void) {
     estimates();
     names();
     prepared_sets();
-    direct_generators();
     maps_and_lobes();
     neighbours();
     rotations();

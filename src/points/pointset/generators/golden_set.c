@@ -116,15 +116,16 @@ static void put_part(const aur_output *output, aur_strides strides, size_t coord
     aur_output_put(&from, strides, first, count, values);
 }
 
-/* Numbers in ascending order beside a sequence, without a table. `sorted` is the coordinate of the former. */
-static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t sorted, size_t count,
-                             const aur_output *output, aur_error *error) {
+aur_result aur_golden_set_points(double s, size_t count, const aur_output *output, aur_error *error) {
+    if (!(s >= 0.0 && s < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a seed must be at least 0 and below 1, not %g", s);
     if (count == 0 || count > UINT64_C(1) << 32)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a golden set has 1 to 2^32 points, not %zu", count);
     aur_strides strides;
     const aur_result result = aur_output_open(output, 2, count, &strides, error);
     if (result != AUR_OK)
         return result;
+    const uint64_t seed_word = aur_golden_start(s);
     const aur_golden_order order = aur_golden_order_of(seed_word, count);
     aur_ascent ascent = {.start = seed_word,
                          .count = count,
@@ -133,10 +134,9 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
                          .index = order.first};
     aur_run ascending, sequence;
     aur_run_of_ascent(&ascent, &ascending);
-    aur_run_of_fraction(sequence_word, aur_golden_fraction, 0, &sequence);
+    aur_run_of_fraction(seed_word, aur_golden_fraction, 0, &sequence);
     if (output->doubles != NULL && strides.point == 2) {
-        aur_run_pairs(sorted == 0 ? &ascending : &sequence, sorted == 0 ? &sequence : &ascending, count,
-                      output->doubles);
+        aur_run_pairs(&sequence, &ascending, count, output->doubles);
         return AUR_OK;
     }
     size_t part;
@@ -144,32 +144,11 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
         double values[PART_LENGTH];
         part = count - done < PART_LENGTH ? count - done : PART_LENGTH;
         ascending.next(&ascending, part, values);
-        put_part(output, strides, sorted, done, part, values);
+        put_part(output, strides, 1, done, part, values);
         sequence.next(&sequence, part, values);
-        put_part(output, strides, 1 - sorted, done, part, values);
+        put_part(output, strides, 0, done, part, values);
     }
     return AUR_OK;
-}
-
-static aur_result check_seed(double seed, aur_error *error) {
-    return seed >= 0.0 && seed < 1.0
-               ? AUR_OK
-               : aur_fail(error, AUR_ERROR_ARGUMENT, "a seed must be at least 0 and below 1, not %g", seed);
-}
-
-aur_result aur_golden_set_points(double s, size_t count, const aur_output *output, aur_error *error) {
-    const aur_result result = check_seed(s, error);
-    return result != AUR_OK ? result
-                            : make_whole(aur_golden_start(s), aur_golden_start(s), 1, count, output, error);
-}
-
-aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output,
-                                           aur_error *error) {
-    aur_result result = check_seed(s, error);
-    if (result == AUR_OK)
-        result = check_seed(r, error);
-    return result != AUR_OK ? result
-                            : make_whole(aur_seed_word(s), aur_seed_word(r), 0, count, output, error);
 }
 
 const aur_square_set aur_set_golden_set = {
