@@ -155,10 +155,10 @@ typedef struct aur_gather_method {
 /* An integrator of the caller's, beside those of the library. Its keys are fields of aur_gather_settings, or
  * of a struct that begins with it; it takes those of `finalgather` too. It must outlive the render. */
 typedef struct aur_gather_integrator {
-    size_t size; /* of the caller's struct */
+    size_t size; /* of this struct; else ARGUMENT */
     aur_row row; /* its name is none of the library's integrators */
-    /* Of the struct; 0: aur_gather_settings alone. Fields behind that begin as in `initial`, or with zeros
-     * where that is NULL. */
+    /* Of the struct that the keys are fields of; 0: aur_gather_settings alone. What stands behind these
+     * begins as in `initial`, a whole struct, or with zeros where that is NULL. */
     size_t settings_size;
     const void *initial;
     const aur_gather_method *method; /* NULL: none */

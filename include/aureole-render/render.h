@@ -30,7 +30,7 @@ typedef struct aur_render_statistics {
     uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the picture */
     uint64_t cut_paths; /* cut after many mirrors or null collisions in a row: the light that they would bring
                            is missing */
-    /* finalgather-lab, weights=oswa-solve: places whose system could not be solved. Their samples are invalid. */
+    /* Systems of finalgather-lab, weights=oswa-solve, without a solution. Their samples are invalid. */
     uint64_t unsolved_weights;
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
     double prepare_seconds;             /* wall clock: photon map and the like */

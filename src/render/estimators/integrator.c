@@ -36,6 +36,9 @@ const aur_table aur_integrator_table = {
 static aur_result find(const aur_parameters *parameters, const aur_gather_integrator *gather,
                        const aur_row **row, aur_error *error) {
     enum { COUNT = sizeof rows / sizeof rows[0] };
+    if (gather != NULL && gather->size != sizeof *gather)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "aur_gather_integrator: 'size' is %zu, not %zu",
+                        gather->size, sizeof *gather);
     const aur_row *all[COUNT + 1] = {[COUNT] = gather != NULL ? &gather->row : NULL};
     memcpy(all, rows, sizeof rows);
     const aur_table table = {

@@ -168,7 +168,7 @@ static void caller_has_integrators(void **state) {
 
 static void caller_errors(void **state) {
     (void)state;
-    static const aur_gather_integrator study = STUDY(one_key), stray = STUDY(stray_key);
+    static const aur_gather_integrator study = STUDY(one_key), stray = STUDY(stray_key), unsized = {0};
     static const struct {
         const char *integrator;
         const aur_gather_integrator *gather;
@@ -176,6 +176,7 @@ static void caller_errors(void **state) {
         const char *message;
     } cases[] = {
         {"study", NULL, AUR_ERROR_NAME, "study"},
+        {"path", &unsized, AUR_ERROR_ARGUMENT, "aur_gather_integrator: 'size' is 0"},
         {"studi", &study, AUR_ERROR_NAME, "did you mean 'study'"},
         {"study:turn=1", &study, AUR_ERROR_NAME, "did you mean 'turns'"},
         {"study:stray=1", &stray, AUR_ERROR_ARGUMENT, "no field of its settings"},
