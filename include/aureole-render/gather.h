@@ -122,7 +122,7 @@ typedef struct aur_gather_directions {
 /* One lobe at the shading points of some lanes. */
 typedef struct aur_gather_sweep aur_gather_sweep;
 
-/* Traces direction `index` of the pattern in `lanes`, which are among those of the call of `gather`:
+/* Traces direction `index`, below the count, in `lanes`, which are among those of the call of `gather`:
  * values[c][lane] becomes the light that the lobe makes of it, channel by channel, without the direction's
  * weight and the lobe's colour; 0 in other lanes. Returns the lanes above whose surface the direction is. */
 AUR_EXPERIMENTAL uint32_t aur_gather_trace(aur_gather_sweep *sweep, uint32_t lanes, size_t index,

@@ -256,6 +256,9 @@ static void caller_gathers(void **state) {
     assert_int_equal(render("finalgather-lab" KEYS, &lab_finalgather, &images[0], NULL), AUR_OK);
     assert_int_equal(render("own" KEYS, &own, &images[1], NULL), AUR_OK);
 #undef KEYS
+    aur_image *none = NULL;
+    assert_int_equal(render("own:pattern=sobol,rotations=0", &own, &none, NULL), AUR_ERROR_UNSUPPORTED);
+    assert_null(none);
     assert_int_equal(aur_image_channel_count(images[0]), 3);
     assert_int_equal(aur_image_channel_count(images[1]), 4);
     const size_t counted = aur_image_find_channel(images[1], "directions");
