@@ -36,7 +36,7 @@ typedef struct aur_emitter_descriptor {
                   const float *u, const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
-    void (*release)(aur_emitter *emitter); /* frees what emitter->data owns, not `data`; may be NULL */
+    void (*release)(void *data); /* what emitter->data points to further; NULL: nothing */
     /* For shapes that shine to all sides only: the density, a steradian, with which `sample` draws the point
      * `surface`, which `reference` sees under so large a cosine. */
     float (*pdf_seen)(const aur_emitter *emitter, const aur_light_reference *reference,

@@ -27,7 +27,7 @@ typedef struct aur_medium_descriptor {
     size_t size; /* of what medium->data points to: zeroed before `create`, freed in the end */
     /* Reads its keys. */
     aur_result (*create)(aur_parameters *parameters, aur_medium *medium, aur_error *error);
-    void (*release)(aur_medium *medium); /* what medium->data points to further; NULL: nothing */
+    void (*release)(void *data); /* what medium->data points to further; NULL: nothing */
     /* Goes along a ray for `distance`, which may be infinite, or until light is scattered: then *way is how
      * far that is and the answer true. `u` in [0,1) is the first number. */
     bool (*travel)(const aur_medium *medium, const aur_ray *ray, float distance, float u,

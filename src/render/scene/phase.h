@@ -14,7 +14,7 @@ typedef struct aur_phase_descriptor {
     size_t size; /* of what phase->data points to: zeroed before the keys are read, freed in the end */
     /* Makes the rest of phase->data; NULL: nothing. Keys that the row only names are read here. */
     aur_result (*create)(aur_parameters *parameters, aur_phase *phase, aur_error *error);
-    void (*release)(aur_phase *phase); /* what phase->data points to further; NULL: nothing */
+    void (*release)(void *data); /* what phase->data points to further; NULL: nothing */
     /* A steradian. */
     float (*evaluate)(const aur_phase *phase, aur_vector position, float cosine);
     /* The cosine that u in [0,1) stands for. */

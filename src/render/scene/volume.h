@@ -13,7 +13,7 @@ typedef struct aur_volume_descriptor {
     size_t size; /* of what volume->data points to: zeroed before the keys are read, freed in the end */
     /* Reads what keys do not, and sets the fields of the volume below. */
     aur_result (*create)(aur_parameters *parameters, aur_volume *volume, aur_error *error);
-    void (*release)(aur_volume *volume); /* what volume->data points to further; NULL: nothing */
+    void (*release)(void *data); /* what volume->data points to further; NULL: nothing */
     aur_vector (*evaluate)(const aur_volume *volume, aur_vector position);
     /* The largest value of any channel in a box of the unit cube; for volumes that vary. */
     float (*maximum_within)(const aur_volume *volume, const float lower[3], const float upper[3]);

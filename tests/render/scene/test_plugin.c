@@ -10,6 +10,7 @@
 typedef struct thing_descriptor {
     aur_row row;
     size_t size;
+    void (*release)(void *data);
 } thing_descriptor;
 
 typedef struct thing {
@@ -18,10 +19,17 @@ typedef struct thing {
     char *more;
 } thing;
 
-static const thing_descriptor small = {{.name = "small"}, sizeof(double)}, none = {{.name = "none"}, 0};
+static size_t released, data_released;
+
+static void release_data(void *data) {
+    assert_non_null(data);
+    ++data_released;
+}
+
+static const thing_descriptor small = {{.name = "small"}, sizeof(double), release_data},
+                              none = {{.name = "none"}, 0, NULL};
 static const aur_row *const rows[] = {&small.row, &none.row};
 static const aur_table table = {.kind = "thing", AUR_TABLE_ROWS(rows)};
-static size_t released;
 
 /* Reads 'value', and fails where it is below 0. */
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
@@ -45,6 +53,7 @@ static const aur_plugin_kind kind = {.table = &table,
                                      .size = sizeof(thing),
                                      .data = offsetof(thing, data),
                                      .data_size = offsetof(thing_descriptor, size),
+                                     .data_release = offsetof(thing_descriptor, release),
                                      .fill = fill,
                                      .release = release};
 
@@ -66,13 +75,14 @@ static void creates_and_destroys(void **state) {
     static const char *const types[] = {"small", "none"};
     for (size_t i = 0; i < 2; ++i) {
         thing *made = NULL;
-        released = 0;
+        released = data_released = 0;
         assert_int_equal(create(types[i], "value", "1", &made, NULL), AUR_OK);
         assert_ptr_equal(&made->descriptor->row, rows[i]);
         assert_string_equal(made->more, "context");
         assert_int_equal(released, 0);
         aur_plugin_destroy(&kind, made);
         assert_int_equal(released, 1);
+        assert_int_equal(data_released, i == 0);
     }
     aur_plugin_destroy(&kind, NULL);
     assert_int_equal(released, 1);
@@ -91,13 +101,14 @@ static void failures_release(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         thing *made = (thing *)&released;
         aur_error error = {0};
-        released = 0;
+        released = data_released = 0;
         assert_int_equal(create(cases[i].type, cases[i].name, cases[i].value, &made, &error),
                          cases[i].result);
         assert_null(made);
         assert_non_null(strstr(error.message, cases[i].message));
         assert_int_equal(error.line, 7);
         assert_int_equal(released, cases[i].released);
+        assert_int_equal(data_released, cases[i].released);
     }
 }
 

@@ -80,8 +80,8 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     return light->is_mesh ? find_triangles(light, error) : AUR_OK;
 }
 
-static void release(aur_emitter *emitter) {
-    aur_distribution_release(&((area_light *)emitter->data)->triangles);
+static void release(void *data) {
+    aur_distribution_release(&((area_light *)data)->triangles);
 }
 
 static aur_shape_point sample_area(const area_light *light, const float u[3]) {

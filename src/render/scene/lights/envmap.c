@@ -8,8 +8,8 @@
 #include "render/scene/emitter.h"
 #include "render/scene/scene_data.h"
 
-static void release_envmap(aur_emitter *emitter) {
-    aur_envmap *const self = emitter->data;
+static void release_envmap(void *data) {
+    aur_envmap *const self = data;
     aur_patches_release(&self->patches);
     free(self->heights);
     free(self->texels);

@@ -184,8 +184,8 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
     return result;
 }
 
-static void release(aur_emitter *emitter) {
-    sky_light *const self = emitter->data;
+static void release(void *data) {
+    sky_light *const self = data;
     aur_patches_release(&self->patches);
     free(self->corners);
 }

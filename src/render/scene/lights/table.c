@@ -32,18 +32,7 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
     return emitter->descriptor->create(parameters, emitter, error);
 }
 
-static void release(void *object) {
-    aur_emitter *const emitter = object;
-    if (emitter->descriptor->release != NULL)
-        emitter->descriptor->release(emitter);
-}
-
-static const aur_plugin_kind kind = {.table = &aur_emitter_table,
-                                     .size = sizeof(aur_emitter),
-                                     .data = offsetof(aur_emitter, data),
-                                     .data_size = offsetof(aur_emitter_descriptor, size),
-                                     .fill = fill,
-                                     .release = release};
+static const aur_plugin_kind kind = AUR_PLUGIN_KIND(emitter);
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error) {
     return aur_plugin_create(&kind, parameters, NULL, emitter, error);

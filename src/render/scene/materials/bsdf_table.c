@@ -125,8 +125,7 @@ static const aur_plugin_kind kind = {.table = &aur_bsdf_table,
                                      .size = sizeof(aur_bsdf),
                                      .data = offsetof(aur_bsdf, data),
                                      .data_size = offsetof(aur_bsdf_descriptor, size),
-                                     .fill = fill,
-                                     .release = NULL};
+                                     .fill = fill};
 
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
     return aur_plugin_create(&kind, parameters, NULL, bsdf, error);

@@ -12,7 +12,7 @@ typedef struct aur_texture_descriptor {
     size_t size; /* of what texture->data points to: zeroed before `create`, freed in the end */
     /* Reads its keys (aur_colors_read), fills texture->data and sets texture->mean and texture->maximum. */
     aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
-    void (*release)(aur_texture *texture); /* what texture->data points to further; NULL: nothing */
+    void (*release)(void *data); /* what texture->data points to further; NULL: nothing */
     aur_vector (*evaluate)(const aur_texture *texture, aur_bsdf_point point);
     /* How the luminance grows with u and v; NULL: not at all. */
     void (*slope)(const aur_texture *texture, aur_bsdf_point point, float slope[2]);

@@ -171,8 +171,8 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     return AUR_OK;
 }
 
-static void release(aur_texture *texture) {
-    bitmap *const self = texture->data;
+static void release(void *data) {
+    bitmap *const self = data;
     free(self->rgb);
     free(self->heights);
 }

@@ -46,18 +46,7 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
     return result;
 }
 
-static void release(void *object) {
-    aur_texture *const texture = object;
-    if (texture->descriptor->release != NULL)
-        texture->descriptor->release(texture);
-}
-
-static const aur_plugin_kind kind = {.table = &aur_texture_table,
-                                     .size = sizeof(aur_texture),
-                                     .data = offsetof(aur_texture, data),
-                                     .data_size = offsetof(aur_texture_descriptor, size),
-                                     .fill = fill,
-                                     .release = release};
+static const aur_plugin_kind kind = AUR_PLUGIN_KIND(texture);
 
 aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
     return aur_plugin_create(&kind, parameters, NULL, texture, error);

@@ -48,8 +48,8 @@ static aur_result create(aur_parameters *parameters, aur_medium *medium, aur_err
     return aur_majorants_create(varying, (float)self->scale, &self->majorants, error);
 }
 
-static void release(aur_medium *medium) {
-    aur_majorants_release(&((heterogeneous *)medium->data)->majorants);
+static void release(void *data) {
+    aur_majorants_release(&((heterogeneous *)data)->majorants);
 }
 
 /* Tentative collisions, one after another. */

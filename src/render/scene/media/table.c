@@ -54,18 +54,7 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
     return medium->descriptor->create(parameters, medium, error);
 }
 
-static void release(void *object) {
-    aur_medium *const medium = object;
-    if (medium->descriptor->release != NULL)
-        medium->descriptor->release(medium);
-}
-
-static const aur_plugin_kind kind = {.table = &aur_medium_table,
-                                     .size = sizeof(aur_medium),
-                                     .data = offsetof(aur_medium, data),
-                                     .data_size = offsetof(aur_medium_descriptor, size),
-                                     .fill = fill,
-                                     .release = release};
+static const aur_plugin_kind kind = AUR_PLUGIN_KIND(medium);
 
 aur_result aur_medium_create(aur_parameters *parameters, aur_medium **medium, aur_error *error) {
     return aur_plugin_create(&kind, parameters, NULL, medium, error);

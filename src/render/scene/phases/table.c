@@ -51,18 +51,7 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
                : result;
 }
 
-static void release(void *object) {
-    aur_phase *const phase = object;
-    if (phase->descriptor->release != NULL)
-        phase->descriptor->release(phase);
-}
-
-static const aur_plugin_kind kind = {.table = &aur_phase_table,
-                                     .size = sizeof(aur_phase),
-                                     .data = offsetof(aur_phase, data),
-                                     .data_size = offsetof(aur_phase_descriptor, size),
-                                     .fill = fill,
-                                     .release = release};
+static const aur_plugin_kind kind = AUR_PLUGIN_KIND(phase);
 
 aur_result aur_phase_create(aur_parameters *parameters, aur_phase **phase, aur_error *error) {
     return aur_plugin_create(&kind, parameters, NULL, phase, error);

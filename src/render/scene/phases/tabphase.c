@@ -59,8 +59,8 @@ static aur_result create(aur_parameters *parameters, aur_phase *phase, aur_error
     return parse(parameters, item, phase->data, error);
 }
 
-static void release(aur_phase *phase) {
-    table *const self = phase->data;
+static void release(void *data) {
+    table *const self = data;
     free(self->densities);
     free(self->sums);
 }

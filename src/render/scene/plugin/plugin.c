@@ -46,13 +46,20 @@ aur_result aur_plugin_create_row(const aur_plugin_kind *kind, const aur_row *row
 }
 
 void aur_plugin_destroy(const aur_plugin_kind *kind, void *object) {
+    const char *row;
     void *data = NULL;
+    void (*release)(void *data) = NULL;
     if (object == NULL)
         return;
     if (kind->release != NULL)
         kind->release(object);
+    memcpy(&row, object, sizeof row);
     if (kind->data_size != 0)
         memcpy(&data, (char *)object + kind->data, sizeof data);
+    if (kind->data_release != 0)
+        memcpy(&release, row + kind->data_release, sizeof release);
+    if (release != NULL)
+        release(data);
     free(data);
     free(object);
 }

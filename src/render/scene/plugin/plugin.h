@@ -8,14 +8,24 @@
 typedef struct aur_plugin_kind {
     const aur_table *table; /* of descriptors */
     size_t size;            /* of the structure */
-    /* Offsets of its `data`, and of the `size` of that in the descriptor; 0: the kind has no data. */
-    size_t data, data_size;
+    /* Offsets of its `data`, and, in the descriptor, of their `size` and of `release`, a void (*)(void *data)
+     * that frees what they point to further and may be NULL; 0: the kind has none. */
+    size_t data, data_size, data_release;
     /* Reads what the parameters say into a structure of zeros, whose data are zeros too, and makes the rest.
      * `context` is that of aur_plugin_create. */
     aur_result (*fill)(aur_parameters *parameters, void *object, const void *context, aur_error *error);
-    /* Frees what the structure and its data point to, also after `fill` has failed; NULL: nothing. */
+    /* Frees what else the structure points to, also after `fill` has failed; NULL: nothing. */
     void (*release)(void *object);
 } aur_plugin_kind;
+
+/* The kind of aur_<name> with data, a table aur_<name>_table of aur_<name>_descriptor, and `fill` in the
+ * file. */
+#define AUR_PLUGIN_KIND(name_)                                                                               \
+    {                                                                                                        \
+        .table = &aur_##name_##_table, .size = sizeof(aur_##name_), .data = offsetof(aur_##name_, data),     \
+        .data_size = offsetof(aur_##name_##_descriptor, size),                                               \
+        .data_release = offsetof(aur_##name_##_descriptor, release), .fill = fill                            \
+    }
 
 /* Finds the row that parameters->plugin names, allocates, fills, and refuses parameters that nobody has read.
  * `object` is the address of the pointer, which is NULL after errors. Errors: NAME, MEMORY and those of

@@ -113,8 +113,8 @@ static aur_result create(aur_parameters *parameters, aur_volume *volume, aur_err
     return place(parameters, self, volume, error);
 }
 
-static void release(aur_volume *volume) {
-    free(((grid *)volume->data)->file);
+static void release(void *data) {
+    free(((grid *)data)->file);
 }
 
 /* Which voxel of `count` stands at an index that may be outside. */

@@ -27,18 +27,7 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
     return result == AUR_OK ? volume->descriptor->create(parameters, volume, error) : result;
 }
 
-static void release(void *object) {
-    aur_volume *const volume = object;
-    if (volume->descriptor->release != NULL)
-        volume->descriptor->release(volume);
-}
-
-static const aur_plugin_kind kind = {.table = &aur_volume_table,
-                                     .size = sizeof(aur_volume),
-                                     .data = offsetof(aur_volume, data),
-                                     .data_size = offsetof(aur_volume_descriptor, size),
-                                     .fill = fill,
-                                     .release = release};
+static const aur_plugin_kind kind = AUR_PLUGIN_KIND(volume);
 
 aur_result aur_volume_create(aur_parameters *parameters, aur_volume **volume, aur_error *error) {
     return aur_plugin_create(&kind, parameters, NULL, volume, error);
