@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C file with the content of FILES as the array ARRAY of report_asset (src/program/report/page.h) that HEADER declares:
+# Writes OUTPUT, a C file with the content of FILES as the array ARRAY of report_asset (src/program/report/page/page.h) that HEADER declares:
 # cmake -DOUTPUT=... -DHEADER=... -DARRAY=... -DFILES=a;b -P embed.cmake
 set(arrays)
 set(rows)

@@ -16,7 +16,7 @@ foreach(name render lighting)
         set_target_properties(aureole-${name} PROPERTIES EXPORT_NAME ${name} INSTALL_RPATH "$ORIGIN")
     endif()
 endforeach()
-if(AUREOLE_RENDER)
+if(AUREOLE_PROGRAM)
     file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
     set_target_properties(aureole-program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
     install(TARGETS aureole-program COMPONENT program)
@@ -65,7 +65,7 @@ install(FILES include/aureole_sampling.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
 
 # Completion, where the shells look for it.
 set(shell_files)
-if(AUREOLE_RENDER)
+if(AUREOLE_PROGRAM)
     set(shell_files bash:bash-completion/completions/aureole zsh:zsh/site-functions/_aureole
                     fish:fish/vendor_completions.d/aureole.fish)
 endif()
@@ -81,7 +81,7 @@ endforeach()
 add_custom_target(completion-scripts ALL DEPENDS ${completion_scripts})
 
 # Manual pages.
-if(AUREOLE_RENDER)
+if(AUREOLE_PROGRAM)
     set(manual_pages "${PROJECT_BINARY_DIR}/man")
     add_custom_command(OUTPUT "${manual_pages}/man1/aureole.1" VERBATIM DEPENDS aureole-program
         COMMAND "${CMAKE_COMMAND}" -E rm -rf "${manual_pages}"

@@ -36,7 +36,7 @@ class AureoleConan(ConanFile):
 
     def generate(self):
         toolchain = CMakeToolchain(self)
-        for name in ("AUREOLE_RENDER", "AUREOLE_TESTS", "AUREOLE_PYTHON"):
+        for name in ("AUREOLE_RENDER", "AUREOLE_PROGRAM", "AUREOLE_TESTS", "AUREOLE_PYTHON"):
             toolchain.cache_variables[name] = False
         toolchain.generate()
 

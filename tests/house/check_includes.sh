@@ -6,9 +6,14 @@ source_tree=$2
 # From the top floor to the ground; rooms on one line stand side by side and do not include each other. A room inside a
 # room stands above the room's own folder, which holds what all of them share. Estimators stand on one line.
 floors='
+program/cli/absent
+program/cli/lab program/cli/lighting
+program/cli/render
+program/cli/points
 program/cli
 program/lab
 program/watch
+program/report/page
 program/report
 program/import
 program/mpi
@@ -101,13 +106,16 @@ points/base
       if (there == "") { bad("unknown room of \"" target "\""); next }
       if (floor[there] < floor[here]) bad(here " must not call " there ", which is above it")
       if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
-      if (here == "program/cli" && there !~ /^program\/(cli|lab|watch|report)$/) bad("the program uses <aureole/...> only")
-      if (here == "program/lab" && there !~ /^program\/(lab|report)$/) bad("the lab uses <aureole/...> only")
-      if (here == "program/watch" && there !~ /^program\/(watch|report)$/) bad("watching uses <aureole/...> only")
-      if (here == "program/report" && there != here) bad("tables of results use <aureole/...> only")
+      if (here ~ /^program\/cli/ && there !~ /^program\/(cli|lab|watch|report)/) bad("the program uses <aureole/...> only")
+      if (here == "program/lab" && there !~ /^program\/(lab|report)/) bad("the lab uses <aureole/...> only")
+      if (here == "program/watch" && there !~ /^program\/(watch|report)/) bad("watching uses <aureole/...> only")
+      if (here ~ /^program\/report/ && there !~ /^program\/report/) bad("tables of results use <aureole/...> only")
     }
     END { exit status }
   ' || exit 1
+# Public headers and tests follow the same order: points knows nothing of render and lighting, render nothing of lighting.
+(cd "$source_tree" && ! grep -rnE '^#include [<"](aureole-)?(render|lighting)/' src/points tests/points include/aureole &&
+  ! grep -rnE '^#include [<"](aureole-)?lighting/' src/render tests/render include/aureole-render) || exit 1
 # No C file may stand outside a room.
 for folder in "$source_tree"/src/*/*/; do
   room=${folder#"$source_tree"/src/}

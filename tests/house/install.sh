@@ -66,7 +66,7 @@ finds() {
 finds "$prefix" aureole render lighting || { cat finder/log; echo "a component is not found"; exit 1; }
 finds "$prefix" aureole nonsense && { echo "the component 'nonsense' is found"; exit 1; }
 # Without the renderer its component is not found, and every header that is installed can be compiled and linked.
-cmake -S "$2" -B bare -G Ninja -DAUREOLE_RENDER=OFF -DAUREOLE_TESTS=OFF -DAUREOLE_PYTHON=OFF -DCMAKE_BUILD_TYPE=Release >cmake.log 2>&1 &&
+cmake -S "$2" -B bare -G Ninja -DAUREOLE_RENDER=OFF -DAUREOLE_PROGRAM=OFF -DAUREOLE_TESTS=OFF -DAUREOLE_PYTHON=OFF -DCMAKE_BUILD_TYPE=Release >cmake.log 2>&1 &&
   cp -P "$build"/libaureole.so* bare/ && cmake --install bare --prefix "$PWD/bare-prefix" >>cmake.log 2>&1 || { cat cmake.log; exit 1; }
 finds "$PWD/bare-prefix" aureole || { cat finder/log; echo "libaureole alone is not found"; exit 1; }
 finds "$PWD/bare-prefix" lighting && { echo "the component 'lighting' is found where there is no renderer"; exit 1; }

@@ -41,7 +41,7 @@ grep -rnE '^static inline aur_.*_(default|options)\(' "$source_tree"/include/*/*
 # Besides them the program does, which is a client of the public headers too, and the tests of two rooms.
 while read -r name; do
   grep -qE "\b$name\(" "$source_tree"/tests/house/calls/*.c \
-    "$source_tree"/src/program/cli/*.c "$source_tree"/lab/gathering/*.c "$source_tree"/tests/{points/quadrature,lighting}/*.c ||
+    "$source_tree"/src/program/cli/{,*/}*.c "$source_tree"/lab/gathering/*.c "$source_tree"/tests/{points/quadrature,lighting}/*.c ||
     { echo "no program calls $name"; status=1; }
 done <public.txt
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")

@@ -1,23 +1,14 @@
 #include "program/cli/kinds.h"
 
-#include <aureole-render/render.h>
 #include <ctype.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "program/lab/gather.h"
-
 const aur_table *cli_table_at(size_t index) {
-    size_t points = 0, images = 0;
-    while (aur_table_at(points) != NULL)
-        ++points;
-    while (aur_render_table_at(images) != NULL)
-        ++images;
-    if (index < points)
-        return aur_table_at(index);
-    if (index == points + images)
-        return &lab_integrator_table;
-    return aur_render_table_at(index - points);
+    size_t count = 0;
+    while (aur_table_at(count) != NULL)
+        ++count;
+    return index < count ? aur_table_at(index) : cli_render_table_at(index - count);
 }
 
 const aur_table *cli_find_table(const char *kind) {

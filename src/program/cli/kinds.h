@@ -3,8 +3,10 @@
 
 #include "program/cli/options.h"
 
-/* The tables of both libraries, one after the other; NULL beyond the last. */
+/* The tables of the libraries, one after the other; NULL beyond the last. */
 const aur_table *cli_table_at(size_t index);
+/* Those of libaureole-render and of integrators of the lab; none where the program is built without it. */
+const aur_table *cli_render_table_at(size_t index);
 /* The table of a kind, "integrator" or "integrators"; or NULL. */
 const aur_table *cli_find_table(const char *kind);
 

@@ -65,6 +65,8 @@ static int finish(int status) {
 
 /* argv[0] is the verb. */
 static int run(const cli_verb *verb, int argc, char **argv) {
+    if (verb->absent != NULL)
+        return cli_bad_usage("%s: needs %s, which this program was built without", verb->name, verb->absent);
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
             return cli_print_verb_help(verb);

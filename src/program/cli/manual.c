@@ -1,7 +1,6 @@
 /* aureole manual: the manual pages, in the language of man (troff). They are made of the same rows as
  * `aureole help`: one page for the program, one a verb, one of what scenes are made of, one of sets and
  * measures. */
-#include <aureole-render/render.h>
 #include <aureole/text.h>
 #include <limits.h>
 #include <stdio.h>
@@ -216,8 +215,8 @@ static void put_scene(FILE *page, const cli_verb *const *verbs) {
     fprintf(page, ".nf\n");
     put_line(page, scene_example);
     fprintf(page, ".fi\n");
-    for (size_t i = 0; aur_render_table_at(i) != NULL; ++i)
-        put_kind(page, aur_render_table_at(i));
+    for (size_t i = 0; cli_render_table_at(i) != NULL; ++i)
+        put_kind(page, cli_render_table_at(i));
     put_section(page, "SEE ALSO");
     put_line(page, "aureole(1), aureole-render(1), aureole-names(7)");
 }

@@ -77,6 +77,7 @@ typedef struct cli_verb {
     size_t size;                      /* of the struct that the options write to */
     int (*run)(const cli_call *call); /* returns the exit status */
     bool ranks;                       /* several processes that mpirun starts share the work */
+    const char *absent; /* what it needs and this program was built without: "libaureole-render"; or NULL */
 } cli_verb;
 
 /* A command line that has been read. */

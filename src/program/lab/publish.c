@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "program/report/page.h"
+#include "program/report/page/page.h"
 
 enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160 };
 

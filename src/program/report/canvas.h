@@ -26,6 +26,8 @@ typedef struct report_canvas_format {
      * runs upwards. */
     void (*text)(report_canvas *canvas, double x, double y, double anchor, bool turned, const char *text);
     void (*end)(report_canvas *canvas);
+    /* Writes what was drawn; NULL: it is text, which went to the canvas's stream. */
+    aur_result (*save)(const char *path, report_canvas *canvas, aur_error *error);
 } report_canvas_format;
 
 struct report_canvas {
@@ -54,3 +56,6 @@ uint32_t report_next_letter(const char **text);
 
 /* The colour of the scale at a value. */
 uint32_t report_scale_color(const report_scale *scale, double value);
+
+/* Text that is no markup; what is no UTF-8, or no letter of XML, becomes question marks. */
+void report_escape(FILE *page, const char *text);

@@ -107,4 +107,4 @@ static void end(report_canvas *c) {
             table);
 }
 
-const report_canvas_format report_canvas_pdf = {"pdf", begin, path, circle, text, end};
+const report_canvas_format report_canvas_pdf = {"pdf", begin, path, circle, text, end, NULL};

@@ -3,7 +3,25 @@
 #include <math.h>
 
 #include "program/report/canvas.h"
-#include "program/report/page.h"
+
+void report_escape(FILE *page, const char *text) {
+    for (const char *from = text; *text != '\0'; from = text) {
+        const uint32_t letter = report_next_letter(&text);
+        const bool control = letter < ' ' && letter != '\n' && letter != '\t';
+        if (letter == '&')
+            fputs("&amp;", page);
+        else if (letter == '<')
+            fputs("&lt;", page);
+        else if (letter == '>')
+            fputs("&gt;", page);
+        else if (letter == '"')
+            fputs("&quot;", page);
+        else if (letter == 0xfffd || control || letter == 0x7f)
+            fputc('?', page);
+        else
+            fwrite(from, 1, (size_t)(text - from), page);
+    }
+}
 
 static void begin(report_canvas *c) {
     aur_print(c->to,
@@ -99,4 +117,4 @@ static void end(report_canvas *c) {
     fputs("</svg>\n", c->to);
 }
 
-const report_canvas_format report_canvas_svg = {"svg", begin, path, circle, text, end};
+const report_canvas_format report_canvas_svg = {"svg", begin, path, circle, text, end, NULL};

@@ -1,7 +1,6 @@
 /* Where everything of a figure stands on its sheet. */
 #include "program/report/figure.h"
 
-#include <aureole-render/image.h>
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +8,6 @@
 
 #include "program/report/axes.h"
 #include "program/report/canvas.h"
-#include "program/report/page.h"
 
 enum { LEFT = 60, RIGHT = 20, TOP = 24, BOTTOM = 40, MARGIN = 20, SCALE = 80, LINE = 16, KEY = 26, GAP = 24 };
 enum { MOST_ENTRIES = 64 };
@@ -268,21 +266,6 @@ static void draw(report_canvas *c, const report_figure *figure) {
     c->format->end(c);
 }
 
-static aur_result save_image(const char *path, report_canvas *c, aur_error *error) {
-    const aur_image_write_options options = {.size = sizeof options, .format = "png"};
-    const size_t width = (size_t)c->width, height = (size_t)c->height;
-    aur_image *image = NULL;
-    if (c->pixels == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the picture");
-    aur_result result = aur_image_create(width, height, 3, &image, error);
-    if (result == AUR_OK) {
-        memcpy(aur_image_data(image), c->pixels, 3 * width * height * sizeof *c->pixels);
-        result = aur_image_write(path, image, &options, error);
-    }
-    aur_image_destroy(image);
-    return result;
-}
-
 /* NULL is TikZ, which has no canvas. */
 static const struct {
     const char *name;
@@ -312,6 +295,9 @@ aur_result report_figure_save(const char *path, const char *format, const report
     if (of == FORMATS)
         return aur_fail(error, AUR_ERROR_NAME, "figures are written as svg, pdf, png or tex, not '%s'",
                         format);
+    if (formats[of].canvas != NULL && formats[of].canvas->begin == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "%s: png needs libaureole-render, which this program was built without", path);
     char *text = NULL;
     report_canvas canvas = {.format = formats[of].canvas, .to = open_memstream(&text, &size)};
     if (canvas.to == NULL)
@@ -324,8 +310,8 @@ aur_result report_figure_save(const char *path, const char *format, const report
     aur_result result;
     if (fclose(canvas.to) != 0 || failed)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the figure");
-    else if (canvas.format == &report_canvas_png)
-        result = save_image(path, &canvas, error);
+    else if (canvas.format != NULL && canvas.format->save != NULL)
+        result = canvas.format->save(path, &canvas, error);
     else
         result = aur_file_write(path, size, text, error);
     free(canvas.pixels);

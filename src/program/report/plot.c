@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/report/figure.h"
-#include "program/report/page.h"
+#include "program/report/canvas.h"
 
 enum { LABEL = 160, GROUPS = 64 };
 

@@ -254,3 +254,22 @@ double report_value(const report_table *table, size_t row, size_t column) {
     aur_parse_double(source->text, &value);
     return value;
 }
+
+void report_summary(report_table *table, size_t count, size_t stride, const float *floats,
+                    const double *doubles) {
+    double minimum = INFINITY, maximum = -INFINITY, sum = 0.0;
+    uint64_t finite = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const double value = doubles != NULL ? doubles[i * stride] : (double)floats[i * stride];
+        if (!isfinite(value))
+            continue;
+        minimum = fmin(minimum, value);
+        maximum = fmax(maximum, value);
+        sum += value;
+        ++finite;
+    }
+    report_number(table, finite > 0 ? minimum : NAN, 6);
+    report_number(table, finite > 0 ? sum / (double)finite : NAN, 6);
+    report_number(table, finite > 0 ? maximum : NAN, 6);
+    report_integer(table, count - finite);
+}

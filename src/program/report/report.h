@@ -32,6 +32,10 @@ aur_result report_save(const report_table *table, const char *notes, const char 
 /* Reads a table that report_save wrote; its cells are texts. The comments after it are the notes, lines in
  * *notes (NULL allowed), to be freed. Errors: OPEN, FORMAT, MEMORY. */
 aur_result report_load(const char *path, report_table **table, char **notes, aur_error *error);
+/* Cells for minimum, mean and maximum, and how many are not finite, of `count` values, which stand
+ * `stride` apart: of one array, the other is NULL. */
+void report_summary(report_table *table, size_t count, size_t stride, const float *floats,
+                    const double *doubles);
 
 /* Whether a cell was lost for want of memory, or the table itself. */
 bool report_failed(const report_table *table);

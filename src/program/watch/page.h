@@ -2,7 +2,7 @@
  * there is none left. */
 #pragma once
 
-#include "program/report/page.h"
+#include "program/report/page/page.h"
 
 extern const report_asset watch_assets[]; /* ends without a name */
 

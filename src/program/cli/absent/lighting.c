@@ -1,0 +1,10 @@
+/* In the place of the commands of libaureole-lighting, in a program that is built without it. The lab takes
+ * all libraries. */
+#include "program/cli/options.h"
+
+#define ABSENT(name_)                                                                                        \
+    const cli_verb cli_verb_##name_ = {                                                                      \
+        .name = #name_, .summary = "(needs libaureole-lighting)", .absent = "libaureole-lighting"};
+ABSENT(irradiance)
+ABSENT(viewfactors)
+ABSENT(lab)

@@ -1,0 +1,118 @@
+/* aureole lab: the papers' experiments. */
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "program/cli/lab/lab_run.h"
+#include "program/cli/listing.h"
+#include "program/lab/publish.h"
+
+static const cli_option options[] = {
+    {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results, and lab-report for report",
+              "folder of the results, or of the report"),
+     .letter = 'o', .key.computed = true, .content = "folder"},
+    {CLI_FLAG(cli_lab, all, "all", "every experiment; those that are finished are kept as they are")},
+    {CLI_FLAG(cli_lab, again, "again", "with --all, run those that are finished once more")},
+    {CLI_FLAG(cli_lab, lab.quick, "quick", "a form that takes seconds, with wider intervals")},
+    {CLI_FLAG(
+        cli_lab, small, "small",
+        "a report of a few MB, to keep or to send: large pictures as means of 2 x 2 pixels, no plots for "
+        "print")},
+    {CLI_TEXT(cli_lab, lab.set, "set", "SET", NULL,
+              "compare one more point set, file:PATH for points of one's own"),
+     .content = "set"},
+    {CLI_TEXT(cli_lab, lab.rows, "rows", "PATTERN", NULL,
+              "make only the rows that match, such as '*/bnot'; of experiments whose rows have names")},
+    {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, else those of the source tree",
+              "the bundled scenes"),
+     .key.computed = true, .content = "folder"},
+    {.key = {0}}};
+
+static const char *experiment_name(unsigned index) {
+    const lab_experiment *const experiment = lab_experiment_at(index);
+    return experiment != NULL ? experiment->name : NULL;
+}
+
+static const char *action_name(unsigned index) {
+    static const char *const names[] = {"list", "run", "report"};
+    return index < 3 ? names[index] : NULL;
+}
+
+static int list(report_format format) {
+    static const char *const columns[] = {"experiment", "reproduces", "quick", "full", "what it shows"};
+    report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
+    for (size_t i = 0; i < lab_experiment_count(); ++i) {
+        const lab_experiment *const experiment = lab_experiment_at(i);
+        char quick[32], full[32];
+        cli_lab_duration(experiment->quick_seconds, quick);
+        cli_lab_duration(experiment->seconds, full);
+        report_text(table, experiment->name);
+        report_text(table, experiment->reproduces);
+        report_text(table, quick);
+        report_text(table, full);
+        report_text(table, experiment->summary);
+    }
+    return cli_finish_listing(table, format);
+}
+
+/* The page of the results in a folder, and its plots for print. */
+static int report(const char *results, const char *folder, bool small) {
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", folder, strerror(errno));
+        return CLI_FAILURE;
+    }
+    char path[AUR_ERROR_FILE_CAPACITY];
+    aur_error error = {0};
+    const int status = cli_status(lab_publish(results, folder, small, path, &error), &error);
+    if (status == CLI_SUCCESS)
+        printf("%s\n", path);
+    return status;
+}
+
+static int run(const cli_call *call) {
+    cli_lab *const command = call->options;
+    const char *const action = call->operands[0], *const folder = command->lab.folder;
+    command->lab.folder = folder != NULL ? folder : "lab-results";
+    if (strcmp(action, "run") == 0)
+        return cli_lab_run(command, call->operand_count - 1, call->operands + 1);
+    if (strcmp(action, "report") == 0) {
+        if (call->operand_count > 2)
+            return cli_bad_usage("lab report: takes one folder of results");
+        return report(call->operand_count > 1 ? call->operands[1] : "lab-results",
+                      folder != NULL ? folder : "lab-report", command->small);
+    }
+    if (strcmp(action, "list") != 0)
+        return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);
+    if (call->operand_count > 1)
+        return cli_bad_usage("lab list: takes no names");
+    return list(command->common.format);
+}
+
+const cli_verb cli_verb_lab = {
+    .name = "lab",
+    .summary = "the papers' experiments, measured",
+    .notes =
+        "A run that was interrupted goes on where it was: give the same command. Each experiment has a "
+        "folder "
+        "of its name with its tables (NAME.csv), pictures, and timings.csv, the only file that differs from "
+        "run to run. docs/lab.md says more.",
+    .too_few = "'list', 'run' or 'report' is wanted",
+    .operands =
+        {{"ACTION",
+          "list: the experiments, what each reproduces, and the processor time that it took; run: run "
+          "experiments, write CSV and pictures, print the tables; report: make a page of the results in the "
+          "folder NAME (lab-results), "
+          "DIR/index.html (lab-report), with plots, a viewer of the pictures, and PDFs of the plots beside "
+          "it",
+          .name = action_name},
+         {"NAME", "experiments to run, or the folder to report on", .optional = true, .repeated = true,
+          .name = experiment_name}},
+    .groups = {{options, 0},
+               {cli_format_option, offsetof(cli_lab, common)},
+               {cli_threads_option, offsetof(cli_lab, common)},
+               {cli_quiet_option, offsetof(cli_lab, common)},
+               {cli_cache_option, offsetof(cli_lab, common)}},
+    .size = sizeof(cli_lab),
+    .run = run,
+    .ranks = true,
+};

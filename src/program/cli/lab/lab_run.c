@@ -1,0 +1,223 @@
+#include "program/cli/lab/lab_run.h"
+
+#include <aureole/ranks.h>
+#include <aureole/sphere.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What is run, and how far it is. */
+typedef struct schedule {
+    const cli_lab *command;
+    size_t count;
+    const lab_experiment **experiments;
+    double expected, spent; /* processor seconds: of what is to be run, and of what was */
+    double spent_expected;  /* what had been expected of the latter */
+    report_table *summary;
+    cli_phase *phases; /* of the progress: the experiments that are run */
+} schedule;
+
+void cli_lab_duration(double seconds, char text[32]) {
+    const unsigned long whole = (unsigned long)llround(fmax(1.0, seconds));
+    if (whole < 100)
+        snprintf(text, 32, "%lu s", whole);
+    else if (whole < 5400)
+        snprintf(text, 32, "%lu min", (whole + 30) / 60);
+    else
+        snprintf(text, 32, "%lu h %lu min", whole / 3600, whole % 3600 / 60);
+}
+
+static double expected_of(const schedule *plan, const lab_experiment *experiment) {
+    return plan->command->lab.quick ? experiment->quick_seconds : experiment->seconds;
+}
+
+/* Whether the results that are there are taken as they are. */
+static bool is_kept(const schedule *plan, const lab_experiment *experiment) {
+    const cli_lab *const command = plan->command;
+    return command->all && !command->again && lab_is_finished(experiment, &command->lab);
+}
+
+/* Indents the lines of a text. */
+static void print_lines(const char *text, const char *indent) {
+    while (text != NULL && *text != '\0') {
+        const size_t length = strcspn(text, "\n");
+        printf("%s%.*s\n", indent, (int)length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
+static int print_result(const lab_experiment *experiment, lab_result *result, report_format format) {
+    if (format == REPORT_TABLE)
+        printf("%s (%s)\n\n", experiment->name, experiment->reproduces);
+    report_table *const table = result->table;
+    result->table = NULL; /* cli_finish ends it */
+    const int status = cli_finish(table, format);
+    if (format != REPORT_TABLE)
+        return status;
+    if (result->notes != NULL && result->notes[0] != '\0')
+        putchar('\n');
+    print_lines(result->notes, "");
+    printf("\nwritten:\n");
+    print_lines(result->files, "  ");
+    return status;
+}
+
+static size_t processors(const schedule *plan) {
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    const size_t there = online > 0 ? (size_t)online : 1, asked = plan->command->common.threads;
+    return asked > 0 && asked < there ? asked : there;
+}
+
+/* The time left is what was expected of the rest, corrected by what the experiments so far took. */
+static void announce(const schedule *plan, size_t index) {
+    if (plan->command->common.quiet || plan->count == 1 || aur_ranks_rank() != 0)
+        return;
+    char own[32], left[32];
+    const double pace = plan->spent_expected > 0.0 ? plan->spent / plan->spent_expected : 1.0;
+    cli_lab_duration(pace * expected_of(plan, plan->experiments[index]), own);
+    cli_lab_duration(pace * (plan->expected - plan->spent_expected), left);
+    fprintf(stderr, "aureole: [%zu/%zu] %s: about %s of processor time, %s of it left in all\n", index + 1,
+            plan->count, plan->experiments[index]->name, own, left);
+}
+
+static void summarize(schedule *plan, const lab_experiment *experiment, const lab_result *result,
+                      const char *state) {
+    report_text(plan->summary, experiment->name);
+    report_text(plan->summary, state);
+    report_integer(plan->summary, report_rows(result->table));
+    for (size_t i = 0; i < LAB_UNPUBLISHED; ++i)
+        report_integer(plan->summary, result->verdicts[i]);
+    report_integer(plan->summary, result->claims);
+    report_integer(plan->summary, result->claims_held);
+    report_number(plan->summary, result->seconds, 3);
+}
+
+static int run_one(schedule *plan, const lab_experiment *experiment) {
+    const cli_lab *const command = plan->command;
+    lab_result result = {0};
+    aur_error error = {0};
+    if (is_kept(plan, experiment)) {
+        summarize(plan, experiment, &result, "kept");
+        return CLI_SUCCESS;
+    }
+    const aur_result outcome = lab_run_experiment(experiment, &command->lab, &result, &error);
+    cli_progress_clear();
+    int status = cli_status(outcome, &error);
+    if (outcome == AUR_ERROR_CANCELLED)
+        fputs("aureole: what was measured is kept: the same command goes on\n", stderr);
+    plan->spent += result.seconds;
+    plan->spent_expected += expected_of(plan, experiment);
+    if (command->all)
+        summarize(plan, experiment, &result, outcome == AUR_OK ? "done" : "failed");
+    else if (outcome == AUR_OK)
+        status = print_result(experiment, &result, command->common.format);
+    lab_result_release(&result);
+    return status;
+}
+
+/* With --all an experiment that fails does not keep the others from being run. */
+static int run_all(schedule *plan) {
+    int worst = CLI_SUCCESS;
+    for (size_t i = 0; i < plan->count && (plan->command->all ? worst != CLI_FAILURE : worst == CLI_SUCCESS);
+         ++i) {
+        announce(plan, i);
+        const int status = run_one(plan, plan->experiments[i]);
+        worst = status > worst ? status : worst;
+    }
+    return worst;
+}
+
+static const lab_experiment *find(const char *name) {
+    for (size_t i = 0; i < lab_experiment_count(); ++i)
+        if (strcmp(lab_experiment_at(i)->name, name) == 0)
+            return lab_experiment_at(i);
+    return NULL;
+}
+
+/* A set that there is not, or whose file cannot be read, is found before an hour of work. */
+static int check_set(const char *set) {
+    aur_error error;
+    aur_points *points = NULL;
+    if (set == NULL)
+        return CLI_SUCCESS;
+    aur_directions_options some = {.size = sizeof some};
+    aur_directions_options_init(16, AUR_DOMAIN_SPHERE, &some, NULL);
+    aur_points_request request = {.size = sizeof request};
+    aur_points_request_init(&some, &request, NULL);
+    const aur_result result = aur_points_generate(set, &request, &points, &error);
+    aur_points_destroy(points);
+    const bool wrong = result == AUR_ERROR_NAME || result == AUR_ERROR_FORMAT || result == AUR_ERROR_OPEN;
+    return wrong ? cli_fail(&error) : CLI_SUCCESS;
+}
+
+static void estimate(schedule *plan) {
+    size_t count = 0;
+    for (size_t i = 0; i < plan->count; ++i) {
+        const lab_experiment *const experiment = plan->experiments[i];
+        if (is_kept(plan, experiment))
+            continue;
+        plan->expected += expected_of(plan, experiment);
+        if (plan->phases != NULL)
+            plan->phases[count++] = (cli_phase){experiment->name, expected_of(plan, experiment)};
+    }
+    cli_progress_plan(count, plan->phases);
+    if (plan->command->common.quiet || plan->expected < 10.0 || aur_ranks_rank() != 0)
+        return;
+    char all[32], wall[32];
+    cli_lab_duration(plan->expected, all);
+    cli_lab_duration(plan->expected / (double)processors(plan), wall);
+    fprintf(stderr, "aureole: about %s of processor time are ahead, at best %s on %zu processors\n", all,
+            wall, processors(plan));
+}
+
+static int choose(schedule *plan, size_t count, char **names) {
+    const bool all = plan->command->all;
+    if (all && count > 0)
+        return cli_bad_usage("lab run: --all is every experiment, and takes no names");
+    if (!all && count == 0)
+        return cli_bad_usage("lab run: an experiment is missing: 'aureole lab list' names them, --all is "
+                             "every one");
+    plan->count = all ? lab_experiment_count() : count;
+    plan->experiments = malloc(plan->count * sizeof *plan->experiments);
+    if (plan->experiments == NULL)
+        return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY});
+    for (size_t i = 0; i < plan->count; ++i) {
+        plan->experiments[i] = all ? lab_experiment_at(i) : find(names[i]);
+        if (plan->experiments[i] == NULL)
+            return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", names[i]);
+        if (plan->command->lab.rows != NULL && plan->experiments[i]->rows == NULL)
+            return cli_bad_usage("lab run: the rows of '%s' have no names: --rows does not go with it",
+                                 plan->experiments[i]->name);
+    }
+    return check_set(plan->command->lab.set);
+}
+
+int cli_lab_run(cli_lab *command, size_t count, char **names) {
+    static const char *const columns[] = {"experiment", "state",  "rows", "agree",      "within",
+                                          "differ",     "claims", "hold", "cpu_seconds"};
+    lab_options *const lab = &command->lab;
+    schedule plan = {.command = command};
+    int status = choose(&plan, count, names);
+    if (status == CLI_SUCCESS && aur_ranks_rank() == 0 && mkdir(lab->folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab->folder, strerror(errno));
+        status = CLI_FAILURE;
+    }
+    lab->threads = command->common.threads;
+    lab->progress = cli_progress_of_kept(command->common.quiet);
+    lab->warnings = cli_warnings(command->common.quiet);
+    if (status == CLI_SUCCESS) {
+        plan.phases = calloc(plan.count, sizeof *plan.phases);
+        estimate(&plan);
+        plan.summary = command->all ? report_create(sizeof columns / sizeof columns[0], columns) : NULL;
+        status = run_all(&plan);
+        const int printed = command->all ? cli_finish(plan.summary, command->common.format) : CLI_SUCCESS;
+        status = status == CLI_SUCCESS ? printed : status;
+    }
+    cli_progress_plan(0, NULL);
+    free(plan.phases);
+    free(plan.experiments);
+    return status;
+}

@@ -1,0 +1,150 @@
+#include "program/cli/lighting/daylight.h"
+
+#include <aureole/text.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* `count` numbers with commas or blanks between them, and nothing else. */
+static bool read_numbers(const char *text, size_t count, double *values) {
+    char copy[128];
+    if (strlen(text) >= sizeof copy)
+        return false;
+    strcpy(copy, text);
+    size_t found = 0;
+    for (char *rest = copy, *piece; (piece = strtok_r(rest, ", ", &rest)) != NULL; ++found)
+        if (found == count || !aur_parse_double(piece, &values[found]))
+            return false;
+    return found == count;
+}
+
+static aur_result parse_direction(const char *text, void *field, aur_error *error) {
+    double *const v = field;
+    if (!read_numbers(text, 3, v) || !(v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be a direction like 0,0,1, not '%s'", text);
+    return AUR_OK;
+}
+
+static aur_result parse_range(const char *text, void *field, aur_error *error) {
+    double *const v = field;
+    if (!read_numbers(text, 2, v) || !(v[0] >= 0.0 && v[1] > v[0] && v[1] < 1e9))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be two illuminances like 100,3000, not '%s'", text);
+    return AUR_OK;
+}
+
+/* The field is the options' `from`, before `to`. */
+static aur_result parse_schedule(const char *text, void *field, aur_error *error) {
+    int *const hours = field;
+    const char *const dash = strchr(text, '-');
+    char first[8] = "";
+    uint64_t from = 0, to = 0;
+    if (dash != NULL && (size_t)(dash - text) < sizeof first)
+        memcpy(first, text, (size_t)(dash - text));
+    if (dash == NULL || !aur_parse_integer(first, 23, &from) || !aur_parse_integer(dash + 1, 24, &to) ||
+        from >= to)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be hours like 8-18, from 0 to 24, not '%s'", text);
+    hours[0] = (int)from;
+    hours[1] = (int)to;
+    return AUR_OK;
+}
+
+static aur_result parse_patches(const char *text, void *field, aur_error *error) {
+    static const char reinhart[] = "reinhart:";
+    uint64_t subdivision = 0;
+    if (strcmp(text, "tregenza") == 0)
+        subdivision = 1;
+    else if (strncmp(text, reinhart, sizeof reinhart - 1) == 0 &&
+             !aur_parse_integer(text + sizeof reinhart - 1, 6, &subdivision))
+        subdivision = 0;
+    *(size_t *)field = (size_t)subdivision;
+    return subdivision > 0 ? AUR_OK
+                           : aur_fail(error, AUR_ERROR_ARGUMENT,
+                                      "must be tregenza or reinhart:M with M from 1 to 6, not '%s'", text);
+}
+
+static aur_result parse_albedo(const char *text, void *field, aur_error *error) {
+    double *const albedo = field;
+    return aur_parse_double(text, albedo) && *albedo >= 0.0 && *albedo <= 1.0
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT, "must be a number from 0 to 1, not '%s'", text);
+}
+
+const cli_option cli_daylight_options[] = {
+    {CLI_TEXT(cli_daylight, weather, "weather", "FILE", NULL,
+              "an EPW file: a year of daylight in the place of the scene's lights; the options to the end "
+              "of these are for it"),
+     .content = "file"},
+    {CLI_TEXT(cli_daylight, options.subdivision, "patches", "PATCHES", "tregenza",
+              "of the sky: tregenza, or reinhart:M with M x M for each of its own"),
+     .parse = parse_patches},
+    {CLI_CHOICE(cli_daylight, options.efficacy, "efficacy", "MODEL", "perez",
+                "lumens a watt: by the weather (Perez et al. 1990), or 179"),
+     .key.words = (const char *const[]){"perez", "179", NULL}},
+    {CLI_TEXT(cli_daylight, options.ground_albedo, "ground-albedo", "A", "0.2",
+              "what the ground beyond the scene reflects"),
+     .parse = parse_albedo},
+    {CLI_TEXT(cli_daylight, options.up, "up", "X,Y,Z", "of the scene's sky; +y, in .rad +z", "to the zenith"),
+     .parse = parse_direction, .key.computed = true},
+    {CLI_TEXT(cli_daylight, options.north, "north", "X,Y,Z", "of the scene's sky; -z, or +y where z is up",
+              "to the north"),
+     .parse = parse_direction, .key.computed = true},
+    {CLI_REAL(cli_daylight, options.threshold, "threshold", "LUX", 1e-3, 1e9, "300", "of the autonomy")},
+    {CLI_TEXT(cli_daylight, options.useful, "useful", "LUX,LUX", "100,3000",
+              "least and most of useful illuminances"),
+     .parse = parse_range},
+    {CLI_TEXT(cli_daylight, options.from, "schedule", "H-H", "8-18",
+              "the hours that count, by the clock of the weather file"),
+     .parse = parse_schedule},
+    {CLI_FLAG(cli_daylight, options.weekdays, "weekdays", "Monday to Friday count only")},
+    {CLI_TEXT(cli_daylight, options.series, "series", "FILE", NULL,
+              "illuminances of all hours: .npy (sensors x 2 x hours, with standard errors) or .csv"),
+     .content = "file", .writes = true},
+    {.key = {0}}};
+
+bool cli_daylight_check(const cli_call *call) {
+    const bool weather = cli_given(call, "weather") != NULL;
+    static const char *const without[] = {"error",   "confidence", "parts",     "intervals", "no-errors",
+                                          "normals", "counts",     "reflected", "particles", "plot"};
+    for (const cli_option *option = cli_daylight_options + 1; option->key.name != NULL && !weather; ++option)
+        if (cli_given(call, option->key.name) != NULL) {
+            cli_bad_usage("irradiance: --%s is for a year of weather: --weather FILE", option->key.name);
+            return false;
+        }
+    for (size_t i = 0; i < sizeof without / sizeof without[0] && weather; ++i)
+        if (cli_given(call, without[i]) != NULL) {
+            cli_bad_usage("irradiance: --%s does not go with --weather", without[i]);
+            return false;
+        }
+    return true;
+}
+
+/* On one line, for people. */
+static void print_summary(const aur_daylight_summary *summary) {
+    aur_print(stderr,
+              "aureole: %zu hours count; %.4g %% of the sensors have daylight for half of them or more (%.4g "
+              "to %.4g %% by their intervals), %.4g %% have more than 250 hours of sun\n",
+              summary->hours, summary->spatial_autonomy, summary->spatial_autonomy_least,
+              summary->spatial_autonomy_most, summary->sunlight_exposure);
+}
+
+aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,
+                            const char *output, const char *format, bool quiet, aur_error *error) {
+    aur_weather *weather = NULL;
+    aur_daylight_summary summary = {.size = sizeof summary};
+    given->options.size = sizeof given->options;
+    given->options.no_ground = given->options.ground_albedo == 0.0;
+    aur_result result = aur_weather_read(given->weather, &weather, error);
+    aur_daylight *const results = calloc(sensors->count, sizeof *results);
+    if (result == AUR_OK && results == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);
+    if (result == AUR_OK)
+        result = aur_daylight_estimate(scene, sensors, aur_weather_look(weather), &given->options,
+                                       sizeof *results, results, &summary, error);
+    cli_progress_clear();
+    if (result == AUR_OK)
+        result = aur_daylight_write(output, format, sensors, sizeof *results, results, error);
+    if (result == AUR_OK && !quiet)
+        print_summary(&summary);
+    aur_weather_destroy(weather);
+    free(results);
+    return result;
+}

@@ -1,0 +1,236 @@
+/* aureole irradiance: how much light arrives at points. */
+#include <aureole-lighting/irradiance.h>
+#include <aureole/text.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/cli/lighting/daylight.h"
+#include "program/cli/lighting/irradiance.h"
+
+typedef enum illuminance { ILLUMINANCE_RADIANCE, ILLUMINANCE_REC709, ILLUMINANCE_PHOTOPIC } illuminance;
+
+typedef struct irradiance_command {
+    const char *sensors, *output, *format, *plot;
+    aur_sensors_options stand;
+    aur_irradiance_options estimate;
+    aur_irradiance_columns columns;
+    illuminance illuminance;
+    cli_daylight daylight;
+    cli_definitions definitions;
+    cli_common common;
+} irradiance_command;
+
+/* "1%" or ".01". */
+static aur_result parse_error(const char *text, void *field, aur_error *error) {
+    char copy[64];
+    const size_t length = strlen(text);
+    const bool percent = length > 0 && text[length - 1] == '%';
+    double value;
+    if (length >= sizeof copy)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be an error like 1%% or 0.01");
+    memcpy(copy, text, length - percent);
+    copy[length - percent] = '\0';
+    if (!aur_parse_double(copy, &value) || !(value > 0.0 && value < (percent ? 100.0 : 1.0)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be an error like 1%% or 0.01, not '%s'", text);
+    *(double *)field = percent ? 0.01 * value : value;
+    return AUR_OK;
+}
+
+static aur_result choose_json(const char *text, void *field, aur_error *error) {
+    (void)text, (void)error;
+    *(const char **)field = "json";
+    return AUR_OK;
+}
+
+static const cli_option options[] = {
+    {CLI_TEXT(irradiance_command, sensors, "sensors", "POINTS", NULL,
+              "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
+              "mesh: .obj, .ply, .stl or .off"),
+     .content = "file"},
+    {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
+              "a line or row a sensor, in the format that the name ends in; '-' is standard output"),
+     .letter = 'o', .content = "file", .writes = true},
+    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv", "format of the output"),
+     .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
+    {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},
+    {CLI_CHOICE(
+         irradiance_command, definitions.model_light, "model-light", "WHEN", "none",
+         "add light from all sides to a model: auto where it has no light source but emitting surfaces"),
+     .key.words = (const char *const[]){"auto", "always", "none", NULL}},
+    {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces", "where sensors stand on a mesh"),
+     .key.words = (const char *const[]){"faces", "vertices", NULL}},
+    {CLI_REAL(irradiance_command, stand.lift, "lift", "D", -INFINITY, INFINITY, "0",
+              "sensors are moved so far along their normals, in scene units")},
+    {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci", "of the directions"),
+     .content = "set"},
+    {CLI_INTEGER(irradiance_command, estimate.directions, "directions", "N", 1, 1 << 28,
+                 "1024; with --error 2^20; with --weather 16384",
+                 "from each sensor; with --error at most so many"),
+     .letter = 'n', .key.computed = true},
+    {CLI_REAL(irradiance_command, estimate.error, "error", "E", 0, 1, NULL,
+              "1% or .01: each sensor goes on until half of its interval is at most this part of its value"),
+     .parse = parse_error},
+    {CLI_REAL(irradiance_command, estimate.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
+              "of the intervals")},
+    {CLI_INTEGER(irradiance_command, estimate.max_depth, "max-depth", "N", 1, 1 << 20, "no limit",
+                 "edges of a light path: 1 is light straight from lights and sky"),
+     .key.computed = true},
+    {CLI_CHOICE(irradiance_command, estimate.reflected, "reflected", "HOW", "paths",
+                "light that was reflected, by paths, or by a photon map or a radiosity solution whose errors "
+                "some of the paths take away"),
+     .key.words = (const char *const[]){"paths", "map", "radiosity", NULL}},
+    {CLI_INTEGER(irradiance_command, estimate.particles, "particles", "N", 1, 1 << 28, "500000",
+                 "of the photon map or the radiosity solution")},
+    {CLI_CHOICE(irradiance_command, illuminance, "illuminance", "WEIGHTS", NULL,
+                "lux in the place of r, g, b: 179 lm/W by Radiance's weights of r, g, b (.265, .670, .065), "
+                "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
+     .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
+    {CLI_TEXT(irradiance_command, plot, "plot", "FILE", NULL,
+              "draw the luminance, or the lux of --illuminance, as a map with a scale of colours: .svg, "
+              ".pdf, .png, or "
+              ".tex for pgfplots"),
+     .parse = cli_parse_plot, .content = "file", .writes = true},
+    {CLI_FLAG(irradiance_command, columns.parts, "parts",
+              "direct, sky, reflected and the sun's light apart, after the total")},
+    {CLI_FLAG(irradiance_command, columns.intervals, "intervals",
+              "half the width of each interval, after the standard errors")},
+    {CLI_FLAG(irradiance_command, columns.no_errors, "no-errors", "no standard errors")},
+    {CLI_FLAG(irradiance_command, columns.normals, "normals", "nx, ny, nz after x, y, z")},
+    {CLI_FLAG(irradiance_command, columns.directions, "counts", "how many directions each sensor had")},
+    {CLI_INTEGER(irradiance_command, estimate.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
+    {.key = {0}}};
+
+/* Lumens a watt times the weights of r, g, b. */
+static void set_illuminance(irradiance_command *given) {
+    static const struct {
+        double efficacy, weights[3];
+    } rows[] = {
+        {179.0, {0.265, 0.670, 0.065}}, {179.0, {0.2126, 0.7152, 0.0722}}, {683.0, {0.2126, 0.7152, 0.0722}}};
+    for (size_t c = 0; c < 3; ++c)
+        given->estimate.luminance[c] =
+            rows[given->illuminance].efficacy * rows[given->illuminance].weights[c];
+    given->columns.luminance = true;
+    given->columns.unit = "lux";
+}
+
+/* A year of weather takes what the estimate at one time was told. */
+static aur_result estimate_year(irradiance_command *given, const aur_scene *scene,
+                                const aur_sensors_view *sensors, aur_error *error) {
+    const aur_irradiance_options *const estimate = &given->estimate;
+    aur_daylight_options *const year = &given->daylight.options;
+    year->set = estimate->set;
+    year->directions = estimate->directions;
+    year->max_depth = estimate->max_depth;
+    year->seed = estimate->seed;
+    year->threads = estimate->threads;
+    year->progress = estimate->progress;
+    year->warnings = estimate->warnings;
+    memcpy(year->luminance, estimate->luminance, sizeof year->luminance);
+    return cli_daylight_run(&given->daylight, scene, sensors, given->output, given->format,
+                            given->common.quiet, error);
+}
+
+/* In the time of a particle: a path from a sensor takes that of two. */
+static void plan(const irradiance_command *given, size_t sensors) {
+    static cli_phase phases[] = {{"photons", 0.0}, {"radiosity", 0.0}, {"sensors", 0.0}};
+    const double particles = given->estimate.particles > 0 ? (double)given->estimate.particles : 5e5;
+    const double directions = given->estimate.directions > 0 ? (double)given->estimate.directions : 1024.0;
+    phases[0].work = given->estimate.reflected == AUR_REFLECTED_BY_MAP ? particles : 0.0;
+    phases[1].work = given->estimate.reflected == AUR_REFLECTED_BY_RADIOSITY ? particles : 0.0;
+    phases[2].work = 2.0 * directions * (double)sensors;
+    cli_progress_plan(sizeof phases / sizeof phases[0], phases);
+}
+
+static aur_result estimate(const irradiance_command *given, const aur_scene *scene,
+                           const aur_sensors_view *sensors, aur_error *error) {
+    plan(given, sensors->count);
+    aur_irradiance *const results = calloc(sensors->count, sizeof *results);
+    if (results == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);
+    aur_result result =
+        aur_irradiance_estimate(scene, sensors, &given->estimate, sizeof *results, results, error);
+    cli_progress_clear();
+    if (result == AUR_OK)
+        result = aur_irradiance_write(given->output, given->format, &given->columns, sensors, sizeof *results,
+                                      results, error);
+    if (result == AUR_OK && given->plot != NULL)
+        result = cli_irradiance_plot(given->plot, given->columns.unit, sensors, results, error);
+    free(results);
+    return result;
+}
+
+/* The format that the output's name tells, unless one was asked for. */
+static void find_format(const cli_call *call, irradiance_command *given) {
+    static const char *const formats[] = {"csv", "json", "npy", "ply"};
+    const char *const dot = strrchr(given->output, '.');
+    if (cli_given(call, "to") != NULL || cli_given(call, "json") != NULL)
+        return;
+    given->format = "csv";
+    for (size_t i = 0; i < 4 && dot != NULL; ++i)
+        if (strcmp(dot + 1, formats[i]) == 0)
+            given->format = formats[i];
+}
+
+static int run(const cli_call *call) {
+    irradiance_command *const given = call->options;
+    find_format(call, given);
+    if (given->sensors == NULL)
+        return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
+    if (!cli_daylight_check(call))
+        return 2;
+    if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
+        return cli_bad_usage("irradiance: --particles is for --reflected map or radiosity");
+    given->estimate.size = sizeof given->estimate;
+    given->estimate.threads = given->common.threads;
+    given->estimate.progress = cli_progress(given->common.quiet);
+    given->estimate.warnings = cli_warnings(given->common.quiet);
+    given->columns.size = sizeof given->columns;
+    if (cli_given(call, "illuminance") != NULL)
+        set_illuminance(given);
+    aur_scene_options load = {.size = sizeof load};
+    aur_scene_options_init(&load, NULL);
+    load.definition_count = given->definitions.count;
+    load.definitions = given->definitions.items;
+    load.confine = given->definitions.confine;
+    load.model_light = given->definitions.model_light;
+    load.progress = given->estimate.progress;
+    load.further_count = call->operand_count - 1;
+    load.further = (const char *const *)call->operands + 1;
+    load.warnings = cli_warnings(given->common.quiet);
+    load.threads = given->common.threads;
+    aur_error error;
+    aur_scene *scene = NULL;
+    aur_sensors *sensors = NULL;
+    given->stand.size = sizeof given->stand;
+    given->stand.warnings = cli_warnings(given->common.quiet);
+    aur_result result = aur_sensors_read(given->sensors, &given->stand, &sensors, &error);
+    if (result == AUR_OK)
+        result = aur_scene_load(call->operands[0], &load, &scene, &error);
+    if (result == AUR_OK)
+        result = given->daylight.weather != NULL
+                     ? estimate_year(given, scene, aur_sensors_look(sensors), &error)
+                     : estimate(given, scene, aur_sensors_look(sensors), &error);
+    aur_scene_destroy(scene);
+    aur_sensors_destroy(sensors);
+    return cli_status(result, &error);
+}
+
+const cli_verb cli_verb_irradiance = {
+    .name = "irradiance",
+    .summary = "how much light arrives at points, now or through a year, with standard errors",
+    .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "
+             "standard error of 16 independent randomisations. See docs/lighting.md.",
+    .too_few = "a scene is needed",
+    .operands = {{"SCENE",
+                  "a scene (.xml, .rad, .glb, ...); further files go on with it, as oconv reads them",
+                  .repeated = true, .content = "file"}},
+    .groups = {{options, 0},
+               {cli_daylight_options, offsetof(irradiance_command, daylight)},
+               {cli_definitions_option, offsetof(irradiance_command, definitions)},
+               {cli_threads_option, offsetof(irradiance_command, common)},
+               {cli_quiet_option, offsetof(irradiance_command, common)},
+               {cli_cache_option, offsetof(irradiance_command, common)}},
+    .size = sizeof(irradiance_command),
+    .run = run,
+};

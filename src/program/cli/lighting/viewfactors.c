@@ -1,0 +1,237 @@
+/* aureole viewfactors: how much of what leaves each facet arrives at each other one. */
+#include <aureole-lighting/view_factors.h>
+#include <aureole/text.h>
+#include <math.h>
+#include <string.h>
+
+#include "program/cli/lighting/viewfactors.h"
+#include "program/cli/options.h"
+
+typedef struct factor_command {
+    aur_facets_options facets;
+    aur_view_factors_options factors;
+    cli_definitions definitions;
+    const char *output, *format;
+    bool matrix_free;
+    aur_facets_light light;
+    const char *sun;
+    cli_common common;
+} factor_command;
+
+static const cli_option options[] = {
+    {CLI_TEXT(
+         factor_command, output, "output", "FILE", "a summary is printed",
+         ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
+         "View3D's input)"),
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
+    {CLI_TEXT(factor_command, format, "to", "FORMAT", NULL,
+              "the format, where the name of FILE does not tell"),
+     .key.words = (const char *const[]){"npz", "csv", "view3d", "vs3", NULL}},
+    {CLI_FLAG(factor_command, facets.group, "group",
+              "a row for each group of an OBJ, or each shape of a scene")},
+    {CLI_FLAG(factor_command, facets.both_sides, "both-sides",
+              "facets see on their backs too: these rows follow the others")},
+    {CLI_INTEGER(factor_command, factors.rays, "rays", "N", 2, 1 << 22, "2048", "from each facet and side")},
+    {CLI_INTEGER(factor_command, factors.randomizations, "randomizations", "R", 2, 64, "8",
+                 "independent parts of the rays, from which intervals come")},
+    {CLI_INTEGER(factor_command, factors.half_planes, "half-planes", "N", 1, 1 << 22, "three for two rays",
+                 "for the sky, from each facet and side"),
+     .key.computed = true},
+    {CLI_TEXT(factor_command, factors.set, "set", "SET", "sobol",
+              "directions and places of the rays, in four dimensions"),
+     .content = "set"},
+    {CLI_INTEGER(factor_command, factors.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
+    {CLI_REAL(factor_command, factors.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
+              "of the intervals")},
+    {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms and no half planes")},
+    {CLI_REAL(
+        factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
+        "instead of factors each row's area, sky factor and radiosity, with half of its interval, when all "
+        "facets reflect RHO: CSV or, with --json, JSON, to FILE or printed")},
+    {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun or --emission",
+              "for --radiosity: of the sky"),
+     .key.computed = true},
+    {CLI_TEXT(factor_command, sun, "sun", "X,Y,Z", NULL,
+              "for --radiosity: the direction to the sun; its length is the irradiance of what faces it")},
+    {CLI_REAL(factor_command, light.emission, "emission", "B", 0, 1e30, "0",
+              "for --radiosity: what every facet sends out by itself")},
+    {CLI_FLAG(factor_command, matrix_free, "matrix-free",
+              "for --radiosity: rays are traced anew for each reflection, and no matrix is kept")},
+    {.key = {0}}};
+
+/* The format that the output's name tells. */
+static bool find_format(factor_command *given) {
+    if (given->format != NULL || given->output == NULL)
+        return true;
+    const char *const dot = strrchr(given->output, '.');
+    const char *const ending = dot != NULL ? dot + 1 : "";
+    if (strcmp(ending, "npz") == 0 || strcmp(ending, "csv") == 0 || strcmp(ending, "vs3") == 0)
+        given->format = ending;
+    else if (strcmp(ending, "txt") == 0 || strcmp(ending, "vf") == 0)
+        given->format = "view3d";
+    if (given->format != NULL)
+        return true;
+    cli_bad_usage("viewfactors: the name '%s' tells no format: end it in .npz, .csv, .txt, .vf or .vs3, or "
+                  "say --to",
+                  given->output);
+    return false;
+}
+
+static bool options_fit(const cli_call *call) {
+    factor_command *const given = call->options;
+    const bool radiosity = cli_given(call, "radiosity") != NULL;
+    if (given->matrix_free && !radiosity) {
+        cli_bad_usage("viewfactors: --matrix-free makes no matrix: ask for what it is for, --radiosity RHO");
+        return false;
+    }
+    if (radiosity && given->format != NULL) {
+        cli_bad_usage("viewfactors: --radiosity writes a table of CSV, no matrix: leave --to out");
+        return false;
+    }
+    return radiosity || find_format(given);
+}
+
+/* The sources of light: the sky where no other is named. */
+static bool read_light(const cli_call *call) {
+    factor_command *const given = call->options;
+    const bool other = given->sun != NULL || cli_given(call, "emission") != NULL;
+    given->light.size = sizeof given->light;
+    if (cli_given(call, "sky") == NULL)
+        given->light.sky = other ? 0.0 : 1.0;
+    if ((other || cli_given(call, "sky") != NULL) && cli_given(call, "radiosity") == NULL) {
+        cli_bad_usage("viewfactors: --sky, --sun and --emission are for --radiosity RHO");
+        return false;
+    }
+    if (given->sun == NULL)
+        return true;
+    char text[128];
+    size_t used = 0, count = 0;
+    bool good = true;
+    for (const char *at = given->sun; good; ++at) {
+        if (*at != ',' && *at != '\0') {
+            good = used + 1 < sizeof text;
+            text[used] = *at;
+            used += good;
+            continue;
+        }
+        text[used] = '\0';
+        used = 0;
+        good = count < 3 && aur_parse_double(text, &given->light.sun[count]);
+        ++count;
+        if (*at == '\0')
+            break;
+    }
+    const double *const sun = given->light.sun;
+    const double length = sqrt(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
+    if (good && count == 3 && length > 0.0 && length <= 1e30)
+        return true;
+    cli_bad_usage("viewfactors: --sun '%s' is not three numbers X,Y,Z, of which one is not 0", given->sun);
+    return false;
+}
+
+/* What has been done, for people. */
+static int print_summary(const aur_view_factors *factors, report_format format) {
+    aur_view_factors_description d = {.size = sizeof d};
+    aur_view_factors_matrix m = {.size = sizeof m};
+    aur_view_factors_describe(factors, &d, NULL);
+    aur_view_factors_get_matrix(factors, &m, NULL);
+    report_table *const table = report_create(0, NULL);
+    report_fact_number(table, "rows", (double)m.rows);
+    report_fact_number(table, "entries", (double)m.starts[m.rows]);
+    report_fact_number(table, "rays", (double)d.rays);
+    report_fact_number(table, "closed_pairs", (double)d.closed_pairs);
+    report_fact_number(table, "sampled_pairs", (double)d.sampled_pairs);
+    report_fact_number(table, "closed_share", d.closed_share);
+    report_fact_number(table, "raw_row_error", d.raw_row_error);
+    report_fact_number(table, "moved", d.moved);
+    report_fact_number(table, "largest_row_error", d.largest_row_error);
+    report_fact_number(table, "unseen", d.unseen);
+    return cli_finish(table, format);
+}
+
+static int write_matrix(const aur_facets *facets, const factor_command *given) {
+    aur_error error;
+    aur_view_factors *factors = NULL;
+    aur_result result = aur_view_factors_create(facets, &given->factors, &factors, &error);
+    cli_progress_clear();
+    if (result == AUR_OK && given->format != NULL)
+        result = aur_view_factors_write(factors, given->format, given->output != NULL ? given->output : "-",
+                                        &error);
+    int status = cli_status(result, &error);
+    if (result == AUR_OK && given->format == NULL)
+        status = print_summary(factors, given->common.format);
+    aur_view_factors_destroy(factors);
+    return status;
+}
+
+/* In the time of a ray: a half plane takes that of three rays, edges that of half as many as usual. */
+static void plan(const factor_command *given) {
+    static cli_phase phases[] = {{"tracing rays", 0.0},
+                                 {"measuring the sky", 0.0},
+                                 {"integrating along edges", 0.0},
+                                 {"putting rows together", 0.0}};
+    const double rays = given->factors.rays > 0 ? (double)given->factors.rays : 2048.0;
+    const bool all = !given->factors.rays_only;
+    phases[0].work = rays;
+    phases[1].work = !all                             ? 0.0
+                     : given->factors.half_planes > 0 ? 3.0 * (double)given->factors.half_planes
+                                                      : 4.5 * rays;
+    phases[2].work = all ? 1024.0 : 0.0;
+    phases[3].work = 64.0;
+    if (!given->matrix_free) /* whose progress is one phase */
+        cli_progress_plan(sizeof phases / sizeof phases[0], phases);
+}
+
+static int run(const cli_call *call) {
+    factor_command *const given = call->options;
+    if (!options_fit(call) || !read_light(call))
+        return CLI_BAD_INPUT;
+    given->facets.size = sizeof given->facets;
+    given->facets.definition_count = given->definitions.count;
+    given->facets.definitions = given->definitions.items;
+    given->facets.confine = given->definitions.confine;
+    given->facets.further_count = call->operand_count - 1;
+    given->facets.further = (const char *const *)call->operands + 1;
+    given->facets.warnings = given->factors.warnings = cli_warnings(given->common.quiet);
+    given->factors.threads = given->common.threads;
+    given->factors.size = sizeof given->factors;
+    given->factors.progress = cli_progress(given->common.quiet);
+    plan(given);
+    aur_error error;
+    aur_facets *facets = NULL;
+    if (aur_facets_load(call->operands[0], &given->facets, &facets, &error) != AUR_OK)
+        return cli_fail(&error);
+    int status;
+    if (cli_given(call, "radiosity") != NULL)
+        status = cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, &given->light,
+                                           given->common.format, given->output);
+    else if (given->format != NULL && strcmp(given->format, "vs3") == 0)
+        status = cli_status(aur_facets_write_vs3(facets, given->output != NULL ? given->output : "-", &error),
+                            &error);
+    else
+        status = write_matrix(facets, given);
+    aur_facets_destroy(facets);
+    return status;
+}
+
+const cli_verb cli_verb_viewfactors = {
+    .name = "viewfactors",
+    .summary = "view factors between the facets of a mesh",
+    .notes =
+        "Facets see along their normals, which corners that are counter-clockwise for who looks at them "
+        "have. "
+        "Pairs of facets that certainly see each other wholly have closed forms, others are counted along "
+        "rays. Rows and the sky add up to 1, and areas times factors are symmetric. See "
+        "docs/view-factors.md.",
+    .too_few = "a mesh or scene is needed",
+    .operands = {{"MESH",
+                  "an OBJ, a PLY or a scene (.xml, .rad, .glb, ...); further files go on with a scene",
+                  .repeated = true, .content = "file"}},
+    .groups = {{options, 0},
+               {cli_definitions_option, offsetof(factor_command, definitions)},
+               {cli_threads_option, offsetof(factor_command, common)},
+               {cli_format_option, offsetof(factor_command, common)},
+               {cli_quiet_option, offsetof(factor_command, common)}},
+    .size = sizeof(factor_command),
+    .run = run,
+};

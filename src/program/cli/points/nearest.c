@@ -1,0 +1,119 @@
+/* aureole nearest: the points of a set or file that are nearest to others. */
+#include <aureole/nearest.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "program/cli/points/point_source.h"
+
+typedef struct nearest_command {
+    cli_points from;
+    size_t count, neighbours;
+    cli_common common;
+} nearest_command;
+
+static const cli_option options[] = {
+    {CLI_INTEGER(nearest_command, count, "count", "N", 1, INFINITY, NULL,
+                 "size of POINTS, where they are a set"),
+     .letter = 'n'},
+    {CLI_INTEGER(nearest_command, neighbours, "neighbours", "K", 1, 1 << 20, "1", "how many of each query"),
+     .letter = 'k'},
+    {.key = {0}}};
+
+static int print(const nearest_command *wanted, size_t count, const size_t *indices,
+                 const double *distances) {
+    report_table *const table = report_create(3, (const char *const[]){"query", "point", "distance"});
+    for (size_t i = 0; i < count * wanted->neighbours; ++i) {
+        report_integer(table, i / wanted->neighbours);
+        report_integer(table, indices[i]);
+        report_number(table, distances[i], 9);
+    }
+    return cli_finish(table, wanted->common.format);
+}
+
+static int find(const nearest_command *wanted, const aur_points_view *points,
+                const aur_points_view *queries) {
+    if (points->domain != queries->domain || points->dimension != queries->dimension)
+        return cli_bad_usage("nearest: the points are on the %s and the queries on the %s: give --domain",
+                             aur_domain_name(points->domain), aur_domain_name(queries->domain));
+    aur_nearest_options how = {.size = sizeof how};
+    aur_nearest_options_init(&how, NULL);
+    how.neighbours = wanted->neighbours;
+    how.threads = wanted->common.threads;
+    how.progress = cli_progress(wanted->common.quiet);
+    const size_t size = queries->count * wanted->neighbours;
+    size_t *const indices = calloc(size, sizeof *indices);
+    double *const distances = calloc(size, sizeof *distances);
+    aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
+    aur_nearest *nearest = NULL;
+    bool good =
+        indices != NULL && distances != NULL && aur_nearest_create(points, &nearest, &error) == AUR_OK;
+    good = good && aur_nearest_find(nearest, &how, queries->count, queries->coordinates, indices, distances,
+                                    &error) == AUR_OK;
+    const int status = good ? print(wanted, queries->count, indices, distances) : cli_fail(&error);
+    aur_nearest_destroy(nearest);
+    free(indices);
+    free(distances);
+    return status;
+}
+
+/* Where only the numbers said what the domain is, it is that of the others; and the hemisphere is a part of
+ * the sphere. */
+static void agree(aur_points_view *a, aur_points_view *b) {
+    aur_points_view *const views[] = {a, b};
+    for (size_t i = 0; i < 2; ++i) {
+        const aur_domain other = views[1 - i]->domain;
+        if (views[i]->domain == AUR_DOMAIN_HEMISPHERE &&
+            (other == AUR_DOMAIN_SPHERE || (other == AUR_DOMAIN_AXES && views[i]->guessed)))
+            views[i]->domain = other;
+    }
+}
+
+static int run(const cli_call *call) {
+    nearest_command *const wanted = call->options;
+    const char *const source = call->operands[0];
+    if (wanted->count == 0 && !cli_has_size(source))
+        return cli_bad_usage("nearest: -n is missing for the set '%s' (there is no such file)", source);
+    if (!cli_is_file(call->operands[1]))
+        return cli_bad_usage("nearest: '%s' is not a file of queries", call->operands[1]);
+    wanted->from.domain_given = cli_given(call, "domain") != NULL;
+    wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
+    aur_points *points = NULL, *queries = NULL;
+    aur_points_view seen, asked;
+    aur_error error;
+    aur_result result = cli_load_points(call->operands[1], &wanted->from, 0, &queries, &asked, &error);
+    /* The queries say where a set's points are when nothing else does. */
+    if (result == AUR_OK && !wanted->from.domain_given && !cli_is_file(source)) {
+        wanted->from.options.domain =
+            asked.domain == AUR_DOMAIN_HEMISPHERE ? AUR_DOMAIN_SPHERE : asked.domain;
+        wanted->from.domain_given = asked.domain != AUR_DOMAIN_CUBE;
+    }
+    if (result == AUR_OK)
+        result = cli_load_points(source, &wanted->from, wanted->count, &points, &seen, &error);
+    if (result == AUR_OK)
+        agree(&seen, &asked);
+    const int status = result == AUR_OK ? find(wanted, &seen, &asked) : cli_fail(&error);
+    aur_points_destroy(points);
+    aur_points_destroy(queries);
+    return status;
+}
+
+const cli_verb cli_verb_nearest = {
+    .name = "nearest",
+    .summary = "the points that are nearest to others",
+    .notes = "POINTS are a set or a file, QUERIES a file of the same domain: directions, axes (--domain "
+             "axes), rotations "
+             "or points of the square or cube. Prints for each query the index of the nearest point, from 0, "
+             "and the "
+             "angle between them in radians (on the square and cube the distance).",
+    .too_few = "points and a file of queries are needed: try 'aureole help nearest'",
+    .operands = {{"POINTS", "a set or a file", .content = "file or set"},
+                 {"QUERIES", "a file", .content = "file"}},
+    .groups = {{options, 0},
+               {cli_points_options, offsetof(nearest_command, from)},
+               {cli_format_option, offsetof(nearest_command, common)},
+               {cli_threads_option, offsetof(nearest_command, common)},
+               {cli_quiet_option, offsetof(nearest_command, common)},
+               {cli_cache_option, offsetof(nearest_command, common)}},
+    .size = sizeof(nearest_command),
+    .run = run,
+};

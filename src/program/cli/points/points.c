@@ -1,0 +1,212 @@
+/* aureole points: writes points of any set on any domain. */
+#include <aureole/rotations.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "program/cli/points/draw.h"
+#include "program/cli/points/point_source.h"
+#include "program/report/figure.h"
+
+enum { FIRST_PICTURE = AUR_POINTS_PLY + 1 }; /* those of figures come after the library's formats */
+
+typedef struct points_command {
+    const char *path;
+    const char *warp; /* a picture's path */
+    unsigned format;
+    aur_symmetry symmetry;
+    bool symmetric, matrices; /* of rotations */
+    cli_common common;
+    cli_points from;
+    aur_points_request points;
+    aur_points_write_options write;
+} points_command;
+
+static const char *format_name(unsigned format) {
+    return format < FIRST_PICTURE ? aur_points_format_name((aur_points_format)format)
+                                  : report_figure_format(format - FIRST_PICTURE);
+}
+
+static aur_result choose_json(const char *text, void *field, aur_error *error) {
+    (void)text, (void)error;
+    *(unsigned *)field = AUR_POINTS_JSON;
+    return AUR_OK;
+}
+
+static const cli_option options[] = {
+    {CLI_INTEGER(points_command, from.options.count, "size", "N", 1, INFINITY, "all of a file",
+                 "the size of the set"),
+     .letter = 'n', .key.computed = true},
+    {CLI_INTEGER(points_command, points.first, "first", "K", 0, INFINITY, "0",
+                 "leave out the points before this one")},
+    {CLI_INTEGER(points_command, points.count, "count", "C", 1, INFINITY, "all", "write only so many points"),
+     .key.computed = true},
+    {CLI_TEXT(points_command, warp, "warp", "IMAGE", NULL,
+              "move points of the square so that they follow the picture's brightness"),
+     .content = "file"},
+    {CLI_CHOICE(points_command, symmetry, "symmetry", "GROUP", "none",
+                "only the rotations in the fundamental zone of a crystal's symmetry, 432 for a cubic one; 1 "
+                "makes w positive"),
+     .key.computed = true, .name = aur_symmetry_name},
+    {CLI_FLAG(points_command, matrices, "matrices", "write rotations as matrices, row by row")},
+    {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
+                "how points are written; svg, pdf, png and tex are pictures"),
+     .key.computed = true, .name = format_name},
+    {CLI_FLAG(points_command, format, "json", "the same as --format json"), .parse = choose_json},
+    {CLI_FLAG(points_command, write.no_header, "no-header", "CSV without the line of names")},
+    {CLI_INTEGER(points_command, write.digits, "digits", "D", 1, 17, NULL,
+                 "significant digits of CSV; without it 17, which lose nothing")},
+    {CLI_FLAG(points_command, write.single, "single", "32-bit floats instead of 64-bit ones (NPY, PLY)")},
+    {CLI_TEXT(points_command, path, "output", "FILE", "-", "where to; '-' is standard output"), .letter = 'o',
+     .content = "file", .writes = true},
+    {.key = {0}}};
+
+/* By the file's name, unless it is `told`. A name without an ending, and '-', are CSV. */
+static bool choose_format(points_command *wanted, bool told) {
+    const char *const slash = strrchr(wanted->path, '/');
+    const char *const dot = strrchr(slash != NULL ? slash : wanted->path, '.');
+    if (told || dot == NULL)
+        return true;
+    for (unsigned i = 0; format_name(i) != NULL; ++i)
+        if (strcasecmp(format_name(i), dot + 1) == 0) {
+            wanted->format = i;
+            return true;
+        }
+    cli_bad_usage("-o: '%s' must end in .csv, .json, .npy, .ply, .svg, .pdf, .png or .tex, or --format say "
+                  "how it is written",
+                  wanted->path);
+    return false;
+}
+
+/* What is left to the set and to the file's name when the command line does not say it. */
+static bool complete(const cli_call *call) {
+    points_command *const wanted = call->options;
+    bool domain_given = cli_given(call, "domain") != NULL;
+    if (cli_given(call, "size") == NULL && strncmp(call->operands[0], "file:", 5) != 0) {
+        cli_bad_usage("points: the size of the set is missing: give -n N");
+        return false;
+    }
+    if (!domain_given && cli_given(call, "lobe") != NULL) {
+        wanted->from.options.domain = AUR_DOMAIN_HEMISPHERE;
+        domain_given = true;
+    }
+    wanted->symmetric = cli_given(call, "symmetry") != NULL;
+    wanted->points.natural_domain = !domain_given;
+    if (cli_given(call, "map") != NULL && (!domain_given || wanted->from.options.domain <= AUR_DOMAIN_CUBE)) {
+        cli_bad_usage("--map: needs --domain disk, hemisphere, sphere or axes");
+        return false;
+    }
+    return choose_format(wanted, cli_given(call, "format") != NULL || cli_given(call, "json") != NULL);
+}
+
+/* Moves the points into an array of their own, which the caller frees. */
+static int warp(const char *path, aur_points_view *points, double **warped) {
+    if (points->domain != AUR_DOMAIN_SQUARE)
+        return cli_bad_usage("--warp: needs points of the square");
+    aur_density_image *density;
+    const int status = cli_read_density(path, &density);
+    if (status != CLI_SUCCESS)
+        return status;
+    *warped = malloc(2 * points->count * sizeof **warped);
+    for (size_t i = 0; i < points->count && *warped != NULL; ++i)
+        aur_density_image_warp(density, points->coordinates + 2 * i, *warped + 2 * i);
+    aur_density_image_destroy(density);
+    points->coordinates = *warped;
+    return *warped != NULL ? CLI_SUCCESS
+                           : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+}
+
+/* Rotations into an array of their own, which the caller frees: those in the fundamental zone, as matrices
+ * where these are wanted. */
+static int change_rotations(const points_command *wanted, aur_points_view *points, double **changed) {
+    if (!wanted->symmetric && !wanted->matrices)
+        return CLI_SUCCESS;
+    if (points->domain != AUR_DOMAIN_ROTATIONS)
+        return cli_bad_usage("--%s: needs --domain rotations", wanted->matrices ? "matrices" : "symmetry");
+    if (points->weights != NULL && wanted->symmetric)
+        return cli_bad_usage("--symmetry: the rotations have weights, which would no longer add up to 1");
+    const size_t dimension = wanted->matrices ? 9 : 4;
+    *changed = malloc(9 * points->count * sizeof **changed);
+    double *const quaternions = malloc(4 * points->count * sizeof *quaternions);
+    const bool good = *changed != NULL && quaternions != NULL;
+    for (size_t i = 0; i < 4 * points->count && good; ++i)
+        quaternions[i] = points->coordinates[i / 4 * points->stride + i % 4];
+    if (good && wanted->symmetric)
+        points->count = aur_symmetry_select(wanted->symmetry, points->count, quaternions);
+    for (size_t i = 0; i < points->count && good; ++i) {
+        aur_rotation rotation;
+        aur_rotation_from_quaternion(quaternions + 4 * i, &rotation);
+        memcpy(*changed + dimension * i, wanted->matrices ? rotation.m : quaternions + 4 * i,
+               dimension * sizeof **changed);
+    }
+    free(quaternions);
+    if (!good)
+        return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    if (points->count == 0)
+        return cli_bad_usage(
+            "--symmetry: none of the rotations is in the fundamental zone: take a larger -n");
+    points->coordinates = *changed;
+    points->dimension = points->stride = dimension;
+    return CLI_SUCCESS;
+}
+
+static int write_points(const char *set, points_command *wanted, const aur_points_view *points) {
+    aur_error error = {0};
+    const uint64_t size = wanted->from.options.count; /* 0: all of a file */
+    const aur_points_origin origin = {.size = sizeof origin,
+                                      .set = set,
+                                      .count = size != 0 ? size : wanted->points.first + points->count,
+                                      .first = wanted->points.first,
+                                      .scramble = wanted->from.options.scramble,
+                                      .seed = wanted->from.options.seed};
+    wanted->write.size = sizeof wanted->write;
+    wanted->write.origin = &origin;
+    const aur_result result = wanted->format >= FIRST_PICTURE
+                                  ? cli_draw_points(wanted->path, format_name(wanted->format), points, &error)
+                                  : aur_points_write_as(wanted->path, (aur_points_format)wanted->format,
+                                                        points, &wanted->write, &error);
+    return cli_status(result, &error);
+}
+
+static int run(const cli_call *call) {
+    points_command *const wanted = call->options;
+    const char *const set = call->operands[0];
+    if (!complete(call))
+        return CLI_BAD_INPUT;
+    wanted->from.options.size = sizeof wanted->from.options;
+    wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
+    wanted->points.size = sizeof wanted->points;
+    wanted->points.options = &wanted->from.options;
+    wanted->points.dimension = wanted->from.dimension;
+    aur_error error = {0};
+    aur_points *points;
+    if (aur_points_generate(set, &wanted->points, &points, &error) != AUR_OK)
+        return cli_fail(&error);
+    aur_points_view view = *aur_points_look(points);
+    double *warped = NULL;
+    int status = wanted->warp != NULL ? warp(wanted->warp, &view, &warped) : CLI_SUCCESS;
+    if (status == CLI_SUCCESS && wanted->warp == NULL)
+        status = change_rotations(wanted, &view, &warped);
+    if (status == CLI_SUCCESS)
+        status = write_points(set, wanted, &view);
+    free(warped);
+    aur_points_destroy(points);
+    return status;
+}
+
+const cli_verb cli_verb_points = {
+    .name = "points",
+    .summary = "write points of a set on the square, disk, hemisphere or sphere, as axes or as rotations",
+    .too_few = "a set is missing: 'aureole sets' lists them",
+    .operands = {{"SET", "NAME[:key=value,...] or file:PATH; 'aureole sets' lists them", .content = "set"}},
+    .groups = {{options, 0},
+               {cli_points_options, offsetof(points_command, from)},
+               {cli_cap_option, offsetof(points_command, from)},
+               {cli_dimension_option, offsetof(points_command, from)},
+               {cli_quiet_option, offsetof(points_command, common)},
+               {cli_cache_option, offsetof(points_command, common)}},
+    .size = sizeof(points_command),
+    .run = run,
+};

@@ -1,0 +1,275 @@
+/* aureole weights: optimal and exact weights of samples, their rivals, and what they gain. */
+#include "program/cli/points/weights.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
+    return aur_lobe_parse(text, field, error);
+}
+
+/* In the order of cli_method. */
+static const char *method_name(unsigned method) {
+    static const char *const names[] = {"osw",   "oswa",  "mis",   "mis-power",
+                                        "equal", "ratio", "exact", "voronoi"};
+    return method < sizeof names / sizeof names[0] ? names[method] : NULL;
+}
+
+static const cli_option options[] = {
+    {CLI_INTEGER(cli_weights_arguments, size, "size", "N", 1, INFINITY, "all of a file",
+                 "samples of the set"),
+     .letter = 'n', .key.computed = true},
+    {CLI_TEXT(cli_weights_arguments, mirror, "lobe2", "LOBE", NULL,
+              "a second lobe about the mirror direction of a view, with samples of its own; its weights are "
+              "the column w2"),
+     .key.words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA", NULL},
+     .parse = parse_lobe},
+    {CLI_REAL(cli_weights_arguments, degrees, "angle", "DEGREES", 0, 90, NULL,
+              "of the view, for the second lobe")},
+    {CLI_INTEGER(cli_weights_arguments, mirror_size, "n2", "N", 1, INFINITY, "as many as of the first",
+                 "samples of the second lobe"),
+     .key.computed = true},
+    {CLI_FLAG(cli_weights_arguments, clipped, "clip",
+              "the second lobe ends at the horizon; hidden samples get weight 0")},
+    {CLI_CHOICE(
+         cli_weights_arguments, method, "method", "METHOD", "osw for one lobe, oswa for two",
+         "optimal weights, of two lobes each from its own samples (osw) or from all (oswa); balance "
+         "or power heuristic (mis, mis-power), 1/N (equal), p/(q N) (ratio), the nearest to equal ones "
+         "that integrate polynomials exactly (exact) or areas of Voronoi cells (voronoi)"),
+     .key.computed = true, .name = method_name},
+    {CLI_INTEGER(cli_weights_arguments, degree, "degree", "L", 0, AUR_EXACT_DEGREE_MAX,
+                 "the largest with positive weights", "of the polynomials that --method exact integrates"),
+     .key.computed = true},
+    {CLI_TEXT(cli_weights_arguments, levels, "levels", "N,N,...", NULL,
+              "exact weights for the first so many samples each: the columns w, w2, ..."),
+     .list = true},
+    {CLI_FLAG(cli_weights_arguments, negative, "negative",
+              "weights of a --degree that is given may be negative")},
+    {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
+    {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
+              "added to the diagonal"),
+     .key.maximum_open = true},
+    {CLI_FLAG(cli_weights_arguments, unconstrained, "unconstrained",
+              "do not fix the sum of the weights to 1")},
+    {CLI_FLAG(
+        cli_weights_arguments, report, "report",
+        "print worst-case errors with equal and optimal weights and the gain instead of samples; of exact "
+        "weights the degree, the error that is left, and the least and largest weight times N")},
+    {CLI_TEXT(cli_weights_arguments, path, "output", "FILE", "standard output, unless there is a report",
+              "write x,y,z,w there as CSV"),
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
+    {CLI_TEXT(cli_weights_arguments, plot, "plot", "FILE", NULL,
+              "draw the samples coloured by weight: .svg, .pdf, .png, or .tex for pgfplots"),
+     .parse = cli_parse_plot, .content = "file", .writes = true},
+    {CLI_TEXT(cli_weights_arguments, table, "table", "FILE", NULL,
+              "build a table of optimal weights for two lobes (oswa) or for one ggx lobe, or read one with "
+              "--lookup"),
+     .content = "file"},
+    {CLI_INTEGER(cli_weights_arguments, angles, "angles", "T", 2, 1 << 16, "64", "of the view in a table")},
+    {CLI_INTEGER(cli_weights_arguments, roughnesses, "roughnesses", "R", 1, 256, "1",
+                 "of a ggx lobe in a table, from its ALPHA to 1, evenly in logarithms")},
+    {CLI_INTEGER(cli_weights_arguments, rotations, "rotations", "K", 1, 1 << 16, "16",
+                 "of the patterns in a table")},
+    {CLI_REAL(cli_weights_arguments, look_up_degrees, "lookup", "DEGREES", 0, 90, NULL,
+              "write the samples and weights of a table at that angle of the view")},
+    {CLI_REAL(cli_weights_arguments, look_up_alpha, "roughness", "ALPHA", 1e-4, 1, "the table's least",
+              "that is looked up in a table of several"),
+     .key.computed = true},
+    {CLI_INTEGER(cli_weights_arguments, rotation, "rotation", "K", 0, (1 << 16) - 1, "0",
+                 "which rotation of the table is looked up")},
+    {CLI_FLAG(cli_weights_arguments, mirrored, "mirrored", "the mirror image of what is looked up")},
+    {.key = {0}}};
+
+/* What the options mean together; the first rule that they break, or NULL. */
+static const char *broken_rule(const cli_call *call, const cli_weights_arguments *arguments) {
+    const bool two = arguments->two;
+    if (arguments->points.options.optimal_density && cli_has_size(arguments->source))
+        return "--density: the points of a file are as they stand";
+    if (!two && (cli_given(call, "angle") != NULL || arguments->mirror_size > 0 || arguments->clipped))
+        return "--angle, --n2 and --clip are for two lobes: give --lobe2";
+    if (two && cli_given(call, "angle") == NULL && arguments->table == NULL)
+        return "--lobe2: the angle of the view is missing: give --angle DEGREES";
+    if (two && arguments->points.options.domain != AUR_DOMAIN_HEMISPHERE)
+        return "--lobe2: two lobes are for the hemisphere";
+    const bool ggx = (two ? arguments->mirror : arguments->points.options.lobe).kind == AUR_LOBE_GGX;
+    if (arguments->table != NULL && !two && !ggx)
+        return "--table: needs two lobes, or one that is ggx: give --lobe2";
+    if (arguments->roughnesses > 1 && (arguments->table == NULL || !ggx))
+        return "--roughnesses: is for a --table of a ggx lobe";
+    if (arguments->method == CLI_METHOD_OSWA && !two)
+        return "--method oswa: needs two lobes: give --lobe2";
+    const bool exact = arguments->method == CLI_METHOD_EXACT;
+    if (two && (exact || arguments->method == CLI_METHOD_VORONOI))
+        return "--lobe2: exact weights and areas of cells are for one lobe";
+    if (!exact && (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
+                   arguments->levels.count > 0))
+        return "--degree, --levels, --negative and --near are for --method exact";
+    if (!exact && arguments->method != CLI_METHOD_VORONOI && arguments->points.options.cap_degrees > 0.0)
+        return "--cap: is for --method exact and voronoi";
+    if (arguments->levels.count > CLI_LEVEL_LIMIT)
+        return "--levels: there may be at most 32";
+    if (arguments->levels.count > 0 && arguments->plot != NULL)
+        return "--plot: draws one level: leave --levels out";
+    if (arguments->near && !cli_has_size(arguments->source))
+        return "--near: only a file has weights to stay near to";
+    return NULL;
+}
+
+/* What follows from a set or file; the status of what is wrong. */
+static int complete(const cli_call *call, cli_weights_arguments *arguments) {
+    cli_points *const points = &arguments->points;
+    arguments->source = call->operands[0];
+    points->domain_given = cli_given(call, "domain") != NULL;
+    if (!points->domain_given)
+        points->options.domain =
+            points->options.cap_degrees > 90.0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE;
+    arguments->domain_follows = !points->domain_given && !arguments->two && cli_given(call, "lobe") == NULL &&
+                                points->options.cap_degrees == 0.0;
+    if (points->options.domain != AUR_DOMAIN_HEMISPHERE && points->options.domain != AUR_DOMAIN_SPHERE &&
+        points->options.domain != AUR_DOMAIN_AXES)
+        return cli_bad_usage("--domain: must be one of hemisphere, sphere, axes, not '%s'",
+                             aur_domain_name(points->options.domain));
+    if (cli_given(call, "size") == NULL && !cli_has_size(arguments->source))
+        return cli_bad_usage("weights: -n is missing for the set '%s' (there is no such file)",
+                             arguments->source);
+    if (cli_given(call, "method") == NULL)
+        arguments->method = arguments->two ? CLI_METHOD_OSWA : CLI_METHOD_OSW;
+    if (cli_given(call, "degree") == NULL)
+        arguments->degree = AUR_DEGREE_LARGEST;
+    const char *const rule = broken_rule(call, arguments);
+    if (rule != NULL)
+        return cli_bad_usage("%s", rule);
+    if (arguments->mirror_size == 0)
+        arguments->mirror_size = arguments->size;
+    return CLI_SUCCESS;
+}
+
+enum { FIGURES = 11 };
+
+/* Of one lobe or one level; NaN is what the method does not have. */
+static void find_figures(const cli_weights_arguments *arguments, const cli_weights_result *result, size_t k,
+                         double figures[FIGURES]) {
+    for (size_t i = 0; i < FIGURES; ++i)
+        figures[i] = NAN;
+    if (arguments->method == CLI_METHOD_EXACT) {
+        const aur_exact_report *const exact = &result->exact[k];
+        const double found[] = {(double)exact->degree, exact->residual, exact->least, exact->largest,
+                                (double)exact->places};
+        memcpy(figures + 6, found, sizeof found);
+        return;
+    }
+    /* What the points would give without a solve. */
+    const double plain = result->has_ratio ? result->ratio[k] : result->equal[k];
+    figures[0] = result->equal[k];
+    figures[1] = result->has_ratio ? result->ratio[k] : NAN;
+    figures[2] = result->weighted[k];
+    figures[3] = 100.0 * (1.0 - result->weighted[k] / plain);
+    figures[4] = result->sum[k];
+    figures[5] = result->condition > 0.0 ? result->condition : NAN;
+}
+
+/* Programs are given one set of columns, people those that have figures. */
+static int print_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
+    static const struct {
+        const char *name;
+        int digits;
+    } of[FIGURES] = {{"equal", 8},       {"ratio", 8},     {"weighted", 8}, {"gain_percent", 4},
+                     {"weight_sum", 10}, {"condition", 3}, {"degree", 9},   {"residual", 3},
+                     {"least", 8},       {"largest", 8},   {"places", 9}};
+    const bool exact = arguments->method == CLI_METHOD_EXACT;
+    double figures[FIGURES];
+    find_figures(arguments, result, 0, figures);
+    bool shown[FIGURES];
+    report_table *const table = report_create(4, (const char *const[]){"set", "n", "lobe", "method"});
+    for (size_t i = 0; i < FIGURES; ++i) {
+        shown[i] = arguments->common.format != REPORT_TABLE || !isnan(figures[i]);
+        if (shown[i])
+            report_column(table, of[i].name);
+    }
+    for (size_t k = 0; k < result->lobe_count; ++k) {
+        find_figures(arguments, result, k, figures);
+        report_text(table, arguments->source);
+        report_integer(table, exact ? result->exact[k].points : result->count);
+        report_text(table, k == 0 || exact ? arguments->lobe_text : arguments->mirror_text);
+        report_text(table, arguments->method_name);
+        for (size_t i = 0; i < FIGURES; ++i)
+            if (shown[i])
+                report_number(table, figures[i], of[i].digits);
+    }
+    return cli_finish(table, arguments->common.format);
+}
+
+static int write_points(const cli_weights_arguments *arguments, const cli_weights_result *result) {
+    aur_error error = {0};
+    return cli_status(aur_weights_write(arguments->path != NULL ? arguments->path : "-", result->domain,
+                                        result->count, result->xyz, result->lobe_count, result->weights,
+                                        &error),
+                      &error);
+}
+
+static int weigh(const cli_weights_arguments *arguments) {
+    cli_weights_result result = {0};
+    int status = cli_weights_compute(arguments, &result);
+    if (status == CLI_SUCCESS && arguments->report)
+        status = print_report(arguments, &result);
+    if (status == CLI_SUCCESS && arguments->plot != NULL)
+        status = cli_weights_plot(arguments, &result);
+    /* Figures or a picture were asked for: the samples only where -o says. */
+    const bool asked = arguments->path != NULL || (!arguments->report && arguments->plot == NULL);
+    if (status == CLI_SUCCESS && asked)
+        status = write_points(arguments, &result);
+    free(result.xyz);
+    free(result.weights);
+    free(result.near);
+    return status;
+}
+
+static int run(const cli_call *call) {
+    cli_weights_arguments *const arguments = call->options;
+    const char *const lobe = cli_given(call, "lobe");
+    arguments->lobe_text = lobe != NULL ? lobe : "uniform";
+    arguments->mirror_text = cli_given(call, "lobe2");
+    arguments->two = arguments->mirror_text != NULL;
+    arguments->look_up = cli_given(call, "lookup") != NULL;
+    arguments->weights.size = sizeof arguments->weights;
+    arguments->weights.sum_constraint = !arguments->unconstrained;
+    arguments->points.options.warnings = cli_warnings(arguments->common.quiet);
+    if (arguments->look_up && (arguments->table == NULL || arguments->report || arguments->plot != NULL))
+        return cli_bad_usage("--lookup: needs a table to read, --table FILE, and neither reports nor draws");
+    if (call->operand_count == 0 && !arguments->look_up)
+        return cli_bad_usage("weights: a set or a file is missing: 'aureole sets' lists the sets (--table "
+                             "FILE is read by --lookup DEGREES)");
+    aur_error error = {0};
+    if (arguments->table != NULL && !arguments->look_up &&
+        cli_announce_output(arguments->table, &error) != AUR_OK)
+        return cli_fail(&error);
+    if (call->operand_count > 0 && complete(call, arguments) != CLI_SUCCESS)
+        return CLI_BAD_INPUT;
+    arguments->method_name = method_name(arguments->method);
+    if (arguments->look_up)
+        return cli_weights_look_up(arguments);
+    return arguments->table != NULL ? cli_weights_table(arguments) : weigh(arguments);
+}
+
+const cli_verb cli_verb_weights = {
+    .name = "weights",
+    .summary = "optimal and exact weights of samples, and what they gain",
+    .notes =
+        "Points are directions of the hemisphere (of the sphere, where the lobe is uniform), and the lobe is "
+        "what the integrand is multiplied by: the points of a set follow it. Weights are for densities of "
+        "integral 1: equal ones are 1/N. They are worth most for random, irregular and partial sets. With "
+        "--lookup a set and its options must be those that the table has been built from; they may be left "
+        "out.",
+    .operands = {{"FILE|SET", "the samples", .optional = true, .content = "file or set"}},
+    .groups = {{options, 0},
+               {cli_points_options, offsetof(cli_weights_arguments, points)},
+               {cli_cap_option, offsetof(cli_weights_arguments, points)},
+               {cli_format_option, offsetof(cli_weights_arguments, common)},
+               {cli_threads_option, offsetof(cli_weights_arguments, common)},
+               {cli_quiet_option, offsetof(cli_weights_arguments, common)},
+               {cli_cache_option, offsetof(cli_weights_arguments, common)}},
+    .size = sizeof(cli_weights_arguments),
+    .run = run,
+    .ranks = true,
+};

@@ -1,0 +1,100 @@
+#include "program/cli/render/checkpoint.h"
+
+#include <aureole/ranks.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "program/cli/quantity.h"
+
+static aur_result parse_interval(const char *text, void *field, aur_error *error) {
+    return cli_parse_seconds("checkpoint-every", text, field, error);
+}
+
+const cli_option cli_checkpoint_options[] = {
+    {CLI_TEXT(cli_checkpoint, path, "checkpoint", "FILE", NULL,
+              "keep what there is of the render in FILE, so that it can go on after an interruption"),
+     .content = "file", .writes = true},
+    {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "60s", "60s", "how often"), .parse = parse_interval},
+    {CLI_FLAG(
+        cli_checkpoint, resume, "resume",
+        "go on from the checkpoint, to the same picture as without the interruption; anew where there is "
+        "none")},
+    {.key = {0}}};
+
+const char *cli_checkpoint_conflict(const cli_call *call) {
+    if (cli_given(call, "checkpoint") != NULL)
+        return NULL;
+    return cli_given(call, "resume") != NULL ? "render: '--resume' goes on from the file of '--checkpoint'"
+           : cli_given(call, "checkpoint-every") != NULL
+               ? "render: '--checkpoint-every' goes with '--checkpoint'"
+               : NULL;
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* Rank 0 writes, whichever thread comes here. A failure is warned of once: a full disk stays full. */
+static void save(cli_checkpoint *checkpoint) {
+    if (!checkpoint->writes)
+        return;
+    aur_error error = {0};
+    const aur_result result = checkpoint->render != NULL
+                                  ? aur_render_save(checkpoint->render, checkpoint->path, &error)
+                                  : aur_ask_save(checkpoint->ask, checkpoint->path, &error);
+    checkpoint->last = now();
+    if (result == AUR_OK || checkpoint->warned)
+        return;
+    checkpoint->warned = true;
+    char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
+    aur_error_format(&error, sizeof text, text);
+    cli_progress_clear();
+    fprintf(stderr, "aureole: warning: no checkpoint: %s\n", text);
+}
+
+static int show(void *user, const char *what, uint64_t done, uint64_t total) {
+    cli_checkpoint *const checkpoint = user;
+    if ((checkpoint->render != NULL || checkpoint->ask != NULL) &&
+        now() - checkpoint->last >= checkpoint->every)
+        save(checkpoint);
+    return checkpoint->progress.function(checkpoint->progress.user, what, done, total);
+}
+
+aur_progress cli_checkpoint_progress(cli_checkpoint *checkpoint, aur_progress progress) {
+    checkpoint->progress = progress;
+    checkpoint->writes = aur_ranks_rank() == 0;
+    return checkpoint->path != NULL ? (aur_progress){.function = show, .user = checkpoint} : progress;
+}
+
+aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, aur_ask *ask, bool quiet,
+                                aur_error *error) {
+    if (checkpoint->path == NULL)
+        return AUR_OK;
+    bool exists = access(checkpoint->path, F_OK) == 0;
+    aur_ranks_agree(sizeof exists, &exists);
+    if (checkpoint->resume && exists) {
+        const aur_result result = render != NULL ? aur_render_resume(render, checkpoint->path, error)
+                                                 : aur_ask_resume(ask, checkpoint->path, error);
+        if (result != AUR_OK)
+            return result;
+    } else if (checkpoint->resume && !quiet) {
+        cli_progress_clear();
+        fprintf(stderr, "aureole: there is no checkpoint %s yet: the render begins anew\n", checkpoint->path);
+    }
+    checkpoint->render = render;
+    checkpoint->ask = ask;
+    checkpoint->last = now();
+    return AUR_OK;
+}
+
+void cli_checkpoint_end(cli_checkpoint *checkpoint, bool good) {
+    if (good && (checkpoint->render != NULL || checkpoint->ask != NULL))
+        save(checkpoint);
+    checkpoint->render = NULL;
+    checkpoint->ask = NULL;
+}

@@ -1,0 +1,148 @@
+/* aureole compare: figures of the difference between a reference and pictures. */
+#include <aureole-render/image.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "program/cli/render/viewer.h"
+
+typedef struct compare_options {
+    cli_list metrics;
+    double tolerance;
+    double scale;
+    cli_picture picture;
+    const char *outfile;
+    const char *html;
+    cli_common common;
+} compare_options;
+
+static const cli_option rows[] = {
+    {CLI_TEXT(compare_options, metrics, "metric", "NAME", "rmse", "the figures"), .list = true,
+     .name = aur_image_metric_name},
+    {CLI_REAL(compare_options, tolerance, "tolerance", "T", 0, INFINITY, "0",
+              "every metric named may be at most T; 0: identical")},
+    {CLI_TEXT(compare_options, outfile, "outfile", "FILE", NULL,
+              "write the absolute difference (FLIP's map when the first metric is flip) in false colour "
+              "(PNG, EXR, ...)"),
+     .letter = 'o', .content = "file", .writes = true},
+    {CLI_TEXT(compare_options, html, "html", "FILE", NULL,
+              "write a page in which the pictures can be looked at: flip, slider, differences, values"),
+     .content = "file", .writes = true},
+    {CLI_REAL(compare_options, scale, "scale", "D", 0, INFINITY, "the largest; 1 for flip",
+              "the value that is drawn brightest"),
+     .key.computed = true},
+    {.key = {0}}};
+
+static aur_image_metric metric_at(const compare_options *options, size_t index) {
+    aur_image_metric metric;
+    aur_image_metric_from_name(cli_list_at(&options->metrics, index), &metric, NULL);
+    return metric;
+}
+
+/* Says which picture an error without a file is about. */
+static int fail_about(const char *path, aur_error *error) {
+    snprintf(error->file, sizeof error->file, "%s", path);
+    return cli_fail(error);
+}
+
+static int add_row(const char *path, const aur_image *reference, const aur_image *image,
+                   const compare_options *options, report_table *table, bool *within) {
+    aur_error error;
+    double value[4], mean[4];
+    report_text(table, path);
+    for (size_t i = 0; i < options->metrics.count; ++i) {
+        if (aur_image_compare(reference, image, metric_at(options, i), value, &error) != AUR_OK)
+            return fail_about(path, &error);
+        report_number(table, value[3], 6);
+        *within = *within && value[3] <= options->tolerance;
+    }
+    if (aur_image_compare(reference, image, AUR_IMAGE_RELATIVE_RMSE, value, &error) != AUR_OK)
+        return fail_about(path, &error);
+    report_number(table, value[3], 6);
+    const aur_image *const both[] = {image, reference};
+    for (size_t i = 0; i < 2; ++i) {
+        if (aur_image_mean(both[i], mean, &error) != AUR_OK)
+            return fail_about(path, &error);
+        for (size_t c = 0; c < 3; ++c)
+            report_number(table, mean[c], 6);
+    }
+    return CLI_SUCCESS;
+}
+
+static report_table *create_table(const compare_options *options) {
+    static const char *const others[] = {"relative_rmse",    "mean_r",           "mean_g",          "mean_b",
+                                         "reference_mean_r", "reference_mean_g", "reference_mean_b"};
+    report_table *const table = report_create(1, (const char *const[]){"image"});
+    for (size_t i = 0; i < options->metrics.count; ++i)
+        report_column(table, aur_image_metric_name(metric_at(options, i)));
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+        report_column(table, others[i]);
+    return table;
+}
+
+/* Of FLIP its map, of every other metric the absolute difference. */
+static int write_difference(const aur_image *reference, const aur_image *image,
+                            const compare_options *options) {
+    aur_error error;
+    aur_image *map = NULL, *colored = NULL;
+    aur_result result;
+    if (metric_at(options, 0) == AUR_IMAGE_FLIP) {
+        result = aur_image_flip(reference, image, &map, &error);
+        if (result == AUR_OK)
+            result =
+                aur_image_false_color(map, options->scale > 0.0 ? options->scale : 1.0, &colored, &error);
+    } else {
+        result = aur_image_difference(reference, image, options->scale, &colored, &error);
+    }
+    if (result == AUR_OK)
+        result = aur_image_write(options->outfile, colored, NULL, &error);
+    aur_image_destroy(colored);
+    aur_image_destroy(map);
+    return cli_status(result, &error);
+}
+
+static int run(const cli_call *call) {
+    const compare_options *const options = call->options;
+    if (options->outfile != NULL && call->operand_count > 2)
+        return cli_bad_usage("compare: --outfile shows the difference of one picture, not of %zu",
+                             call->operand_count - 1);
+    aur_image *reference = NULL;
+    int status = cli_read_picture(call->operands[0], &options->picture, &reference);
+    report_table *const table = create_table(options);
+    bool within = true;
+    for (size_t i = 1; i < call->operand_count && status == CLI_SUCCESS; ++i) {
+        aur_image *image = NULL;
+        status = cli_read_picture(call->operands[i], &options->picture, &image);
+        if (status == CLI_SUCCESS)
+            status = add_row(call->operands[i], reference, image, options, table, &within);
+        if (status == CLI_SUCCESS && options->outfile != NULL)
+            status = write_difference(reference, image, options);
+        aur_image_destroy(image);
+    }
+    if (status == CLI_SUCCESS)
+        status = cli_finish(table, options->common.format);
+    else
+        report_destroy(table);
+    aur_image_destroy(reference);
+    if (status == CLI_SUCCESS && options->html != NULL)
+        status = cli_write_viewer(options->html, call->operand_count, call->operands, &options->picture, 0.0,
+                                  true);
+    return status == CLI_SUCCESS && !within ? CLI_DIFFERENCE : status;
+}
+
+const cli_verb cli_verb_compare = {
+    .name = "compare",
+    .summary = "RMSE and other figures of the difference between pictures",
+    .notes =
+        "Pictures are EXR, PFM, HDR, PNG or JPEG. --channels names one or three to compare instead of R, G, "
+        "B. relative_rmse is RMSE divided by the reference's mean; mean_r to reference_mean_b are the mean "
+        "radiances of both pictures. The exit status is 0 when every picture is within the tolerance, 1 when "
+        "one is not, 2 on an error.",
+    .too_few = "a reference and at least one picture are needed",
+    .operands = {{"REFERENCE", "the picture that the others are compared with", .content = "file"},
+                 {"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
+    .groups = {{rows, 0},
+               {cli_picture_options, offsetof(compare_options, picture)},
+               {cli_format_option, offsetof(compare_options, common)}},
+    .size = sizeof(compare_options),
+    .run = run,
+};

@@ -1,0 +1,76 @@
+/* aureole convert: from one picture format to another. */
+#include <string.h>
+
+#include "program/cli/render/picture.h"
+
+typedef struct convert_options {
+    aur_image_write_options write;
+    cli_picture picture;
+} convert_options;
+
+static const cli_option options[] = {
+    {CLI_REAL(convert_options, write.exposure, "exposure", "STOPS", -100, 100, "0",
+              "multiply radiance by 2^STOPS (PNG)")},
+    {CLI_CHOICE(convert_options, write.tone, "tone", "CURVE", "srgb",
+                "the tone curve (PNG); without one radiance 1 is white"),
+     .key.words = (const char *const[]){"srgb", "filmic", NULL}},
+    {CLI_FLAG(convert_options, write.half, "half", "16-bit floats instead of 32-bit ones (EXR)")},
+    {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
+              "the format, where the name of OUT does not tell"),
+     .name = cli_picture_format},
+    {.key = {0}}};
+
+/* Options that would have no effect are mistakes. */
+static bool options_fit(const cli_call *call, const aur_row *format) {
+    static const char *const some[] = {"exposure", "tone", "half"};
+    for (size_t i = 0; i < sizeof some / sizeof some[0]; ++i)
+        if (cli_given(call, some[i]) != NULL && aur_row_find_key(format, some[i]) == NULL) {
+            cli_bad_usage("convert: --%s is not for %s: 'aureole help picture' tells what is", some[i],
+                          format->name);
+            return false;
+        }
+    return true;
+}
+
+static void warn_of_values(const char *path, const aur_image *image, const char *format) {
+    if (strcmp(format, "png") == 0)
+        cli_warn_of_values(path, image, true, "infinite ones become white, the others black");
+    else if (strcmp(format, "hdr") == 0)
+        cli_warn_of_values(path, image, true, "infinite ones become the largest of the format, the others 0");
+    else
+        cli_warn_of_values(path, image, false, "they are written as they are");
+}
+
+static int run(const cli_call *call) {
+    convert_options *const given = call->options;
+    const char *const output = call->operands[1];
+    const aur_row *format;
+    aur_error error;
+    int status = cli_status(aur_image_find_writer(output, given->write.format, &format, &error), &error);
+    if (status != CLI_SUCCESS || !options_fit(call, format))
+        return CLI_BAD_INPUT;
+    aur_image *image = NULL;
+    status = cli_read_picture(call->operands[0], &given->picture, &image);
+    if (status == CLI_SUCCESS) {
+        warn_of_values(call->operands[0], image, format->name);
+        given->write.size = sizeof given->write;
+        status = cli_status(aur_image_write(output, image, &given->write, &error), &error);
+    }
+    aur_image_destroy(image);
+    return status;
+}
+
+const cli_verb cli_verb_convert = {
+    .name = "convert",
+    .summary = "convert a picture between EXR, PFM, HDR and PNG",
+    .notes =
+        "JPEG can be read too. The input's format is seen from its content, the output's from its name. '-' "
+        "is standard input or standard output (EXR unless --to says otherwise).",
+    .too_few = "one input and one output are needed",
+    .too_many = "one input and one output are needed",
+    .operands = {{"IN", "the picture that is read", .content = "file"},
+                 {"OUT", "the picture that is written", .content = "file", .writes = true}},
+    .groups = {{options, 0}, {cli_picture_options, offsetof(convert_options, picture)}},
+    .size = sizeof(convert_options),
+    .run = run,
+};

@@ -1,0 +1,118 @@
+#include "program/cli/render/denoise.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "program/cli/render/denoise_known.h"
+#include "program/cli/render/oidn.h"
+
+const cli_option cli_denoise_options[] = {
+    {CLI_FLAG(cli_denoise, wanted, "denoise",
+              "take the noise out by Open Image Denoise, whose library AUREOLE_OIDN names or the system has; "
+              "the noisy picture stays as channels noisy.R, noisy.G, noisy.B")},
+    {.key = {0}}};
+
+aur_result cli_denoise_begin(cli_denoise *denoise, aur_error *error) {
+    return denoise->wanted ? cli_oidn_open(&denoise->library, error) : AUR_OK;
+}
+
+void cli_denoise_end(cli_denoise *denoise) {
+    cli_oidn_close(denoise->library);
+    denoise->library = NULL;
+}
+
+/* What the first surfaces are like, beside the light that is seen directly: a few samples have little noise.
+ */
+static aur_result render_features(aur_renderer *renderer, const aur_render_options *options,
+                                  aur_image **features, aur_error *error) {
+    enum { SAMPLES = 16 };
+    aur_render_options own = *options;
+    own.integrator = "aov:aovs=(albedo:albedo,normal:sh_normal),integrator=(path:max_depth=1)";
+    own.sampler = "sobol";
+    own.samples_per_pixel = SAMPLES;
+    own.resumable = false;
+    own.warnings = (aur_warnings){0};
+    return aur_renderer_render(renderer, &own, features, NULL, error);
+}
+
+/* One channel after the other into an image that has room for them, each under a name that it has not. */
+static aur_result add_channels(aur_image *to, size_t *count, const aur_image *from, size_t first, size_t end,
+                               const char *prefix, aur_error *error) {
+    const size_t pixels = aur_image_width(to) * aur_image_height(to);
+    const size_t into = aur_image_channel_count(to), stride = aur_image_channel_count(from);
+    aur_result result = AUR_OK;
+    for (size_t c = first; c < end && result == AUR_OK; ++c) {
+        char name[AUR_CHANNEL_NAME_CAPACITY + 8];
+        snprintf(name, sizeof name, "%s%s", prefix, aur_image_channel_name(from, c));
+        result = aur_image_name_channel(to, *count, name, error);
+        for (size_t i = 0; i < pixels; ++i)
+            aur_image_data(to)[i * into + *count] = aur_image_data(from)[i * stride + c];
+        ++*count;
+    }
+    return result;
+}
+
+/* The picture's own channels, then those beside. */
+static aur_result put_together(const aur_image *image, const aur_image *features, aur_image **whole,
+                               aur_error *error) {
+    const size_t own = aur_image_channel_count(image), all = aur_image_channel_count(features);
+    const bool has_features = aur_image_find_channel(image, "albedo.R") != SIZE_MAX ||
+                              aur_image_find_channel(image, "normal.X") != SIZE_MAX;
+    size_t count = 0;
+    aur_result result = aur_image_create(aur_image_width(image), aur_image_height(image),
+                                         own + 3 + (has_features ? 0 : all - 3), whole, error);
+    if (result == AUR_OK)
+        result = add_channels(*whole, &count, image, 0, own, "", error);
+    if (result == AUR_OK)
+        result = add_channels(*whole, &count, image, 0, 3, "noisy.", error);
+    if (result == AUR_OK && !has_features)
+        result = add_channels(*whole, &count, features, 3, all, "", error);
+    return result;
+}
+
+aur_result cli_denoise_picture(const cli_denoise *denoise, aur_renderer *renderer,
+                               const aur_render_options *options, aur_image **image, aur_error *error) {
+    if (!denoise->wanted)
+        return AUR_OK;
+    aur_image *features = NULL, *whole = NULL, *rest = NULL;
+    aur_result result = render_features(renderer, options, &features, error);
+    if (result == AUR_OK)
+        result = put_together(*image, features, &whole, error);
+    if (result == AUR_OK)
+        result = cli_known_take(*image, features, &rest, error);
+    if (result == AUR_OK)
+        result = cli_oidn_run(denoise->library, rest, features, whole, error);
+    if (result == AUR_OK)
+        cli_known_restore(*image, features, whole);
+    aur_image_destroy(rest);
+    aur_image_destroy(features);
+    if (result != AUR_OK) {
+        aur_image_destroy(whole);
+        return result;
+    }
+    aur_image_destroy(*image);
+    *image = whole;
+    return AUR_OK;
+}
+
+aur_result cli_denoise_keep(const cli_denoise *denoise, const char *output, const aur_image *image,
+                            aur_error *error) {
+    const aur_row *format = NULL;
+    if (!denoise->wanted || aur_image_find_writer(output, NULL, &format, error) != AUR_OK ||
+        strcmp(format->name, "exr") == 0)
+        return AUR_OK;
+    char path[PATH_MAX];
+    const char *const slash = strrchr(output, '/'), *const dot = strrchr(slash != NULL ? slash : output, '.');
+    snprintf(path, sizeof path, "%.*s.noisy.exr", dot != NULL ? (int)(dot - output) : (int)strlen(output),
+             output);
+    aur_image *noisy = NULL;
+    aur_result result =
+        aur_image_select(image, 3, (const char *const[]){"noisy.R", "noisy.G", "noisy.B"}, &noisy, error);
+    for (size_t c = 0; c < 3 && result == AUR_OK; ++c)
+        result = aur_image_name_channel(noisy, c, (const char *const[]){"R", "G", "B"}[c], error);
+    if (result == AUR_OK)
+        result = aur_image_write(path, noisy, NULL, error);
+    aur_image_destroy(noisy);
+    return result;
+}

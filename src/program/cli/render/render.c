@@ -1,0 +1,392 @@
+/* aureole render: a scene to a picture. */
+#include <aureole-render/render.h>
+#include <aureole/ranks.h>
+#include <aureole/text.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/cli/options.h"
+#include "program/cli/render/ask.h"
+#include "program/cli/render/denoise.h"
+#include "program/cli/render/errors.h"
+#include "program/cli/render/render_result.h"
+#include "program/lab/gather.h"
+
+typedef struct render_command {
+    const char *output;
+    cli_definitions definitions;
+    aur_render_options options;
+    const char *reference, *errors;
+    cli_wish wish;
+    cli_checkpoint checkpoint;
+    cli_watch watch;
+    cli_denoise denoise;
+    bool statistics, json;
+    cli_render_end end;
+    const aur_scene *scene;
+    cli_common common;
+} render_command;
+
+enum { LARGEST_SIDE = 65536 };
+
+/* "x0,x1,y0,y1" */
+static aur_result parse_crop(const char *text, void *field, aur_error *error) {
+    aur_render_options *const options = field;
+    size_t *const ends[] = {&options->crop_x0, &options->crop_x1, &options->crop_y0, &options->crop_y1};
+    const char *at = text;
+    bool good = true;
+    for (size_t i = 0; i < 4 && good; ++i) {
+        char piece[24] = "";
+        const size_t length = strcspn(at, ",");
+        good = length < sizeof piece && (at[length] == ',') == (i < 3);
+        uint64_t value = 0;
+        if (good)
+            good = aur_parse_integer(memcpy(piece, at, length), SIZE_MAX, &value);
+        *ends[i] = (size_t)value;
+        at += length + (i < 3);
+    }
+    if (!good)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--crop: '%s' is not of the form x0,x1,y0,y1", text);
+    if (options->crop_x0 >= options->crop_x1 || options->crop_y0 >= options->crop_y1)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--crop: '%s' is empty: x0 < x1 and y0 < y1 are wanted",
+                        text);
+    return AUR_OK;
+}
+
+/* "i/n" */
+static aur_result parse_shard(const char *text, void *field, aur_error *error) {
+    enum { MOST_SHARDS = 1000000 };
+    aur_render_options *const options = field;
+    char piece[24] = "";
+    const size_t length = strcspn(text, "/");
+    uint64_t shard = 0, count = 0;
+    const bool good = length < sizeof piece && text[length] == '/' &&
+                      aur_parse_integer(memcpy(piece, text, length), MOST_SHARDS, &shard) &&
+                      aur_parse_integer(text + length + 1, MOST_SHARDS, &count);
+    if (!good || shard == 0 || shard > count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--shard: '%s' is no part: i/n with i from 1 to n is wanted, such as 2/3", text);
+    options->shard = (size_t)shard;
+    options->shard_count = (size_t)count;
+    return AUR_OK;
+}
+
+static const cli_option options[] = {
+    {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
+              "where the picture goes: .exr, .png, ... (aureole help picture); - is standard output, in EXR"),
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
+    {CLI_TEXT(render_command, options.integrator, "integrator", "SPEC", NULL,
+              "NAME[:key=value,...] instead of the scene's integrator"),
+     .content = "integrator"},
+    {CLI_TEXT(render_command, options.sampler, "sampler", "SET", NULL,
+              "instead of the scene's sampler ('aureole sets' lists them)"),
+     .content = "set"},
+    {CLI_TEXT(render_command, options.filter, "filter", "NAME", NULL,
+              "instead of the scene's ('aureole help rfilter' lists them)"),
+     .content = "rfilter"},
+    {CLI_INTEGER(render_command, options.samples_per_pixel, "spp", "N", 1, 1 << 30, "the scene's",
+                 "samples a pixel"),
+     .key.computed = true},
+    {CLI_INTEGER(render_command, options.width, "width", "N", 1, LARGEST_SIDE, "the scene's",
+                 "of the whole picture in pixels; the height alone or the width alone keeps its shape"),
+     .key.computed = true},
+    {CLI_INTEGER(render_command, options.height, "height", "N", 1, LARGEST_SIDE, "the scene's",
+                 "of the whole picture in pixels"),
+     .key.computed = true},
+    {CLI_TEXT(render_command, options, "crop", "x0,x1,y0,y1", NULL,
+              "render the pixels x0 <= x < x1, y0 <= y < y1 only"),
+     .parse = parse_crop},
+    {CLI_TEXT(
+         render_command, options, "shard", "i/n", NULL,
+         "render the i-th of n parts alone, into SCENE.i-of-n.part or what -o says; 'aureole merge' puts "
+         "them together"),
+     .parse = parse_shard},
+    {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "of all random numbers")},
+    {CLI_TEXT(render_command, reference, "reference", "REF", NULL,
+              "the picture that --errors compares with, made with another seed"),
+     .content = "file"},
+    {CLI_TEXT(render_command, errors, "errors", "CSV", NULL,
+              "samples, rays, CPU seconds and RMSE against the reference after 1, 2, 4, ... samples a pixel"),
+     .content = "file", .writes = true},
+    {CLI_FLAG(render_command, statistics, "stats", "say how many rays and how much time it took")},
+    {CLI_FLAG(render_command, statistics, "verbose", "the same as --stats"), .letter = 'v'},
+    {CLI_FLAG(render_command, json, "json",
+              "say on standard output, as JSON, how many rays and how much time it took, and the error")},
+    {.key = {0}}};
+
+/* SCENE.exr in the current folder, from the scene's file name; SCENE.i-of-n.part for a part. */
+static void default_output(const char *scene, const aur_render_options *part, size_t capacity, char *output) {
+    const char *const slash = strrchr(scene, '/');
+    const char *const name = slash != NULL ? slash + 1 : scene;
+    const char *const dot = strrchr(name, '.');
+    const size_t length = dot != NULL && dot != name ? (size_t)(dot - name) : strlen(name);
+    if (part->shard_count > 0)
+        snprintf(output, capacity, "%.*s.%zu-of-%zu.part", (int)length, name, part->shard, part->shard_count);
+    else
+        snprintf(output, capacity, "%.*s.exr", (int)length, name);
+}
+
+/* The samples of the next step: all that remain, or where somebody looks on, until every pixel has 1, 2, 4,
+ * ... Elsewhere two halves, where that changes no bit: their difference says how good the picture is. */
+static size_t next_step(const aur_render *render, bool looked_at) {
+    const size_t done = aur_render_samples(render);
+    if (looked_at)
+        return done > 0 ? done : 1;
+    return done == 0 && aur_render_steps_agree(render) ? aur_render_samples_wanted(render) / 2 : 0;
+}
+
+static aur_result render_steps(aur_render *render, render_command *command, cli_errors *errors,
+                               aur_error *error) {
+    const bool looked_at =
+        errors != NULL || (cli_watch_is_asked(&command->watch) && aur_render_steps_agree(render));
+    aur_result result = AUR_OK;
+    while (result == AUR_OK && aur_render_samples(render) < aur_render_samples_wanted(render)) {
+        result = cli_watch_step(&command->watch, render, next_step(render, looked_at), error);
+        if (result == AUR_OK && errors != NULL)
+            result = cli_errors_note(errors, render, error);
+    }
+    command->end = (cli_render_end){aur_render_samples(render), cli_relative_error(aur_render_film(render))};
+    return result;
+}
+
+static aur_result print_json(const aur_render *render, const render_command *command, aur_error *error) {
+    aur_scene_description scene = {.size = sizeof scene};
+    aur_scene_describe(command->scene, &scene, NULL);
+    cli_render_summary summary = {
+        .output = command->output,
+        .integrator = command->options.integrator != NULL ? command->options.integrator : scene.integrator,
+        .error = command->end.error > 0.0 ? command->end.error : NAN,
+        .error_low = NAN,
+        .error_high = NAN,
+        .bias_high = NAN,
+        .mean = NAN,
+        .rounds = NAN,
+        .samples_per_pixel = (double)command->end.samples,
+        .statistics.size = sizeof summary.statistics};
+    aur_render_get_statistics(render, &summary.statistics, NULL);
+    return cli_print_json(&summary, error);
+}
+
+/* All samples; *image is what there is in the end. *made is to be destroyed in every case. */
+static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
+                                 aur_render **made, aur_image **image, aur_error *error) {
+    aur_result result = aur_render_create(renderer, &command->options, made, error);
+    aur_render *const render = *made;
+    if (result == AUR_OK)
+        result = cli_checkpoint_begin(&command->checkpoint, render, NULL, command->common.quiet, error);
+    const bool begun = result == AUR_OK;
+    if (begun) {
+        cli_watch_show(&command->watch, render, NULL);
+        result = render_steps(render, command, errors, error);
+        cli_watch_hide(&command->watch);
+    }
+    cli_progress_clear();
+    if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        cli_checkpoint_end(&command->checkpoint, false);
+    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+        const aur_result developed = aur_film_develop(aur_render_film(render), image, error);
+        result = developed != AUR_OK ? developed : result;
+    }
+    if (result == AUR_OK && command->options.shard_count > 0)
+        result = aur_render_save(render, command->output, error);
+    if (result == AUR_OK && command->statistics) {
+        cli_print_statistics(render);
+    }
+    if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
+        result = print_json(render, command, error);
+    return result;
+}
+
+/* In the time of a photon or particle: a sample of a pixel takes that of three. */
+static void plan(const render_command *command) {
+    static cli_phase phases[] = {{"photons", 5e5}, {"rendering", 0.0}};
+    aur_scene_description scene = {.size = sizeof scene};
+    aur_scene_describe(command->scene, &scene, NULL);
+    const aur_render_options *const given = &command->options;
+    const double width = (double)(given->width > 0 ? given->width : scene.width),
+                 height = given->height > 0 ? (double)given->height
+                          : scene.width > 0 ? width * (double)scene.height / (double)scene.width
+                                            : width,
+                 samples = (double)(given->samples_per_pixel > 0 ? given->samples_per_pixel
+                                                                 : scene.samples_per_pixel);
+    const char *const integrator = given->integrator != NULL ? given->integrator : scene.integrator;
+    if (strncmp(integrator, "radiosity", strlen("radiosity")) == 0)
+        phases[0].what = "radiosity";
+    phases[1].work = 3.0 * width * height * samples;
+    cli_progress_plan(sizeof phases / sizeof phases[0], phases);
+}
+
+/* What can be known to fail is said before an hour is spent. */
+static bool check_output(const char *path) {
+    aur_error error;
+    const aur_row *format;
+    const bool known = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
+    if (!known)
+        cli_bad_usage("-o: %s", error.message);
+    return known;
+}
+
+static void say_end(render_command *command, const aur_image *image) {
+    if (command->denoise.wanted)
+        command->end.error = 0.0; /* it is that of the noisy picture */
+    if (command->options.shard_count > 0)
+        aur_print(stderr, "aureole: the part is in %s; 'aureole merge' makes the picture of all parts\n",
+                  command->output);
+    else
+        cli_say_picture(command->output, image, &command->end);
+}
+
+static int render(const char *path, render_command *command, cli_errors *errors) {
+    aur_error error = {0};
+    if (command->checkpoint.path != NULL &&
+        aur_render_check_checkpoint(command->checkpoint.path, &error) != AUR_OK)
+        return cli_fail(&error);
+    if (cli_denoise_begin(&command->denoise, &error) != AUR_OK)
+        return cli_fail(&error);
+    if (cli_watch_begin(&command->watch, command->output, &error) != AUR_OK) {
+        cli_denoise_end(&command->denoise);
+        return cli_fail(&error);
+    }
+    command->options.progress = cli_checkpoint_progress(
+        &command->checkpoint,
+        cli_watch_progress(&command->watch, cli_progress_of_kept(command->common.quiet)));
+    const aur_scene_options scene_options = {.size = sizeof scene_options,
+                                             .definition_count = command->definitions.count,
+                                             .definitions = command->definitions.items,
+                                             .confine = command->definitions.confine,
+                                             .model_light = command->definitions.model_light,
+                                             .progress = command->options.progress,
+                                             .threads = command->common.threads,
+                                             .warnings = command->options.warnings};
+    aur_scene *scene = NULL;
+    aur_renderer *renderer = NULL;
+    aur_render *work = NULL;
+    aur_ask *ask = NULL;
+    aur_image *image = NULL;
+    aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
+    command->scene = scene;
+    if (result == AUR_OK && !cli_is_wish(&command->wish)) /* whose progress is one phase */
+        plan(command);
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &renderer, &error);
+    if (result == AUR_OK)
+        result =
+            cli_is_wish(&command->wish)
+                ? cli_render_wish(renderer, &command->options, &command->wish,
+                                  &(cli_surroundings){&command->checkpoint, &command->watch, command->output,
+                                                      command->common.quiet, command->json},
+                                  &ask, &image, &error)
+                : render_samples(renderer, command, errors, &work, &image, &error);
+    if (result == AUR_OK)
+        result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
+    cli_progress_clear();
+    if (result == AUR_ERROR_CANCELLED && image != NULL)
+        cli_write_partial(command->output, image);
+    if (result == AUR_OK && command->options.shard_count == 0)
+        result = aur_image_write(command->output, image, NULL, &error);
+    cli_checkpoint_end(&command->checkpoint, true); /* the image is safe now, or only this is left of it */
+    if (result == AUR_OK)
+        result = cli_denoise_keep(&command->denoise, command->output, image, &error);
+    if (result == AUR_OK && errors != NULL)
+        result = cli_errors_write(errors, command->errors, &error);
+    if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
+        say_end(command, image);
+    if (result == AUR_OK && !command->common.quiet && image != NULL)
+        cli_explain_black(scene, image);
+    cli_watch_end(&command->watch, image, result, &error);
+    cli_denoise_end(&command->denoise);
+    aur_image_destroy(image);
+    aur_ask_destroy(ask);
+    aur_render_destroy(work);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+    return cli_status(result, &error);
+}
+
+/* NULL, or why options do not go together. */
+static const char *conflict(const cli_call *call, const render_command *command) {
+    if ((command->reference == NULL) != (command->errors == NULL))
+        return "render: '--reference' and '--errors' are wanted together";
+    if (command->reference != NULL && command->checkpoint.path != NULL)
+        return "render: '--checkpoint' does not go with '--errors', whose table would begin anew";
+    if (command->options.shard_count > 0 && (cli_is_wish(&command->wish) || command->reference != NULL))
+        return "render: '--shard' does not go with '--error', '--time', '--rays', '--rounds' or '--errors', "
+               "which "
+               "look at the whole picture";
+    if (command->options.shard_count > 0 && command->denoise.wanted)
+        return "render: '--denoise' does not go with '--shard': neighbours of a part's pixels are missing";
+    if (command->json && command->output != NULL && strcmp(command->output, "-") == 0)
+        return "render: '--json' and the picture do not both go to standard output";
+    const char *const checkpoint = cli_checkpoint_conflict(call);
+    if (checkpoint != NULL)
+        return checkpoint;
+    if (command->wish.bias > 0.0 && !cli_is_wish(&command->wish))
+        return "render: '--bias' goes with '--error', '--time', '--rays' or '--rounds'";
+    if (!cli_is_wish(&command->wish))
+        return command->wish.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
+                                       : NULL;
+    if (command->reference != NULL)
+        return "render: '--errors' does not go with '--error', '--time', '--rays' or '--rounds'";
+    if (cli_given(call, "spp") != NULL)
+        return "render: '--spp' does not go with '--error', '--time', '--rays' or '--rounds', which choose "
+               "the "
+               "samples";
+    return NULL;
+}
+
+static int run(const cli_call *call) {
+    render_command *const command = call->options;
+    const char *const scene = call->operands[0];
+    char output[PATH_MAX];
+    const char *const wrong = conflict(call, command);
+    if (wrong != NULL)
+        return cli_bad_usage("%s", wrong);
+    if (command->denoise.wanted) /* which may change no pixel by much more than its error */
+        command->wish.error_map = true;
+    default_output(scene, &command->options, sizeof output, output);
+    if (command->output == NULL) {
+        aur_error error;
+        command->output = output;
+        if (cli_announce_output(output, &error) != AUR_OK)
+            return cli_fail(&error);
+    }
+    if (command->options.shard_count == 0 && !check_output(command->output))
+        return CLI_BAD_INPUT;
+    command->options.size = sizeof command->options;
+    command->options.threads = command->common.threads;
+    command->options.resumable = command->checkpoint.path != NULL || command->options.shard_count > 0;
+    command->options.warnings = cli_warnings(command->common.quiet);
+    command->options.use_cache = true;
+    command->options.gather = &lab_finalgather;
+    if (command->reference == NULL)
+        return render(scene, command, NULL);
+    cli_errors *const errors = cli_errors_create(command->reference);
+    const int status = errors != NULL ? render(scene, command, errors) : CLI_BAD_INPUT;
+    cli_errors_destroy(errors);
+    return status;
+}
+
+const cli_verb cli_verb_render = {
+    .name = "render",
+    .summary = "render a picture of a scene",
+    .too_few = "a scene is missing",
+    .too_many = "one scene at a time",
+    .operands = {{"SCENE", "the scene's file: Mitsuba's XML, .rad, or a model such as .glb",
+                  .content = "file"}},
+    .groups = {{options, 0},
+               {cli_wish_options, offsetof(render_command, wish)},
+               {cli_checkpoint_options, offsetof(render_command, checkpoint)},
+               {cli_watch_options, offsetof(render_command, watch)},
+               {cli_denoise_options, offsetof(render_command, denoise)},
+               {cli_definitions_option, offsetof(render_command, definitions)},
+               {cli_model_light_option, offsetof(render_command, definitions)},
+               {cli_threads_option, offsetof(render_command, common)},
+               {cli_quiet_option, offsetof(render_command, common)},
+               {cli_cache_option, offsetof(render_command, common)}},
+    .size = sizeof(render_command),
+    .run = run,
+    .ranks = true,
+};

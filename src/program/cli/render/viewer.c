@@ -1,0 +1,61 @@
+#include "program/cli/render/viewer.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/report/page/page.h"
+
+static aur_result make_page(const char *path, double exposure, size_t count, const report_picture *pictures,
+                            aur_error *error) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const page = open_memstream(&text, &size);
+    if (page == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    report_page_begin(page, "Aureole: pictures");
+    aur_result result = report_page_viewer(page, "", exposure, count, pictures, error);
+    if (result == AUR_OK)
+        result = report_page_end(page, error);
+    if (fclose(page) != 0 && result == AUR_OK)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (result == AUR_OK)
+        result = aur_file_write(path, size, text, error);
+    free(text);
+    return result;
+}
+
+/* What follows the part of the path that all names share, so that they can be told apart. */
+static const char *short_name(size_t count, char **names, size_t index) {
+    size_t shared = 0;
+    for (size_t i = 0; names[0][i] != '\0'; ++i) {
+        for (size_t k = 1; k < count; ++k)
+            if (names[k][i] != names[0][i])
+                return names[index] + shared;
+        if (names[0][i] == '/')
+            shared = i + 1;
+    }
+    return names[index] + shared;
+}
+
+int cli_write_viewer(const char *path, size_t count, char **names, const cli_picture *how, double exposure,
+                     bool judged) {
+    report_picture *const pictures = calloc(count, sizeof *pictures);
+    aur_image **const images = calloc(count, sizeof *images);
+    aur_error error = {0};
+    int status =
+        pictures != NULL && images != NULL ? CLI_SUCCESS : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY});
+    for (size_t i = 0; i < count && status == CLI_SUCCESS; ++i) {
+        status = cli_read_picture(names[i], how, &images[i]);
+        if (status == CLI_SUCCESS)
+            cli_warn_of_values(names[i], images[i], false, "they are shown as they are");
+        pictures[i] = (report_picture){
+            .name = short_name(count, names, i), .image = images[i], .reference = judged && i == 0};
+    }
+    if (status == CLI_SUCCESS)
+        status = cli_status(make_page(path, exposure, count, pictures, &error), &error);
+    for (size_t i = 0; images != NULL && i < count; ++i)
+        aur_image_destroy(images[i]);
+    free(images);
+    free(pictures);
+    return status;
+}

@@ -1,0 +1,122 @@
+#include "program/cli/render/watch.h"
+
+#include <aureole/ranks.h>
+#include <aureole/text.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "program/cli/render/render_result.h"
+
+const cli_option cli_watch_options[] = {
+    {CLI_TEXT(cli_watch, serve, "serve", "PORT", NULL,
+              "show the picture in a page while it is rendered, at [HOST:]PORT or at a free port of this "
+              "machine; the page's address is printed"),
+     .value_is_optional = true},
+    {CLI_TEXT(cli_watch, display, "display-server", "HOST:PORT", NULL,
+              "send the picture to tev, or another image viewer with its protocol, while it is rendered")},
+    {.key = {0}}};
+
+static void warn(cli_watch *watch) {
+    char text[AUR_ERROR_MESSAGE_CAPACITY];
+    if (!watch_has_lost_display(watch->watch, sizeof text, text))
+        return;
+    cli_progress_clear();
+    fprintf(stderr, "aureole: warning: %s\n", text);
+}
+
+static int show(void *user, const char *what, uint64_t done, uint64_t total) {
+    enum { WHOLE = 10000 };
+    cli_watch *const watch = user;
+    if (watch->to > watch->from && total > 0) {
+        done = (uint64_t)(WHOLE * (watch->from + (watch->to - watch->from) * (double)done / (double)total));
+        total = WHOLE;
+    }
+    const int status = watch->progress.function(watch->progress.user, what, done, total);
+    const bool stopped = watch->watch != NULL && watch_progress(watch->watch, what, cli_progress_share());
+    if (watch->watch != NULL)
+        warn(watch);
+    return stopped ? 1 : status;
+}
+
+aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *error) {
+    if (!cli_watch_is_asked(watch) || aur_ranks_rank() != 0)
+        return AUR_OK;
+    const watch_options options = {.serve = watch->serve, .display = watch->display, .title = output};
+    const aur_result result = watch_create(&options, &watch->watch, error);
+    if (result == AUR_OK && watch_address(watch->watch) != NULL)
+        fprintf(stderr, "aureole: the picture is at %s\n", watch_address(watch->watch));
+    return result;
+}
+
+aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress) {
+    watch->progress = progress;
+    return (aur_progress){.function = show, .user = watch};
+}
+
+static aur_result develop_render(const void *user, aur_image **image, aur_error *error) {
+    return aur_film_develop(aur_render_film(user), image, error);
+}
+
+static aur_result develop_ask(const void *user, aur_image **image, aur_error *error) {
+    return aur_ask_develop(user, true, image, error);
+}
+
+static void describe_ask(const void *user, size_t capacity, char *text) {
+    aur_ask_report report = {.size = sizeof report};
+    if (aur_ask_get_report(user, &report, NULL) == AUR_OK && isfinite(report.error_high))
+        aur_format(
+            text, capacity,
+            "after %.4g samples a pixel the error was %.3g %% of the mean, between %.3g and %.3g (95 %%)",
+            report.samples_per_pixel, 100.0 * report.error, 100.0 * report.error_low,
+            100.0 * report.error_high);
+}
+
+void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_ask *ask) {
+    if (watch->watch == NULL)
+        return;
+    const watch_source source = {.user = render != NULL ? (const void *)render : ask,
+                                 .develop = render != NULL ? develop_render : develop_ask,
+                                 .describe = render != NULL ? NULL : describe_ask};
+    watch_set_source(watch->watch, &source);
+}
+
+void cli_watch_hide(cli_watch *watch) {
+    if (watch->watch != NULL)
+        watch_set_source(watch->watch, &(watch_source){0});
+}
+
+static void tell(cli_watch *watch, const aur_render *render) {
+    char text[160], error[80] = "";
+    const double relative = cli_relative_error(aur_render_film(render));
+    if (relative > 0.0)
+        aur_format(error, sizeof error, "; the error is about %.2g %% of the mean or less", 100.0 * relative);
+    aur_format(text, sizeof text, "%zu of %zu samples a pixel%s", aur_render_samples(render),
+               aur_render_samples_wanted(render), error);
+    watch_tell(watch->watch, text);
+}
+
+aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error) {
+    const double wanted = (double)aur_render_samples_wanted(render);
+    watch->from = (double)aur_render_samples(render) / wanted;
+    watch->to = count > 0 ? fmin(watch->from + (double)count / wanted, 1.0) : 1.0;
+    const aur_result result = aur_render_step(render, count, error);
+    watch->from = watch->to = 0.0;
+    if (result == AUR_OK && watch->watch != NULL)
+        tell(watch, render);
+    return result;
+}
+
+void cli_watch_end(cli_watch *watch, const aur_image *image, aur_result result, const aur_error *error) {
+    if (watch->watch == NULL)
+        return;
+    char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64] = "";
+    if (result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        aur_error_format(error, sizeof text, text);
+    watch_end(watch->watch, image,
+              result == AUR_OK                ? "The picture is finished."
+              : result == AUR_ERROR_CANCELLED ? "The render has been stopped."
+                                              : text);
+    warn(watch);
+    watch_destroy(watch->watch);
+    watch->watch = NULL;
+}

@@ -1,0 +1,134 @@
+/* Pictures in a page: half floats, deflated, as text. */
+#include <aureole/text.h>
+#include <math.h>
+#include <stdlib.h>
+#include <zlib.h>
+
+#include "program/report/page/page.h"
+
+/* The nearest 16-bit float, ties to even; finite values stay finite. */
+static unsigned half_of(float value) {
+    const unsigned sign = signbit(value) ? 0x8000 : 0;
+    const double size = fabs((double)value);
+    if (isnan(size))
+        return sign | 0x7e00;
+    if (isinf(size))
+        return sign | 0x7c00;
+    if (size < 0x1p-14)
+        return sign | (unsigned)lrint(size * 0x1p24);
+    if (size >= 65504.0)
+        return sign | 0x7bff;
+    const int exponent = ilogb(size);
+    return sign | (unsigned)(((exponent + 15) << 10) + (lrint(ldexp(size, 10 - exponent)) - 1024));
+}
+
+/* With its last bits rounded off, ties to even: digits that no eye sees and that no compression makes small.
+ */
+static unsigned rounded(unsigned half, unsigned bits) {
+    const unsigned unit = 1U << bits;
+    if (bits == 0 || (half & 0x7fff) >= 0x7c00 - unit)
+        return half;
+    return (half + unit / 2 - 1 + (half >> bits & 1)) & ~(unit - 1);
+}
+
+static void put_base64(FILE *page, size_t size, const unsigned char *data) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        const size_t left = size - i;
+        const unsigned bits = (unsigned)data[i] << 16 | (left > 1 ? (unsigned)data[i + 1] << 8 : 0) |
+                              (left > 2 ? (unsigned)data[i + 2] : 0);
+        fputc(digits[bits >> 18], page);
+        fputc(digits[bits >> 12 & 63], page);
+        fputc(left > 1 ? digits[bits >> 6 & 63] : '=', page);
+        fputc(left > 2 ? digits[bits & 63] : '=', page);
+    }
+}
+
+/* For each channel the upper bytes, then the lower ones, each as its difference to the byte before. */
+static void lay_out(const report_picture *picture, const size_t *channels, size_t channel_count,
+                    unsigned char *bytes) {
+    const size_t pixels = aur_image_width(picture->image) * aur_image_height(picture->image);
+    const size_t stride = aur_image_channel_count(picture->image);
+    const float *const data = aur_image_data(picture->image);
+    for (size_t c = 0; c < channel_count; ++c)
+        for (size_t i = 0; i < pixels; ++i) {
+            const unsigned half = rounded(half_of(data[i * stride + channels[c]]), picture->dropped_bits);
+            bytes[2 * c * pixels + i] = (unsigned char)(half >> 8);
+            bytes[(2 * c + 1) * pixels + i] = (unsigned char)half;
+        }
+    for (size_t i = 2 * channel_count * pixels; i-- > 1;)
+        bytes[i] = (unsigned char)(bytes[i] - bytes[i - 1]);
+}
+
+/* A picture whose three channels are equal is kept as one. */
+static bool is_grey(const aur_image *image, const size_t channels[3]) {
+    const size_t pixels = aur_image_width(image) * aur_image_height(image);
+    const size_t stride = aur_image_channel_count(image);
+    const float *const data = aur_image_data(image);
+    for (size_t i = 0; i < pixels; ++i)
+        for (size_t c = 1; c < 3; ++c)
+            if (!(data[i * stride + channels[c]] == data[i * stride + channels[0]]))
+                return false;
+    return true;
+}
+
+aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error) {
+    const size_t width = aur_image_width(picture->image), height = aur_image_height(picture->image);
+    size_t channels[3];
+    if (!aur_image_color_channels(picture->image, channels))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: a picture without colour", picture->name);
+    const size_t channel_count = is_grey(picture->image, channels) ? 1 : 3;
+    const size_t size = 2 * channel_count * width * height;
+    uLongf packed_size = compressBound(size);
+    unsigned char *const bytes = malloc(size), *const packed = malloc(packed_size);
+    const bool room = bytes != NULL && packed != NULL;
+    if (room)
+        lay_out(picture, channels, channel_count, bytes);
+    const int level = picture->quick ? Z_BEST_SPEED : Z_BEST_COMPRESSION;
+    const bool well = room && compress2(packed, &packed_size, bytes, size, level) == Z_OK;
+    if (well) {
+        aur_json json = {.stream = page};
+        aur_json_open(&json, '{', false);
+        aur_json_name(&json, "width");
+        aur_json_integer(&json, width);
+        aur_json_name(&json, "height");
+        aur_json_integer(&json, height);
+        aur_json_name(&json, "channels");
+        aur_json_integer(&json, channel_count);
+        aur_json_name(&json, "reference");
+        aur_json_boolean(&json, picture->reference);
+        fputs(", \"name\": \"", page);
+        for (const char *c = picture->name; *c != '\0'; ++c)
+            fprintf(page, *c == '"' || *c == '\\' || *c == '<' || (unsigned char)*c < ' ' ? "\\u%04x" : "%c",
+                    (unsigned)(unsigned char)*c);
+        fputs("\", \"data\": \"", page);
+        put_base64(page, packed_size, packed);
+        fputs("\"}", page);
+    }
+    free(bytes);
+    free(packed);
+    return well ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+aur_result report_page_viewer(FILE *page, const char *title, double exposure, size_t count,
+                              const report_picture *pictures, aur_error *error) {
+    const aur_image *const first = pictures[0].image;
+    for (size_t i = 1; i < count; ++i)
+        if (aur_image_width(pictures[i].image) != aur_image_width(first) ||
+            aur_image_height(pictures[i].image) != aur_image_height(first))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "%s has %zu x %zu pixels, and %s %zu x %zu: a viewer shows pictures of one size",
+                            pictures[i].name, aur_image_width(pictures[i].image),
+                            aur_image_height(pictures[i].image), pictures[0].name, aur_image_width(first),
+                            aur_image_height(first));
+    aur_print(page, "<figure class=\"viewer\" data-exposure=\"%g\"><figcaption>", exposure);
+    report_escape(page, title);
+    fputs("</figcaption>\n<script type=\"application/json\">[", page);
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+        fputs(i > 0 ? ",\n" : "", page);
+        result = report_put_picture(page, &pictures[i], error);
+    }
+    fputs("]</script></figure>\n", page);
+    return result;
+}
