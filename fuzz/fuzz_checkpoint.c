@@ -2,7 +2,7 @@
  * Their hashes are made right before. */
 #include <aureole-render/render.h>
 
-#include "render/film/checkpoint.h"
+#include "render/film/film.h"
 #include "words.h"
 
 static const char *path_of(const char *kind) {

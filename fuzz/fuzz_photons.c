@@ -3,7 +3,7 @@
 #include <aureole-render/scene.h>
 
 #include "fuzz.h"
-#include "render/photons/irradiance_file.h"
+#include "render/photons/irradiance.h"
 
 static aur_scene *load_room(void) {
     static const char text[] =

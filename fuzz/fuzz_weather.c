@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "lighting/daylight/weather.h"
+#include "lighting/daylight/hours.h"
 
 static bool ends_with(const uint8_t *data, size_t size, const char *end) {
     const size_t length = strlen(end);

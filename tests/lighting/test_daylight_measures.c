@@ -3,7 +3,7 @@
 #include <aureole/statistics.h>
 
 #include "check.h"
-#include "lighting/daylight/measures.h"
+#include "lighting/daylight/coefficients.h"
 #include "lighting/daylight/product.h"
 #include "points/base/random.h"
 

@@ -1,6 +1,8 @@
 /* Daylight coefficients of one sensor: what reaches it of each patch of the sky, by one trace. */
 #pragma once
 
+#include <aureole-lighting/daylight.h>
+
 #include "lighting/daylight/hours.h"
 #include "lighting/daylight/product.h"
 #include "lighting/irradiance/look.h"
@@ -26,3 +28,27 @@ void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, c
  * randomisation. */
 void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const aur_coefficients *coefficients,
                   const aur_lit_hours *lit, double *seen);
+
+/* What a year of illuminances at a sensor says of it. */
+
+/* Illuminances of the lit hours, lux, hour by hour sixteen randomisations each: of all light, and of that
+ * which comes straight from the sun. `overcast` are the daylight factors. */
+typedef struct aur_daylight_year {
+    const double *all, *sun, *overcast;
+} aur_daylight_year;
+
+/* The measures of the mean over the randomisations, with the jackknife's standard errors: of what the
+ * measures are without one randomisation after the other. That is the standard error where they are linear
+ * (daylight factor, annual sum), and close to it for shares of many hours. `scratch` has room for twice the
+ * lit hours. */
+void aur_daylight_measure_year(const aur_lit_hours *lit, const aur_daylight_options *options,
+                               const aur_daylight_year *year, double *scratch, aur_daylight *found);
+
+/* All hours of all sensors as a file. */
+
+/* values[sensors][2][hours]: illuminance and its standard error, lux, NaN where the weather does not tell.
+ * The name ends in .npy (that array, float64) or .csv (a line an hour and sensor). Errors: NAME (another
+ * ending), WRITE, MEMORY. */
+aur_result aur_daylight_series_check(const char *path, aur_error *error);
+aur_result aur_daylight_series_write(const char *path, const aur_weather_view *weather, size_t sensors,
+                                     const double *values, aur_error *error);

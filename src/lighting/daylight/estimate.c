@@ -5,10 +5,8 @@
 #include <stdlib.h>
 
 #include "lighting/daylight/coefficients.h"
-#include "lighting/daylight/measures.h"
-#include "lighting/daylight/series.h"
 #include "lighting/irradiance/sensors.h"
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/parallel.h"
 
 enum { LANES = AUR_DAYLIGHT_LANES, DEFAULT_DIRECTIONS = 16384, LIMIT = 1 << 28 };

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "lighting/daylight/efficacy.h"
 #include "lighting/daylight/product.h"
 #include "points/base/error.h"
 #include "points/base/parallel.h"

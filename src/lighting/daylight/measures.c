@@ -1,4 +1,4 @@
-#include "lighting/daylight/measures.h"
+#include "lighting/daylight/coefficients.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "lighting/daylight/patches.h"
+#include "lighting/daylight/hours.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "lighting/daylight/series.h"
+#include "lighting/daylight/coefficients.h"
 
 #include <aureole/text.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Weather files: EnergyPlus's EPW, eight lines of header and then a record an hour. */
-#include "lighting/daylight/weather.h"
+#include "lighting/daylight/hours.h"
 
 #include <math.h>
 #include <stdlib.h>

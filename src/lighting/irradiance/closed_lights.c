@@ -1,9 +1,9 @@
-#include "lighting/irradiance/closed_lights.h"
+#include "lighting/irradiance/look.h"
 
 #include <stdlib.h>
 
-#include "points/base/polygon.h"
 #include "points/base/random.h"
+#include "points/base/vector3d.h"
 #include "render/scene/scene_data.h"
 #include "render/vertex/vertex.h"
 

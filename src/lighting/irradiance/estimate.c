@@ -6,7 +6,7 @@
 
 #include "lighting/irradiance/look.h"
 #include "lighting/irradiance/sensors.h"
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/quadrature/estimate/levels.h"
 #include "render/scene/scene_data.h"

@@ -1,4 +1,4 @@
-#include "lighting/irradiance/known_light.h"
+#include "lighting/irradiance/look.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "points/base/polygon.h"
 #include "points/base/random.h"
 #include "points/base/vector3d.h"
 #include "render/scene/scene_data.h"

@@ -1,4 +1,4 @@
-#include "lighting/irradiance/rule.h"
+#include "lighting/irradiance/look.h"
 
 #include <math.h>
 #include <stdlib.h>

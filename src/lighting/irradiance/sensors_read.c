@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "lighting/irradiance/sensors.h"
+#include "points/base/error.h"
 #include "points/base/file.h"
-#include "points/base/options.h"
 #include "points/pointset/files/points_file.h"
 #include "render/scene/importers/meshes/mesh_data.h"
 

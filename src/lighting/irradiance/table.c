@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "points/base/file.h"
-#include "render/image/tone.h"
+#include "render/image/format.h"
 
 static double value_of(const aur_sensor_table *o, size_t sensor, size_t column) {
     return o->values[o->width * sensor + column];

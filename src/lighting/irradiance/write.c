@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "lighting/irradiance/table.h"
-#include "points/base/options.h"
+#include "points/base/error.h"
 
 typedef enum content { POSITION, NORMAL, VALUE, ERROR, HALF_WIDTH, DIRECTIONS } content;
 

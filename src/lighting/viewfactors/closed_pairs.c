@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/contour.h"
 #include "points/base/array.h"
 
 /* Up to so many patches all pairs are looked at. */

@@ -1,6 +1,8 @@
 /* Pairs of patches that certainly see each other wholly, with the contour integral. */
 #pragma once
 
+#include <stddef.h>
+
 #include "lighting/viewfactors/covers.h"
 #include "lighting/viewfactors/facet_rays.h"
 #include "lighting/viewfactors/facets.h"
@@ -82,3 +84,24 @@ void aur_hull_make(const aur_plane planes[2], const size_t counts[2], double (*c
  * that are lower than the slack. */
 bool aur_hull_is_empty(const aur_hull *hull, const aur_facets *facets, const aur_box_tree *tree,
                        const size_t facet[2]);
+
+/* Light past the edges of narrow gaps, which no ray finds. */
+
+/* A patch whose rays arrive only at patches with closed forms, which leave some of its light, as in a narrow
+ * gap between two plates: that rest goes to the other patches in front of it, in proportion to what it would
+ * see of each if nothing stood between, and to the sky unless the mesh is closed. Each such factor is smaller
+ * than those that the rays can find. Errors: MEMORY. */
+aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_visits *visits, aur_closed_pairs *pairs,
+                                 aur_error *error);
+
+/* Exchange of light between two polygons that see each other wholly, by integrals along their edges. */
+
+/* Area of the first times its view factor to the second:
+ *
+ *     A1 F12 = 1/(2 pi) sum over edges e of 1 and f of 2 of dot(e, f) times the integral of ln r along both
+ *
+ * (Moon 1936; Sparrow 1963). The polygons may touch, share edges or corners, or be far away; each must lie in
+ * front of the other's plane, and nothing may stand between them. The inner integral is a closed form, the
+ * outer one Gauss's rule on pieces that shrink towards where the integrand is not smooth. Twelve digits. */
+double aur_contour_exchange(size_t first_count, const double (*first)[3], size_t second_count,
+                            const double (*second)[3]);

@@ -1,4 +1,4 @@
-#include "lighting/viewfactors/contour.h"
+#include "lighting/viewfactors/closed_pairs.h"
 
 #include <string.h>
 

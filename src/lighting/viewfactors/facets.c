@@ -7,7 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/text.h"
 #include "render/scene/scene_data.h"
 

@@ -4,7 +4,7 @@
 
 #include <aureole-lighting/view_factors.h>
 
-#include "points/base/polygon.h"
+#include "points/base/vector3d.h"
 #include "render/scene/scene.h"
 
 /* What sees and is seen is a patch: the front of each facet, patch 0 .. count - 1, and, when both sides are

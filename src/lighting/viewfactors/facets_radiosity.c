@@ -6,8 +6,8 @@
 #include "lighting/viewfactors/facet_rays.h"
 #include "lighting/viewfactors/upper_walk.h"
 #include "lighting/viewfactors/view_factors.h"
-#include "points/base/options.h"
-#include "points/base/progress.h"
+#include "points/base/error.h"
+#include "points/base/parallel.h"
 
 /* Rays to the sun are few beside the others, and what it lights ends at edges: they begin at SUN_PLACES times
  * as many places. */

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/npz.h"
 #include "lighting/viewfactors/view_factors.h"
 #include "points/base/text.h"
 

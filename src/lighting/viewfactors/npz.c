@@ -1,4 +1,4 @@
-#include "lighting/viewfactors/npz.h"
+#include "lighting/viewfactors/view_factors.h"
 
 #include <inttypes.h>
 #include <string.h>

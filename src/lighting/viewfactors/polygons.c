@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/contour.h"
+#include "lighting/viewfactors/closed_pairs.h"
 #include "points/base/error.h"
-#include "points/base/polygon.h"
+#include "points/base/vector3d.h"
 
 enum { MOST_CORNERS = 1 << 16 };
 

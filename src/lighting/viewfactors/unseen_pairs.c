@@ -1,9 +1,8 @@
-#include "lighting/viewfactors/unseen_pairs.h"
+#include "lighting/viewfactors/closed_pairs.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/viewfactors/contour.h"
 #include "points/base/array.h"
 
 /* Rounding of closed forms, as a part of a patch's light. */

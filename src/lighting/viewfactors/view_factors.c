@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lighting/viewfactors/closed_pairs.h"
 #include "lighting/viewfactors/exchange.h"
 #include "lighting/viewfactors/sky_slices.h"
-#include "lighting/viewfactors/unseen_pairs.h"
 #include "lighting/viewfactors/view_factors.h"
-#include "points/base/options.h"
+#include "points/base/error.h"
 
 enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 2048, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
 

@@ -3,6 +3,8 @@
 
 #include <aureole-lighting/view_factors.h>
 
+#include "points/base/file.h"
+
 struct aur_view_factors {
     size_t rows;
     uint64_t *starts;
@@ -22,3 +24,28 @@ struct aur_view_factors {
 /* The caller's options with defaults filled in. Errors: ARGUMENT, UNSUPPORTED. */
 aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
                                          aur_view_factors_options *options, aur_error *error);
+
+/* NPZ files: NumPy's arrays in a ZIP archive, not compressed. */
+
+enum { AUR_NPZ_MEMBERS = 16 };
+
+typedef struct aur_npz_member {
+    char name[32];
+    uint32_t checksum;
+    uint64_t size, offset;
+} aur_npz_member;
+
+/* An archive that is being written. Start with zero but `stream`, which keeps its own errors. */
+typedef struct aur_npz {
+    FILE *stream;
+    uint64_t position;
+    size_t count;
+    aur_npz_member members[AUR_NPZ_MEMBERS];
+} aur_npz;
+
+/* Adds `count` numbers of `width` bytes each, as they lie in memory. `type` is NumPy's word for them ("<f8"),
+ * `shape` a tuple as Python writes it ("(3,)", "()"). */
+void aur_npz_add(aur_npz *npz, const char *name, const char *type, const char *shape, size_t count,
+                 size_t width, const void *data);
+/* Writes the directory. */
+void aur_npz_end(aur_npz *npz);

@@ -6,9 +6,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "points/base/arena.h"
-#include "points/base/memory.h"
-
 bool aur_size_product(size_t a, size_t b, size_t *product) {
     if (b != 0 && a > SIZE_MAX / b)
         return false;

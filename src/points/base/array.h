@@ -23,3 +23,22 @@ static inline bool aur_array_reserve(void *array, size_t *capacity, size_t wante
 
 /* a * b into *product; false, and *product untouched, when a size_t cannot hold it. */
 bool aur_size_product(size_t a, size_t b, size_t *product);
+
+/* How much memory the machine has, for saying beforehand what cannot be done. */
+
+/* Bytes; half of the address space where the system does not tell. */
+double aur_machine_memory(void);
+
+/* Memory that is freed all at once: the nodes of a document, what a measure needs until it ends. Not for two
+ * threads at once. */
+
+typedef struct aur_arena_block aur_arena_block;
+
+typedef struct aur_arena {
+    aur_arena_block *blocks;
+} aur_arena;
+
+/* `size` zero bytes, aligned for anything; NULL when memory is out. */
+void *aur_arena_allocate(aur_arena *arena, size_t size);
+char *aur_arena_copy(aur_arena *arena, const char *text, size_t length);
+void aur_arena_release(aur_arena *arena);

@@ -4,7 +4,7 @@
 #endif
 #include <stdbool.h>
 
-#include "points/base/cache_file.h"
+#include "points/base/file.h"
 #include "points/base/ranks.h"
 
 #if defined(__linux__)

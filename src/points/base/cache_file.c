@@ -1,4 +1,3 @@
-#include "points/base/cache_file.h"
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* Where a build has MPI, it is a module beside the library, which is looked for when several processes were
  * started; where it has none, this file is the same and finds nothing. */
-#include "points/base/module.h"
+#include "points/base/file.h"
 #include "points/base/ranks.h"
 
 aur_result aur_carrier_find(aur_carrier *carrier, aur_error *error) {

@@ -1,7 +1,10 @@
 /* Files that are replaced whole or not at all, and reading a whole file. */
 #pragma once
 
+#include <aureole/core.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <sys/stat.h>
 
@@ -51,3 +54,32 @@ aur_result aur_file_note_input(const char *path, const struct stat *status, aur_
 
 /* Whether `path`, which has this status, was read as an input: ARGUMENT. */
 aur_result aur_file_refuse_input(const char *path, const struct stat *status, aur_error *error);
+
+/* Results that later runs may share, in files: each is found by a kind (a word) and a key, a text that says
+ * all that it depends on. The folder is the value of the environment variable AUREOLE_CACHE, else aureole in
+ * XDG_CACHE_HOME, else .cache/aureole in HOME; an empty AUREOLE_CACHE means that nothing is read or kept.
+ *
+ * Nothing here is an error: what cannot be read, or is not what was written, is as if it were not there, and
+ * what cannot be written is not kept. Any number of processes and threads may do both at once. */
+
+/* What was kept: data[*size] from malloc, with a zero byte behind it that is not counted; or NULL. */
+char *aur_cache_file_read(const char *kind, const char *key, size_t *size);
+/* Files of the cache that were not used for the longest time are removed until all have no more than the
+ * limit together: AUREOLE_CACHE_MIB, 1024 unless it is set. Data of more than a quarter of it are not kept.
+ */
+void aur_cache_file_write(const char *kind, const char *key, size_t size, const void *data);
+
+/* Stands for this build of the program and of every library that is loaded, but for those of MPI, for keys of
+ * what follows from their code; 0 where the system does not tell: then nothing that does may be kept. */
+uint64_t aur_build_identity(void);
+
+/* Modules: what stands beside the libraries in a file of its own, so that only those who need it pay for what
+ * it links. A build may lack one. */
+
+/* The function `symbol` of the module `file`, which is looked for in the folder of the library and then where
+ * the system looks; NULL where there is none. `global`: what the module loads itself looks for its names. A
+ * module stays loaded until the process ends. */
+void (*aur_module_find(const char *file, const char *symbol, bool global))(void);
+
+/* The path of a program of ours that stands beside the library; false where there is none. */
+bool aur_module_find_program(const char *file, size_t capacity, char *path) AUR_NONNULL(1, 3);

@@ -1,7 +1,7 @@
 #if !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* dladdr */
 #endif
-#include "points/base/module.h"
+#include "points/base/file.h"
 
 #include <dlfcn.h>
 #include <limits.h>

@@ -1,4 +1,4 @@
-#include "points/base/options.h"
+#include "points/base/error.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "points/base/polygon.h"
+#include "points/base/vector3d.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "points/base/progress.h"
+#include "points/base/parallel.h"
 
 #include <math.h>
 #include <stdbool.h>

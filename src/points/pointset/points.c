@@ -1,11 +1,12 @@
 #include "points/pointset/points.h"
 
+#include <aureole/pointset.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "points/base/array.h"
 #include "points/base/error.h"
-#include "points/base/options.h"
+#include "points/base/names.h"
 
 aur_result aur_points_create(aur_domain domain, uint64_t count, size_t dimension, bool weighted,
                              aur_points **points, aur_error *error) {
@@ -86,4 +87,22 @@ aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *v
                         "a stride of %zu is too short for points of %zu coordinates", view->stride,
                         view->dimension);
     return AUR_OK;
+}
+
+/* The names of the domains. */
+
+static const char *const names[] = {"square", "cube", "disk", "hemisphere", "sphere", "axes", "rotations"};
+enum { DOMAIN_COUNT = sizeof names / sizeof names[0] };
+
+aur_result aur_domain_from_name(const char *name, aur_domain *domain, aur_error *error) {
+    size_t index;
+    const aur_result result =
+        aur_names_choose(aur_names_of(DOMAIN_COUNT, names), "domain", name, (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *domain = (aur_domain)index;
+    return result;
+}
+
+const char *aur_domain_name(aur_domain domain) {
+    return (size_t)domain < DOMAIN_COUNT ? names[domain] : NULL;
 }

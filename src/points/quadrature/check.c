@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/vector3d.h"
 
 aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error) {

@@ -4,7 +4,7 @@
 #include <aureole/quality.h>
 #include <stdbool.h>
 
-#include "points/base/arena.h"
+#include "points/base/array.h"
 #include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/pointset/points.h"

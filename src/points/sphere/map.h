@@ -3,9 +3,9 @@
  * hemisphere, h = 2 the sphere. */
 #pragma once
 
-#include <math.h>
-
 #include <aureole/sphere.h>
+#include <math.h>
+#include <stdint.h>
 
 #include "points/sphere/phase.h"
 
@@ -55,3 +55,24 @@ static inline void aur_point_to_cap(aur_map map, double height, const double squ
 /* The inverses, as the public functions have them. */
 void aur_point_from_disk(aur_map map, const double disk[2], double square[2]);
 void aur_point_from_cap(aur_map map, double height, const double direction[3], double square[2]);
+
+/* Unit quaternions w,x,y,z. */
+
+/* A uniformly random one by a hash of the seed (Shoemake 1992). */
+void aur_quaternion_uniform(uint64_t seed, double wxyz[4]);
+
+static inline double aur_dot4(const double a[4], const double b[4]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+/* The rotation by b, then by a. */
+static inline void aur_quaternion_multiply(const double a[4], const double b[4], double product[4]) {
+    const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+    const double x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+    const double y = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+    const double z = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+    product[0] = w;
+    product[1] = x;
+    product[2] = y;
+    product[3] = z;
+}

@@ -5,7 +5,7 @@
 #include <aureole/sphere.h>
 #include <stdbool.h>
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "points/pointset/sets.h"
 
 /* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and

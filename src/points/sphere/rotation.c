@@ -4,8 +4,8 @@
 #include <aureole/rotations.h>
 
 #include "points/base/random.h"
+#include "points/sphere/map.h"
 #include "points/sphere/phase.h"
-#include "points/sphere/quaternion.h"
 
 /* Streams of the seed, so that no two uses of one seed share a number. */
 enum { STREAM_AXIAL = 0x61786961, STREAM_UNIFORM = 0x756e6966 };

@@ -3,7 +3,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "points/base/ranks.h"
 
 enum { TAG = 1 };

@@ -1,4 +1,4 @@
-#include "render/adaptive/state.h"
+#include "render/adaptive/choose.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -7,10 +7,8 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
-#include "render/adaptive/candidates.h"
+#include "render/adaptive/rivals.h"
 #include "render/driver/renderer.h"
-#include "render/driver/stopwatch.h"
 #include "render/film/film.h"
 
 static aur_result check_wish(aur_ask_options *wish, aur_error *error) {

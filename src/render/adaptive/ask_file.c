@@ -3,9 +3,9 @@
 
 #include "points/base/error.h"
 #include "points/base/words.h"
-#include "render/adaptive/state.h"
+#include "render/adaptive/choose.h"
 #include "render/driver/renderer.h"
-#include "render/film/checkpoint.h"
+#include "render/film/film.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
 enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 10 };

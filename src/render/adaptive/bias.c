@@ -1,4 +1,4 @@
-#include "render/adaptive/bias.h"
+#include "render/adaptive/choose.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "render/adaptive/candidates.h"
+#include "render/adaptive/rivals.h"
 
 #include <math.h>
 #include <stdio.h>

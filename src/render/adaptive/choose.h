@@ -1,10 +1,39 @@
 /* Which integrator answers a wish. */
 #pragma once
 
-#include "render/adaptive/bias.h"
+#include <aureole-render/ask.h>
+
+#include "points/base/cache.h"
+#include "points/base/parallel.h"
 #include "render/adaptive/gather_size.h"
+#include "render/adaptive/replicas.h"
 #include "render/adaptive/trial.h"
 #include "render/scene/scene.h"
+
+/* How far two ways to render a picture are from each other in the mean: the bias of one, if the other has
+ * none. */
+
+/* Squares of root mean square errors over the picture's values, relative to the square of its mean. */
+typedef struct aur_bias {
+    double estimate;  /* unbiased, so it may be negative */
+    double low, high; /* of its interval, from 0 on; an estimate below 0 does not lower its upper end */
+} aur_bias;
+
+/* Both have the same pixels and as many replicas, all with samples in every pixel; without `unbiased` (NULL)
+ * the first are differences already. With D_r the difference of
+ * the r-th replicas, the mean of D_r D_s over r != s has the squared bias as its expectation, whatever the
+ * noise. Its uncertainty comes from how blocks of pixels differ, which are taken to be independent; that
+ * their bias differs too makes the interval a little too wide. */
+aur_bias aur_replicas_bias(const aur_replicas *biased, const aur_replicas *unbiased, double mean,
+                           double confidence);
+
+/* The bias of light that neighbouring pixels share, from replicas whose channels after R, G and B are what
+ * sharing adds to them (finalgather's share=near); 0 of those that have none. */
+aur_bias aur_replicas_sharing_bias(const aur_replicas *replicas, double mean, double confidence);
+
+/* Of two biases that add up pixel by pixel, by the triangle inequality. The estimate takes them for
+ * independent. */
+aur_bias aur_bias_of_both(aur_bias a, aur_bias b);
 
 /* NAME[:key=value] as aur_render_options take it; NULL keeps the scene's own. A new text. `open` tells
  * whether nobody has said which, so that aur_ask_try may take another one. Errors: MEMORY. */
@@ -37,3 +66,29 @@ static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
  * what paths find over what the photon map says tell. Errors: CANCELLED, MEMORY, and those of rendering. */
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                        aur_error *error);
+
+/* The inside of an asking. */
+
+struct aur_ask {
+    aur_ask_options wish;
+    aur_renderer *renderer;
+    aur_render_options options; /* of all trials, but for the integrator; the texts are the asking's */
+    char *sampler, *filter;
+    aur_progress progress;
+    aur_progress_share share;
+    char *identity;      /* of a resumable asking; else NULL */
+    aur_trial trial;     /* what the picture is made of */
+    aur_bias bias;       /* of its integrator */
+    aur_spent others;    /* what integrators cost that were tried and not taken */
+    aur_cache_uses uses; /* of all trials */
+    atomic_bool cancelled;
+    bool open;                /* another integrator may turn out better: that is not tried yet */
+    const aur_choice *choice; /* while it is tried; else NULL */
+    aur_gather_size gather;   /* where it was final gathering, else 0 */
+    size_t candidates;        /* where it was path tracing with more than one, else 0 */
+};
+
+/* Go on with final gathering of that size, or path tracing with so many candidates, from nothing. Errors:
+ * those of aur_render_create. */
+aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *error);
+aur_result aur_ask_take_candidates(aur_ask *ask, size_t candidates, aur_error *error);

@@ -1,4 +1,4 @@
-#include "render/adaptive/rounds.h"
+#include "render/adaptive/trial.h"
 
 #include <math.h>
 

@@ -6,9 +6,7 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "render/adaptive/rounds.h"
 #include "render/driver/renderer.h"
-#include "render/driver/stopwatch.h"
 #include "render/film/film.h"
 #include "render/film/integrator.h"
 

@@ -1,7 +1,7 @@
 /* A render in a file, to go on from. */
-#include "render/film/checkpoint.h"
 #include "points/base/error.h"
 #include "render/driver/renderer.h"
+#include "render/film/film.h"
 
 aur_result aur_render_save(const aur_render *render, const char *path, aur_error *error) {
     const char *const identity = aur_render_identity(render);

@@ -8,7 +8,6 @@
 #include "points/base/file.h"
 #include "points/base/words.h"
 #include "render/driver/renderer.h"
-#include "render/driver/settings.h"
 
 /* Files that a text of the command line names, such as a set's: any piece of it that is a file, but those
  * that are written. */

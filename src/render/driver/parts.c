@@ -4,7 +4,7 @@
 #include "points/base/error.h"
 #include "points/base/text.h"
 #include "render/driver/renderer.h"
-#include "render/film/checkpoint.h"
+#include "render/film/film.h"
 
 aur_result aur_render_check_kind(const char *path, const aur_checkpoint *checkpoint, aur_error *error) {
     if (checkpoint->film_count == 1 && checkpoint->word_count == AUR_SPENT_WORDS)

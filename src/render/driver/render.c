@@ -9,16 +9,14 @@
 #include <string.h>
 
 #include "points/base/bytes.h"
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/base/ranks.h"
 #include "points/base/words.h"
 #include "render/driver/renderer.h"
-#include "render/driver/settings.h"
-#include "render/driver/stopwatch.h"
 #include "render/film/film.h"
 #include "render/film/integrator.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 struct aur_renderer {
     const aur_scene *scene;

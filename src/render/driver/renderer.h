@@ -2,8 +2,10 @@
 #pragma once
 
 #include <aureole-render/render.h>
+#include <time.h>
 
-#include "render/film/checkpoint.h"
+#include "render/film/film.h"
+#include "render/scene/scene.h"
 
 const aur_scene *aur_renderer_scene(const aur_renderer *renderer);
 struct aur_cache *aur_renderer_cache(const aur_renderer *renderer);
@@ -25,3 +27,32 @@ void aur_render_take_spent(aur_render *render, const uint64_t words[AUR_SPENT_WO
 
 /* Whether a checkpoint is of one render (parts.c). Errors: ARGUMENT. */
 aur_result aur_render_check_kind(const char *path, const aur_checkpoint *checkpoint, aur_error *error);
+
+/* What a render is to do. */
+
+/* Puts the scene's own values into the options in the places that were left open, and finds the filter.
+ * Errors: NAME for a filter, ARGUMENT for a crop. */
+aur_result aur_render_options_complete(const aur_scene *scene, aur_render_options *options,
+                                       const aur_filter **filter, aur_error *error);
+
+/* A stretch of work by two clocks. */
+
+typedef struct aur_stopwatch {
+    double wall, cpu;
+} aur_stopwatch;
+
+static inline double aur_clock_seconds(clockid_t clock) {
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static inline aur_stopwatch aur_stopwatch_start(void) {
+    return (aur_stopwatch){aur_clock_seconds(CLOCK_MONOTONIC), aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID)};
+}
+
+/* Adds the seconds since the start. */
+static inline void aur_stopwatch_add(const aur_stopwatch *start, double *wall, double *cpu) {
+    *wall += aur_clock_seconds(CLOCK_MONOTONIC) - start->wall;
+    *cpu += aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
+}

@@ -1,9 +1,9 @@
-#include "render/driver/settings.h"
+#include "render/driver/renderer.h"
 
 #include <math.h>
 
 #include "points/base/error.h"
-#include "render/scene/filter.h"
+#include "render/scene/sensor.h"
 
 static aur_result find_filter(const char *name, const aur_filter **filter, aur_error *error) {
     if (name == NULL)

@@ -4,7 +4,7 @@
  *
  * The directions of a pattern are split among the samples of a pixel: sample s of S takes every S-th. */
 #include "render/gather/plan.h"
-#include "render/vertex/lamp_edges.h"
+#include "render/vertex/lamps.h"
 
 /* --- keys */
 

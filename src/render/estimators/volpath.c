@@ -1,6 +1,6 @@
 /* Path tracing in scenes with participating media. Both of Mitsuba 3's names for it are the same here, its
  * volpathmis: where extinction has no colour there is no difference but for noise. */
-#include "render/vertex/panes.h"
+#include "render/vertex/vertex.h"
 #include "render/volume/volume_path.h"
 
 static const aur_key keys[] = {

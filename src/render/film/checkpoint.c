@@ -1,6 +1,6 @@
 /* The file: 64-bit little-endian words with a hash of themselves - a magic number, the identity's size and
  * bytes, the words, the size of each film in bytes - and then the films as aur_film_save writes them. */
-#include "render/film/checkpoint.h"
+#include "render/film/film.h"
 
 #include <stdlib.h>
 #include <string.h>

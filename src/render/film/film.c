@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 static bool is_good(const aur_film_layout *layout) {
     enum { LARGEST_SIDE = 1 << 24, MOST_CHANNELS = 1 << 16 };

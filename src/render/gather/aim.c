@@ -1,7 +1,7 @@
 #include "render/gather/aim.h"
 
 #include "points/base/random.h"
-#include "render/sampling/nested.h"
+#include "render/sampling/rule.h"
 #include "render/trace/interleave.h"
 #include "render/vertex/shading.h"
 

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/cache_file.h"
 #include "points/base/error.h"
+#include "points/base/file.h"
 #include "points/base/random.h"
 #include "points/base/simd.h"
-#include "render/photons/irradiance_file.h"
+#include "render/photons/irradiance.h"
 
 /* --- light */
 

@@ -1,4 +1,4 @@
-#include "render/gather/rule_weights.h"
+#include "render/gather/rules.h"
 
 #include <aureole/quadrature.h>
 #include <stdlib.h>

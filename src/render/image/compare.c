@@ -2,7 +2,6 @@
 
 #include "points/base/names.h"
 #include "render/image/format.h"
-#include "render/image/tone.h"
 
 /* One metric: the mean over pixels of a term, then what is made of the mean. Without a term it is the mean of
  * a map of the whole picture. */

@@ -1,5 +1,5 @@
 /* What OpenEXR says, as errors of ours. */
-#include "render/image/format.h"
+#include "render/image/exr.h"
 
 static aur_result result_of(exr_result_t code) {
     switch (code) {

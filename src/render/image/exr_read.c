@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/image/format.h"
+#include "render/image/exr.h"
 
 static bool recognize(const aur_image_source *source) {
     return aur_image_begins(source, "\x76\x2f\x31\x01", 4);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "points/base/array.h"
-#include "render/image/format.h"
+#include "render/image/exr.h"
 
 static int64_t write_bytes(exr_const_context_t context, void *user, const void *buffer, uint64_t count,
                            uint64_t offset, exr_stream_error_func_ptr_t fail) {

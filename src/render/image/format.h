@@ -2,13 +2,25 @@
  * it, and one line in AUR_IMAGE_FORMATS. */
 #pragma once
 
-#include <openexr.h>
+#include <aureole-render/image.h>
 #include <stdbool.h>
 #include <stdio.h>
 
 #include "points/base/error.h"
 #include "points/base/keys.h"
-#include "render/image/image.h"
+
+/* The inside of a picture. */
+
+enum { AUR_NOTES_CAPACITY = 512 };
+
+struct aur_image {
+    size_t width, height, channel_count;
+    float *data;        /* data[(y * width + x) * channel_count + c]; the top row first */
+    bool data_is_owned; /* false: the caller's, see aur_image_wrap */
+    char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY];
+    bool chosen; /* one or three channels that the caller chose: they are the colour, whatever their names */
+    char notes[AUR_NOTES_CAPACITY];
+};
 
 /* Values (pixels times channels) that a picture may have: 4 GiB of floats. A file that claims more lies. */
 #define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
@@ -79,34 +91,6 @@ void aur_image_list_channels(const aur_image *image, size_t capacity, char *text
 aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
                                    aur_error *error);
 
-/* What reading and writing EXR share. */
-
-/* What a context of OpenEXR Core carries for its callbacks. */
-typedef struct aur_exr_stream {
-    aur_result result; /* of the first message */
-    aur_error *error;
-    const unsigned char *input; /* reading */
-    size_t size;                /* of input or output */
-    unsigned char *output;      /* writing */
-    size_t capacity;
-} aur_exr_stream;
-
-/* Rows of a picture whose strides OpenEXR can count. */
-static inline bool aur_exr_rows_fit(size_t width, size_t channel_count) {
-    return width <= INT32_MAX / sizeof(float) / channel_count;
-}
-
-/* The stream whose calls of OpenEXR this thread makes, or NULL: what aur_exr_note writes to. OpenEXR gives
- * its handler of messages a context only, and holds a lock meanwhile that asking the context for its user
- * data would wait for without end. */
-void aur_exr_listen(aur_exr_stream *stream);
-
-/* The handler of messages: keeps the first one in the stream's error. */
-void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *message);
-
-/* The result of a failed call: what was noted, or else the code's own text. */
-aur_result aur_exr_fail(const aur_exr_stream *stream, exr_result_t code);
-
 /* The roles of channels, by the names that OpenEXR and other programs give them, in either case. */
 
 typedef enum aur_channel_role {
@@ -143,3 +127,13 @@ aur_result aur_image_check_finite(const char *what, const aur_image *image, cons
 /* ARGUMENT when sizes differ, there is no colour or a value is not finite. */
 aur_result aur_image_check_pair(const aur_image *reference, const aur_image *image, aur_color_pair *pair,
                                 aur_error *error);
+
+/* Between radiance and what a screen is sent. */
+
+/* The sRGB transfer function (IEC 61966-2-1) and its inverse; arguments and values in [0,1], arguments beyond
+ * it are clamped, NaN is 0. */
+AUR_INTERNAL double aur_srgb_encode(double linear);
+double aur_srgb_decode(double encoded);
+
+/* Radiance to [0,1] in linear light by a curve. */
+double aur_tone_apply(aur_tone tone, double radiance);

@@ -5,7 +5,6 @@
 #include <strings.h>
 
 #include "render/image/format.h"
-#include "render/image/tone.h"
 
 static aur_result fail_stb(const char *format, aur_error *error) {
     const char *const reason = stbi_failure_reason();

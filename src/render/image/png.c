@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "render/image/format.h"
-#include "render/image/tone.h"
 
 /* What a read has in hand where libpng leaves it by a jump. */
 typedef struct png_reader {

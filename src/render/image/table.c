@@ -6,8 +6,8 @@
 
 #include <aureole/text.h>
 
+#include "points/base/error.h"
 #include "points/base/file.h"
-#include "points/base/options.h"
 #include "render/image/format.h"
 
 #define FORMAT_OF(name) &aur_image_format_##name,

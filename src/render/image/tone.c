@@ -1,4 +1,4 @@
-#include "render/image/tone.h"
+#include "render/image/format.h"
 
 #include <math.h>
 

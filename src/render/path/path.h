@@ -2,10 +2,10 @@
  * lockstep (path_group.c, with its arithmetic in path_lanes*), for the pixels of a tile (path_tile.c). */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "render/film/integrator.h"
 #include "render/path/path_lanes.h"
-#include "render/trace/shape_class.h"
+#include "render/trace/packet_rays.h"
 #include "render/vertex/lamps.h"
 #include "render/vertex/vertex.h"
 

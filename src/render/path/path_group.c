@@ -4,7 +4,6 @@
 
 #include "render/trace/packet_rays.h"
 #include "render/vertex/candidates.h"
-#include "render/vertex/panes.h"
 #include "render/vertex/vertex.h"
 
 enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */

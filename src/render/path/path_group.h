@@ -3,7 +3,7 @@
  * they are of: sixteen pixels (path_tile.c), or sixteen randomisations of a sensor. */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "render/path/path.h"
 #include "render/trace/packet_rays.h"
 

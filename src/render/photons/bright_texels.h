@@ -5,8 +5,8 @@
 #pragma once
 
 #include "render/photons/irradiance.h"
-#include "render/scene/distribution.h"
-#include "render/trace/shape_class.h"
+#include "render/scene/patches.h"
+#include "render/trace/packet_rays.h"
 
 /* A texel's part of one triangle, on one side. */
 typedef struct aur_bright_patch {

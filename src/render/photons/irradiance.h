@@ -2,7 +2,7 @@
  * density estimate is made while a picture is rendered (after Christensen 1999). */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "render/photons/photon_map.h"
 #include "render/photons/texels.h"
 
@@ -58,3 +58,15 @@ typedef struct aur_texel_view {
 AUR_INTERNAL aur_texel_view aur_irradiance_view(const aur_irradiance_map *map, const aur_scene *scene,
                                                 const aur_hit *hit, const aur_surface *surface,
                                                 aur_vector view);
+
+/* Maps of irradiance as bytes, for the cache of later runs. */
+
+/* What may be cheaper to read than to trace: fewer photons than these are traced in the time that hashing a
+ * scene's files, opening and checking takes (scripts/cache.sh). */
+enum { AUR_IRRADIANCE_WORTH_KEEPING = 20000 };
+
+/* The bytes, from malloc; NULL when out of memory. */
+void *aur_irradiance_map_pack(const aur_irradiance_map *map, size_t *size);
+/* The map of the same scene; NULL for bytes that are none, or when out of memory. Whatever the bytes, looking
+ * up in the map stays within it. */
+aur_irradiance_map *aur_irradiance_map_unpack(const aur_scene *scene, size_t size, const void *bytes);

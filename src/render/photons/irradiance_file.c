@@ -1,4 +1,4 @@
-#include "render/photons/irradiance_file.h"
+#include "render/photons/irradiance.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "points/base/array.h"
 #include "points/base/bytes.h"
-#include "points/base/memory.h"
 #include "points/base/parallel.h"
 #include "render/sampling/stream.h"
 #include "render/vertex/vertex.h"

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "points/base/error.h"
 #include "points/base/file.h"
-#include "points/base/options.h"
 #include "points/base/words.h"
 #include "render/radiosity/solution.h"
 

@@ -1,6 +1,6 @@
 /* A solution as a coloured mesh. Vertices far from the origin are written in doubles. */
 #include "points/base/file.h"
-#include "render/image/tone.h"
+#include "render/image/format.h"
 #include "render/radiosity/solution.h"
 
 aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,

@@ -3,7 +3,7 @@
  * those the backs of triangles that reflect on both sides. */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "render/scene/scene.h"
 
 #define AUR_NO_PATCH UINT32_MAX

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/base/random.h"
 #include "points/base/ranks.h"

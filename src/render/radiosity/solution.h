@@ -2,7 +2,7 @@
  * randomisation. It is not changed by pictures and files; one call at a time may trace it further. */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "render/radiosity/walk.h"
 
 struct aur_radiosity {

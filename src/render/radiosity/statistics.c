@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/vector3d.h"
 
 void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]) {

@@ -2,7 +2,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "render/radiosity/solution.h"
 

@@ -5,7 +5,7 @@
 #include <aureole-render/radiosity.h>
 
 #include "render/radiosity/scene.h"
-#include "render/scene/distribution.h"
+#include "render/scene/patches.h"
 
 /* A sum that does not depend on the order of its terms: non-negative ones in fixed point, added in 128 bits.
  */

@@ -1,4 +1,4 @@
-#include "render/sampling/nested.h"
+#include "render/sampling/rule.h"
 
 #include <math.h>
 

@@ -8,7 +8,6 @@
 #include "points/pointset/net_2d.h"
 #include "points/sphere/map.h"
 #include "points/sphere/native.h"
-#include "render/sampling/nested.h"
 
 static bool works_on_square(aur_scramble scramble) {
     return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_SHIFT;

@@ -8,7 +8,6 @@
 #include <stdbool.h>
 
 #include "points/base/error.h"
-#include "points/base/internal.h"
 #include "points/base/random.h"
 
 typedef enum aur_sampler_kind {

@@ -1,5 +1,5 @@
 /* What the clip planes of the camera hide. */
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "render/scene/scene_data.h"
 
 static void look(const aur_scene *scene, aur_ray ray, aur_clip_description *own) {

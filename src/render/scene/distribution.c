@@ -1,4 +1,3 @@
-#include "render/scene/distribution.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "render/scene/filter.h"
+#include "render/scene/sensor.h"
 
 #include <math.h>
 #include <stdlib.h>

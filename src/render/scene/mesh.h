@@ -3,7 +3,6 @@
 #pragma once
 
 #include "points/base/error.h"
-#include "points/base/internal.h"
 #include "points/base/vector.h"
 #include "render/scene/transform.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "points/base/array.h"
-#include "points/base/polygon.h"
+#include "points/base/vector3d.h"
 #include "render/scene/overlaps.h"
 
 enum { MOST_CORNERS = 16, FEW_CORNERS = 8 };

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/polygon.h"
 #include "points/base/random.h"
+#include "points/base/vector3d.h"
 
 /* A ball around a plane's normal and offset, in parts of the reach of all triangles, is put into each cell
  * that it meets; planes that are the same within rounding have a cell in common. */

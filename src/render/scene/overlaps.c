@@ -7,7 +7,7 @@
 
 #include "points/base/array.h"
 #include "points/base/parallel.h"
-#include "points/base/polygon.h"
+#include "points/base/vector3d.h"
 
 /* Parts of an extent. */
 static const double EVENLY = 1.2e-7, NARROW = 3e-6, EXACT = 1e-12;

@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include "points/base/error.h"
-#include "points/base/internal.h"
 #include "render/scene/scene_data.h"
 
 /* The `count` triangles that `context` knows, in any coordinates: corners[some] of those from `first` on. */

@@ -6,7 +6,7 @@
  * in loops of 16. Lanes whose `valid` is 0 are not traced. */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "render/scene/embree.h"
 #include "render/scene/scene.h"
 

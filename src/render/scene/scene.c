@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "points/base/array.h"
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "render/scene/importers/rad/rad.h"
 #include "render/scene/materials/sampling.h"
 #include "render/scene/overlaps.h"

@@ -3,7 +3,7 @@
 
 #include <aureole-render/scene.h>
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "points/base/keys.h"
 #include "render/scene/materials/bsdf.h"
 

@@ -1,12 +1,11 @@
 /* What a loaded scene is made of. */
 #pragma once
 
-#include "points/base/internal.h"
-#include "render/scene/distribution.h"
+#include "points/base/error.h"
 #include "render/scene/emitter.h"
-#include "render/scene/filter.h"
 #include "render/scene/importers/xml/xml.h"
 #include "render/scene/medium.h"
+#include "render/scene/patches.h"
 #include "render/scene/sensor.h"
 #include "render/scene/shape.h"
 

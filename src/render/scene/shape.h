@@ -1,10 +1,10 @@
 /* Shapes. Each has a file in the folder shapes and one line in shapes/table.c. */
 #pragma once
 
-#include "render/scene/distribution.h"
 #include "render/scene/importers/meshes/mesh_data.h"
 #include "render/scene/importers/xml/xml.h"
 #include "render/scene/mesh.h"
+#include "render/scene/patches.h"
 #include "render/scene/scene.h"
 
 typedef struct aur_shape_descriptor aur_shape_descriptor;

@@ -5,6 +5,7 @@
 
 #include "points/base/vector.h"
 #include "render/scene/packet.h"
+#include "render/scene/scene.h"
 
 /* Sets of a packet's sixteen lanes: bit k of a mask stands for lane k. All lanes of a mask are visited, from
  * the lowest one on, by
@@ -55,3 +56,20 @@ static inline uint32_t aur_is_off_plane(aur_vector offset, aur_vector normal, fl
     const float height = aur_vector_dot(offset, normal);
     return (uint32_t)(cosine < 0.995f) | (uint32_t)(height * height > 0.01f * aur_vector_dot(offset, offset));
 }
+
+/* What is known of each shape before a ray meets it, so that most hits need no look at their surface. */
+
+typedef struct aur_shape_class {
+    bool curved; /* not a mesh */
+    bool emits;
+    /* A mesh with nothing but diffuse reflection, alike at all its points, and no light. */
+    bool plain;
+    bool plain_flat; /* plain, and without normals at its vertices */
+    /* The same but for a reflectance that is not alike at all points. */
+    bool textured_flat;
+    /* Reflectance of plain shapes seen from the side of the normal, and from behind: RGB, and over pi. */
+    aur_vector albedo[2], albedo_on_pi[2];
+} aur_shape_class;
+
+/* One class a shape of the scene; to be freed by the caller. Errors: MEMORY. */
+aur_result aur_shape_classes_create(const aur_scene *scene, aur_shape_class **classes, aur_error *error);

@@ -1,4 +1,4 @@
-#include "render/trace/shape_class.h"
+#include "render/trace/packet_rays.h"
 
 #include <stdlib.h>
 

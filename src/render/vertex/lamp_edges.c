@@ -1,4 +1,3 @@
-#include "render/vertex/lamp_edges.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -58,3 +58,12 @@ aur_result aur_lamp_looks_find(const aur_view *view, double rays, const aur_inte
 /* What lamps send straight to sample `index` of a pixel. False where its own ray is to tell. */
 bool aur_lamp_look(const aur_lamp_looks *looks, const aur_view *view, size_t x, size_t y, uint32_t index,
                    aur_vector *seen);
+
+/* Lamps of a few pixels, which a pixel's first samples and those of its neighbours may all miss: where an
+ * edge of one crosses a pixel is known from points on the lamps, before any sample is drawn. Larger lamps are
+ * seen by all pixels beside their edges. */
+
+/* `looks` for each pixel of the whole picture whose filter may see the edge of such a lamp, 0 for the others.
+ * Belongs to the context's cache; NULL where there are none, or the camera is no pinhole. Errors: MEMORY. */
+aur_result aur_lamp_edges_find(const aur_view *view, uint16_t looks, const aur_integrator_context *context,
+                               const uint16_t **edges, aur_error *error);

@@ -1,7 +1,5 @@
 #include "render/vertex/vertex.h"
 
-#include "render/vertex/panes.h"
-
 aur_vector aur_vertex_emission(const aur_scene *scene, const aur_bounce *bounce, aur_vector direction,
                                const aur_surface *surface, float *light_pdf) {
     *light_pdf = 0.0f;

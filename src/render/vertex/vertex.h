@@ -3,6 +3,7 @@
  * roulette. */
 #pragma once
 
+#include "points/base/error.h"
 #include "render/film/integrator.h"
 #include "render/film/tile.h"
 #include "render/vertex/shading.h"
@@ -149,3 +150,12 @@ static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitter
     ++counters->cut;
     return false;
 }
+
+/* Surfaces that let light straight through: panes, masks. */
+
+/* Whether the scene has any. */
+AUR_INTERNAL bool aur_panes_exist(const aur_scene *scene);
+
+/* What the surfaces on a ray, at most `most` of them, leave of the light that comes along it; 0 where one of
+ * them lets none through. */
+aur_vector aur_panes_passed(const aur_scene *scene, const aur_ray *ray, size_t most);

@@ -11,7 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "points/base/cache_file.h"
+#include "points/base/file.h"
 
 enum { MANY = 1 << 18 };
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 
 /* The struct of the library, and the callers' structs of an older and of a newer header. */
 typedef struct own_options {

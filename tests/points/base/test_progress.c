@@ -1,5 +1,5 @@
 /* Progress of pieces: one series from 0 to 1 that never goes back. */
-#include "points/base/progress.h"
+#include "points/base/parallel.h"
 
 #include <math.h>
 

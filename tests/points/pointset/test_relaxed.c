@@ -4,7 +4,7 @@
 #include <dirent.h>
 #include <unistd.h>
 
-#include "points/base/cache_file.h"
+#include "points/base/file.h"
 #include "points/base/random.h"
 #include "points/pointset/relax/relaxation.h"
 

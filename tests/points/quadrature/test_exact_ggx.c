@@ -8,7 +8,7 @@
 #include "check.h"
 #include "points/base/gauss.h"
 #include "points/base/vector.h"
-#include "points/quadrature/exact/measured.h"
+#include "points/quadrature/exact/system.h"
 #include "points/quadrature/potential/potential.h"
 
 /* The mean of x^a y^b z^c over a GGX lobe, by Gauss-Legendre in z and equal steps of the azimuth: slow, but

@@ -5,7 +5,7 @@
 
 #include "points/sphere/phase.h"
 #include "points/sphere/sets/fibonacci.h"
-#include "points/sphere/sets/grid.h"
+#include "points/sphere/sets/reference.h"
 
 static double *grid(const char *keys, uint64_t count, aur_domain domain) {
     char set[128];

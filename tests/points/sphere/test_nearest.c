@@ -3,7 +3,7 @@
 #include <aureole/nearest.h>
 #include <string.h>
 
-#include "points/sphere/quaternion.h"
+#include "points/sphere/map.h"
 
 enum { POINTS = 500, QUERIES = 600, WANTED = 7 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "points/base/simd.h"
-#include "points/sphere/quaternion.h"
+#include "points/sphere/map.h"
 #include "points/sphere/rotations/hopf.h"
 
 static double *made(const char *set, aur_rotations_options options) {

@@ -2,7 +2,7 @@
  * max_depth 2 lacks is known from many samples; of integrators without bias none is found. */
 #include "check.h"
 
-#include "render/adaptive/bias.h"
+#include "render/adaptive/choose.h"
 #include <aureole-render/render.h>
 
 enum { WIDTH = 32, HEIGHT = 32, REPLICAS = 4 };

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/adaptive/candidates.h"
 #include "render/adaptive/gather_size.h"
+#include "render/adaptive/rivals.h"
 
 /* Squares by 4 directions and by one point on lights, which falls as points^-1.5. */
 static aur_gather_law law_of(double gather, double lights) {

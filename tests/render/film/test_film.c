@@ -7,7 +7,7 @@
 
 #include <aureole-render/render.h>
 
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 static aur_scene *load(const char *name) {
     char path[1024];

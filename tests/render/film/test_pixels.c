@@ -8,7 +8,7 @@
 #include "points/base/random.h"
 #include "program/lab/gather.h"
 #include "render/film/film.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 enum { WIDTH = 37, HEIGHT = 21, PIXELS = WIDTH * HEIGHT, MOST = 6 };
 

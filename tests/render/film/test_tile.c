@@ -3,7 +3,7 @@
 #include <aureole-render/render.h>
 #include <string.h>
 
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 static aur_image *render(const aur_scene *scene, const char *integrator, const size_t crop[4]) {
     aur_renderer *renderer = NULL;

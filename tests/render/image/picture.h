@@ -8,7 +8,7 @@
 
 #include "check.h"
 #include "points/base/random.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 static inline void assert_success(aur_result result, const aur_error *error) {
     if (result != AUR_OK)

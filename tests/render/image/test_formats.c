@@ -4,7 +4,7 @@
 #include <stb_image_write.h>
 
 #include "picture.h"
-#include "render/image/tone.h"
+#include "render/image/format.h"
 
 static void assert_read_fails(const char *what, size_t size, const void *data, aur_result expected) {
     aur_image *image;

@@ -13,7 +13,7 @@
 
 #include "points/base/file.h"
 #include "points/base/text.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 
 static void write_text(const char *path, const char *text) {
     assert_int_equal(aur_file_write(path, strlen(text), text, NULL), AUR_OK);

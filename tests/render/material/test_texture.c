@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "render/image/image.h"
+#include "render/image/format.h"
 #include "render/scene/materials/texture.h"
 
 /* 2 x 2: red, green / blue, white. */

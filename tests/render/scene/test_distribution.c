@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "points/base/random.h"
-#include "render/scene/distribution.h"
+#include "render/scene/patches.h"
 
 /* The last item whose sum of those before it is not above the target, by a look at all of them; never one of
  * weight 0. */

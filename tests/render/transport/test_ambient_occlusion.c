@@ -4,7 +4,7 @@
 #include <aureole-render/ask.h>
 #include <aureole-render/render.h>
 
-#include "render/image/image.h"
+#include "render/image/format.h"
 #include "render/scene/scene.h"
 
 static aur_image *must_render(const aur_scene *scene, const aur_render_options *options) {

@@ -3,7 +3,7 @@
 
 #include "check.h"
 
-#include "render/gather/rule_weights.h"
+#include "render/gather/rules.h"
 
 #define PI 3.14159265358979323846
 

@@ -2,7 +2,6 @@
 #include "check.h"
 
 #include "points/base/random.h"
-#include "render/sampling/nested.h"
 #include "render/sampling/rule.h"
 
 /* A direction of a hash, and the part of the hemisphere of solid angle that is within 72 degrees of it, by

@@ -3,7 +3,7 @@
 #include <aureole-render/render.h>
 
 #include "points/base/random.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 #include "render/radiosity/picture.h"
 
 #define WALL                                                                                                 \

@@ -4,7 +4,7 @@
 #include <aureole/pointset.h>
 #include <stdbool.h>
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 
 typedef struct aur_matrix {
     size_t row_count, column_count;

@@ -7,9 +7,9 @@
 #include <aureole/pointset.h>
 #include <aureole/text.h>
 
+#include "points/base/error.h"
 #include "points/base/file.h"
 #include "points/base/names.h"
-#include "points/base/options.h"
 #include "points/pointset/points.h"
 
 static const char *const format_names[] = {"csv", "json", "npy", "ply"};

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/cache_file.h"
 #include "points/base/error.h"
+#include "points/base/file.h"
 
 bool aur_site_grid_create(aur_site_grid *grid, size_t count) {
     grid->side = 1;

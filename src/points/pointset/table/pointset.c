@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "points/base/error.h"
 #include "points/base/names.h"
-#include "points/base/options.h"
 #include "points/base/text.h"
 #include "points/pointset/sets.h"
 

@@ -6,7 +6,7 @@
 
 #include <aureole/statistics.h>
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 
 typedef struct aur_levels {
     size_t replicates, values;

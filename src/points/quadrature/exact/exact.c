@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/vector.h"
 #include "points/quadrature/check.h"
-#include "points/quadrature/exact/measured.h"
+#include "points/quadrature/exact/system.h"
 
 /* Points this far below the rim still belong to a domain: rounding. */
 static const double rim = 1e-9;

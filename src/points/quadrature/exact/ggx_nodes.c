@@ -12,7 +12,7 @@
 
 #include "points/base/gauss.h"
 #include "points/base/vector.h"
-#include "points/quadrature/exact/measured.h"
+#include "points/quadrature/exact/system.h"
 
 typedef struct ggx_lobe {
     double alpha, sine, cosine; /* of the view */

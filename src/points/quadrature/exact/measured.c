@@ -1,10 +1,10 @@
-#include "points/quadrature/exact/measured.h"
+#include "points/quadrature/exact/system.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/memory.h"
+#include "points/base/array.h"
 #include "points/base/parallel.h"
 #include "points/base/vector3d.h"
 

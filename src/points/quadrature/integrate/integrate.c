@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
 #include "points/base/parallel.h"
 #include "points/base/random.h"
 #include "points/base/vector.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "points/base/memory.h"
+#include "points/base/array.h"
 
 aur_result aur_check_system_size(size_t size, aur_error *error) {
     const double needed = (double)size * (double)size * sizeof(double);

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
 #include "points/quadrature/check.h"

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "points/base/memory.h"
-#include "points/base/options.h"
+#include "points/base/array.h"
+#include "points/base/error.h"
 #include "points/base/simd.h"
 #include "points/quadrature/check.h"
 

@@ -2,7 +2,7 @@
  * another layout need. A table does not change once it is built or read. */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "points/base/simd.h"
 #include "points/base/vector.h"
 #include "points/quadrature/tables/oswa.h"

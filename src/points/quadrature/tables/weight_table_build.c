@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "points/base/bytes.h"
-#include "points/base/cache_file.h"
+#include "points/base/file.h"
 #include "points/base/parallel.h"
 #include "points/quadrature/tables/weight_table.h"
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/quadrature/check.h"
 #include "points/quadrature/linear/solve.h"
 #include "points/quadrature/potential/potential.h"

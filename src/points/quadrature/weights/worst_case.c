@@ -1,7 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "points/base/options.h"
+#include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/quadrature/check.h"
 #include "points/quadrature/potential/potential.h"

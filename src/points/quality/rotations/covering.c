@@ -10,8 +10,8 @@
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
 #include "points/quality/rotations/rotations.h"
+#include "points/sphere/map.h"
 #include "points/sphere/nearest/inverse.h"
-#include "points/sphere/quaternion.h"
 
 /* The first polyhedron's half side, as a tangent: almost 90 degrees. */
 static const double horizon = 1e6;

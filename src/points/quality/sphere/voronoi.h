@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "points/base/arena.h"
+#include "points/base/array.h"
 #include "points/quality/measure.h"
 #include "points/quality/pairs/pair_sum.h"
 

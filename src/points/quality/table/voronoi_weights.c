@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
 #include "points/quadrature/potential/potential.h"
 
 /* The density at a point, up to a factor; the whole sphere's is 1. */

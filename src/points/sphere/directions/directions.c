@@ -7,7 +7,6 @@
 #include <aureole/sphere.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
 #include "points/base/text.h"
 #include "points/base/vector.h"
 #include "points/pointset/points.h"

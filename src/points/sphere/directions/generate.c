@@ -4,7 +4,6 @@
 #include <aureole/rotations.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
 #include "points/pointset/points.h"
 #include "points/pointset/set.h"
 #include "points/sphere/map.h"

@@ -4,11 +4,10 @@
 #include <aureole/rotations.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
 #include "points/base/simd.h"
 #include "points/pointset/set.h"
+#include "points/sphere/map.h"
 #include "points/sphere/native.h"
-#include "points/sphere/quaternion.h"
 #include "points/sphere/rotations/hopf.h"
 
 enum { CHUNK = 256 };

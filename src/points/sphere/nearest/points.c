@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "points/base/error.h"
-#include "points/base/options.h"
 #include "points/base/parallel.h"
 #include "points/pointset/points.h"
 #include "points/sphere/nearest/inverse.h"

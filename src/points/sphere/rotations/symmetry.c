@@ -8,7 +8,7 @@
 #include "points/base/error.h"
 #include "points/base/names.h"
 #include "points/base/vector.h"
-#include "points/sphere/quaternion.h"
+#include "points/sphere/map.h"
 
 static const char *const names[] = {"1", "2", "222", "3", "32", "4", "422", "6", "622", "23", "432"};
 enum { SYMMETRY_COUNT = sizeof names / sizeof names[0] };

@@ -14,7 +14,7 @@
 #include "points/sphere/native.h"
 #include "points/sphere/phase.h"
 #include "points/sphere/rotations/hopf.h"
-#include "points/sphere/sets/grid.h"
+#include "points/sphere/sets/reference.h"
 
 enum { LEVEL_LIMIT = 15, TURN_LIMIT = 1 << 16 };
 

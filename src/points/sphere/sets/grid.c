@@ -10,7 +10,7 @@
  * The shift d along x centres the points. `final`: d = 1/(2^{L+1} N) suits all N 4^L points, and smaller
  * sizes are prefixes that lose 5 to 8 %. `per-level`: each size has its own, within 1 % of spherical
  * Fibonacci, and old points move. Progression 2 puts the sub-grid first that doubles a grid best. */
-#include "points/sphere/sets/grid.h"
+#include "points/sphere/sets/reference.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/image/image.h"
+#include "render/image/format.h"
 #include "render/scene/emitter.h"
 #include "render/scene/scene_data.h"
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "points/base/error.h"
-#include "points/base/internal.h"
 #include "render/scene/lights/sun_position.h"
 #include "render/scene/scene.h"
 

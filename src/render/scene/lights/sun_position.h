@@ -1,7 +1,7 @@
 /* Where up, north and the sun are: keys that skies and suns share. */
 #pragma once
 
-#include "points/base/internal.h"
+#include "points/base/error.h"
 #include "points/base/keys.h"
 #include "render/scene/transform.h"
 

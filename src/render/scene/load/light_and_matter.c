@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/image/image.h"
+#include "render/image/format.h"
 #include "render/scene/load/loader.h"
 
 aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **object) {

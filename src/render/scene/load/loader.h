@@ -2,7 +2,7 @@
 #pragma once
 
 #include "points/base/parameters.h"
-#include "render/image/image.h"
+#include "render/image/format.h"
 #include "render/scene/importers/xml/xml.h"
 #include "render/scene/scene_data.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "points/base/error.h"
-#include "points/base/internal.h"
 #include "render/scene/importers/meshes/triangulate.h"
 
 typedef enum aur_mesh_format {

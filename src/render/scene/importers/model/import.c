@@ -6,9 +6,8 @@
 #include <unistd.h>
 
 #include "points/base/array.h"
-#include "points/base/module.h"
+#include "points/base/file.h"
 #include "points/base/ranks.h"
-#include "render/scene/importers/model/named_files.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
 

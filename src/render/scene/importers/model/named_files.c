@@ -1,4 +1,4 @@
-#include "render/scene/importers/model/named_files.h"
+#include "render/scene/importers/model/import.h"
 
 #include <aureole-render/image.h>
 #include <stdarg.h>

@@ -1,4 +1,4 @@
-#include "render/scene/importers/nodes/variables.h"
+#include "render/scene/importers/nodes/node.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "render/scene/importers/xml/model_file.h"
+#include "render/scene/importers/xml/xml.h"
 
 #include <string.h>
 

@@ -10,9 +10,8 @@
 #include "points/base/file.h"
 #include "points/base/text.h"
 #include "points/base/words.h"
-#include "render/scene/importers/nodes/variables.h"
+#include "render/scene/importers/nodes/node.h"
 #include "render/scene/importers/rad/rad.h"
-#include "render/scene/importers/xml/model_file.h"
 
 /* A few kilobytes of includes that double each other must not become an endless scene, so that files and
  * their bytes have a limit. */

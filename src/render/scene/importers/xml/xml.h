@@ -7,12 +7,11 @@
 #pragma once
 
 #include <aureole-render/scene.h>
+#include <stdbool.h>
+#include <time.h>
 
 #include "render/scene/importers/model/model.h"
 #include "render/scene/importers/nodes/node.h"
-
-#include <stdbool.h>
-#include <time.h>
 
 /* A file that was read: what it is called where it is named, where it was found, and a hash of its bytes, if
  * it was known at once; else when it was changed last, as known before it was read. */
@@ -71,3 +70,14 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
  * Texts that name none are copied. */
 aur_result aur_xml_find_set(aur_xml_document *document, aur_location location, const char *set, char **found,
                             aur_error *error);
+
+/* Models as scenes, or parts of them. */
+
+/* Whether a file is a model: by its name, unless it begins as a scene does, for XML in memory may go by the
+ * name of a mesh that it is about. */
+bool aur_xml_is_model(const char *path, size_t size, const char *data);
+
+/* Adds a model's elements to `parent`, and its parts to the document's model files. `included`: in a scene,
+ * which has a camera and lights of its own. */
+aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_options *options, bool included,
+                              size_t size, const char *data, aur_nodes *nodes, aur_xml_node *parent);
