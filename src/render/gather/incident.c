@@ -22,57 +22,26 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
 
 /* --- a ray that goes on */
 
-/* The ray, and how it came to where it is. */
+/* A path of mirrors and rough facets, and how it came to where it is. */
 typedef struct gather_chain {
-    aur_ray ray;
-    size_t lane;                   /* of the gather ray */
-    uint64_t hash;                 /* of what chance decides on its way */
-    uint32_t length;               /* bounces since the gathering point */
-    bool specular;                 /* all of them */
-    bool mirrored;                 /* the last one: lights are not sampled for it */
-    aur_light_reference reference; /* where the ray began */
-    float length_seen;             /* of the rays from the last place that scattered other than as a mirror */
-    float density;                 /* with which its direction was drawn, a steradian, times how often */
-    float light_draws;             /* points on lights that were drawn there */
+    aur_walk path;
+    size_t lane;       /* of the gather ray */
+    uint64_t hash;     /* of what chance decides on its way */
+    uint32_t length;   /* bounces since the gathering point */
+    bool specular;     /* all of them */
+    float length_seen; /* of the rays from the last place that scattered other than as a mirror */
 } gather_chain;
 
-/* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
-static bool draw_onward(const aur_shading *shading, unsigned kinds, const float u[3],
-                        aur_bsdf_sample *drawn) {
-    if ((kinds & AUR_SCATTERS_SPECULAR) == 0)
-        return aur_shading_draw(shading, AUR_BSDF_SAMPLED_LOBES, u, drawn);
-    if (!aur_shading_sample(shading, u, drawn))
-        return false;
-    if (drawn->specular || (kinds & AUR_SCATTERS_SAMPLED) == 0)
-        return drawn->specular;
-    const aur_surface *const surface = shading->surface;
-    const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
-    float pdf;
-    const aur_vector value = aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture,
-                                               shading->view, light, &pdf);
-    drawn->weight = aur_vector_scale(value, 1.0f / drawn->pdf);
-    return drawn->pdf > 0.0f;
-}
-
-/* The light that a surface emits along the ray, or the sky where there is none: the part of it that the ray
- * counts. The rest is found by sampling the light. */
-static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_chain *chain,
-                                   const aur_surface *surface) {
-    const aur_vector direction = chain->ray.direction, black = {0};
-    if (plan->policy.direct != AUR_DIRECT_NEE && !plan->counts_emitters)
-        return black;
-    float pdf = 0.0f;
-    const aur_vector emission =
-        surface != NULL ? aur_surface_emission(plan->scene, surface, aur_vector_scale(direction, -1.0f))
-                        : aur_environment_light(plan->scene, direction, &pdf);
-    if (aur_vector_is_zero(emission) || plan->counts_emitters)
-        return emission;
-    /* Light that a mirror throws here is found by caustic photons, if there are. */
-    if (chain->mirrored)
-        return plan->light.caustics != NULL && chain->specular ? black : emission;
-    if (surface != NULL)
-        pdf = aur_light_pdf_direct(plan->scene, &chain->reference, surface);
-    return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
+/* Adds the part of the emission that the ray counts: a surface's, or the sky's where there is none (NULL).
+ * The rest is found by sampling the lights, and, where all bounces were specular, by caustic photons. */
+static void add_emission(const aur_gather_plan *plan, const aur_surface *surface, gather_chain *chain) {
+    aur_walk *const path = &chain->path;
+    if (plan->counts_emitters)
+        path->bounce.specular_bounce = true;
+    else if (plan->policy.direct != AUR_DIRECT_NEE ||
+             (path->bounce.specular_bounce && plan->light.caustics != NULL && chain->specular))
+        return;
+    aur_walk_add_emission(plan->scene, surface, path);
 }
 
 /* Paths in place of what the map knows: they wait until there are sixteen, or all rays have been looked at.
@@ -108,64 +77,59 @@ static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector w
         walk_paths(plan, waiting, rays);
 }
 
-/* The light that leaves a surface by what the photon maps know. Where a path is to say it, what is left is
- * what the path begins with: true. */
-static bool scattered_radiance(const aur_gather_plan *plan, const gather_chain *chain, const aur_hit *hit,
-                               const aur_surface *surface, aur_vector view, aur_vector *radiance,
-                               aur_onward_start *start) {
-    bool waits = false;
-    *radiance = (aur_vector){0};
+/* Adds the light that leaves a surface by what the photon maps know; where a path is to find it, the path
+ * waits. */
+static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const aur_surface *surface,
+                          waiting_paths *waiting, aur_gather_rays *rays, gather_chain *chain) {
+    aur_vector radiance = {0};
+    const aur_vector wo = aur_vector_scale(chain->path.ray.direction, -1.0f);
     if (plan->light.map != NULL) {
-        const aur_texel_view known = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, view);
+        const aur_texel_view texel = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, wo);
         const uint64_t hash = aur_hash2(chain->hash, chain->length);
-        const bool near = aur_onward_is_near(&plan->onward, chain->length_seen + hit->distance, known.area);
-        waits = near || aur_onward_is_due(&plan->onward, hash);
-        if (waits)
-            *start = (aur_onward_start){*surface, view, chain->length + 2, hash, near, known.radiance};
-        else
-            *radiance = aur_onward_kept(&plan->onward, known.radiance);
+        const bool near = aur_onward_is_near(&plan->onward, chain->length_seen + hit->distance, texel.area);
+        if (near || aur_onward_is_due(&plan->onward, hash)) {
+            waiting->starts[waiting->count] =
+                (aur_onward_start){*surface, wo, chain->length + 2, hash, near, texel.radiance};
+            wait_for_path(plan, chain->lane, chain->path.beta, waiting, rays);
+        } else {
+            radiance = aur_onward_kept(&plan->onward, texel.radiance);
+        }
     }
     if (plan->light.caustics != NULL)
-        *radiance = aur_vector_add(
-            *radiance, aur_irradiance_view(plan->light.caustics, plan->scene, hit, surface, view).radiance);
-    return waits;
+        radiance = aur_vector_add(
+            radiance, aur_irradiance_view(plan->light.caustics, plan->scene, hit, surface, wo).radiance);
+    chain->path.radiance =
+        aur_vector_add(chain->path.radiance, aur_vector_multiply(chain->path.beta, radiance));
 }
 
-/* Weak reflections are followed now and then, so many times as often as they are strong. */
-static const float BOOST = 8.0f;
-
-/* A point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. What is weak beside
- * the radiance `known` of the surface is asked for now and then. */
-static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *shading, unsigned kinds,
-                                aur_vector known, uint64_t *hash) {
-    const aur_vector black = {0};
-    const aur_surface *const surface = shading->surface;
+/* Adds a point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. */
+static void add_sampled_light(const aur_gather_plan *plan, const aur_shading *shading, gather_chain *chain) {
     float u[3];
-    aur_light_sample light;
-    aur_draw_units(hash, u);
-    if (!aur_shading_draw_light(plan->scene, shading, u, &light) || !(light.pdf > 0.0f))
-        return black;
-    const aur_vector local = aur_frame_to_local(&surface->frame, light.direction);
-    if (aur_vector_dot(surface->geometric_normal, light.direction) * local.z <= 0.0f)
-        return black;
-    const aur_bsdf *const bsdf = surface->bsdf;
-    float rival;
-    const aur_vector value =
-        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, local, &rival);
-    if (aur_vector_is_zero(value))
-        return black;
-    if ((kinds & AUR_SCATTERS_SPECULAR) != 0)
-        aur_bsdf_evaluate(bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, local, &rival);
-    const float weight = light.delta ? 1.0f : aur_power_heuristic(light.pdf, rival);
-    const aur_vector radiance =
-        aur_vector_scale(aur_vector_multiply(value, light.radiance), weight / light.pdf);
-    const float strength = aur_vector_max(radiance);
-    const float survival = fminf(1.0f, BOOST * strength / (strength + aur_vector_max(known)));
-    if (!(aur_draw_unit(hash) < survival))
-        return black;
-    float distance;
-    const aur_ray shadow = aur_surface_ray_to(surface, light.position, &distance);
-    return aur_scene_occluded(plan->scene, &shadow) ? black : aur_vector_scale(radiance, 1.0f / survival);
+    aur_shadow shadow;
+    aur_draw_units(&chain->hash, u);
+    if (aur_vertex_draw_light(plan->scene, shading, AUR_VERTEX_UNMAPPED, AUR_VERTEX_ONE_EACH, u, &shadow) &&
+        !aur_scene_occluded(plan->scene, &shadow.ray))
+        chain->path.radiance =
+            aur_vector_add(chain->path.radiance, aur_vector_multiply(chain->path.beta, shadow.radiance));
+}
+
+/* Goes on by lobes that the photon map does not answer for; false where the path ends. */
+static bool scatter(const aur_shading *shading, float distance, gather_chain *chain, aur_counters *counters) {
+    aur_walk *const path = &chain->path;
+    float u[3];
+    aur_draw_units(&chain->hash, u);
+    if (!aur_walk_scatter(shading, AUR_VERTEX_UNMAPPED, u, path))
+        return false;
+    if (!aur_vertex_survives(aur_survival(path->beta), aur_draw_unit(&chain->hash), &path->beta))
+        return false;
+    if (chain->length == AUR_LONGEST_CHAIN) {
+        ++counters->cut;
+        return false;
+    }
+    ++chain->length;
+    chain->specular = chain->specular && path->bounce.specular_bounce;
+    chain->length_seen = path->bounce.specular_bounce ? chain->length_seen + distance : 0.0f;
+    return true;
 }
 
 /* `hit` is the ray's first one, or NULL when it left the scene. */
@@ -174,59 +138,26 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
     const aur_scene *const scene = plan->scene;
     const bool samples_lights =
         plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters && aur_scene_emitter_count(scene) > 0;
-    aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
     aur_hit next;
-    for (;; ++chain.length) {
-        if (hit == NULL) {
-            const aur_vector sky = emitted_radiance(plan, &chain, NULL);
-            return aur_vector_add(sum, aur_vector_multiply(throughput, sky));
-        }
+    for (; hit != NULL; hit = aur_scene_intersect(scene, &chain.path.ray, &next) ? &next : NULL) {
         aur_surface surface;
-        aur_scene_surface(scene, &chain.ray, hit, &surface);
-        const aur_vector view = aur_vector_scale(chain.ray.direction, -1.0f);
-        const aur_shading shading = aur_shading_at(&surface, view);
+        aur_scene_surface(scene, &chain.path.ray, hit, &surface);
+        const aur_shading shading =
+            aur_shading_at(&surface, aur_vector_scale(chain.path.ray.direction, -1.0f));
         const unsigned kinds = aur_bsdf_scatters(surface.bsdf, shading.view.z);
-        aur_vector radiance = emitted_radiance(plan, &chain, &surface), known = {0};
-        aur_onward_start *const start = &waiting->starts[waiting->count];
         /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
         const bool deeper = chain.length + 3 <= plan->policy.max_depth;
-        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper) {
-            aur_vector scattered;
-            if (scattered_radiance(plan, &chain, hit, &surface, view, &scattered, start)) {
-                known = aur_vector_add(known, start->known);
-                wait_for_path(plan, chain.lane, throughput, waiting, rays);
-            }
-            radiance = aur_vector_add(radiance, scattered);
-        }
-        if ((kinds & AUR_SCATTERS_SAMPLED) != 0 && deeper && samples_lights)
-            radiance = aur_vector_add(
-                radiance, sampled_light(plan, &shading, kinds, aur_vector_add(radiance, known), &chain.hash));
-        sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
-        if ((kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 || !deeper)
-            return sum;
-        float u[3];
-        aur_bsdf_sample drawn;
-        aur_draw_units(&chain.hash, u);
-        if (!draw_onward(&shading, kinds, u, &drawn))
-            return sum;
-        throughput = aur_vector_multiply(throughput, drawn.weight);
-        const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));
-        if (!(aur_draw_unit(&chain.hash) < survival))
-            return sum;
-        if (chain.length == AUR_LONGEST_CHAIN) {
-            ++counters->cut;
-            return sum;
-        }
-        throughput = aur_vector_scale(throughput, 1.0f / survival);
-        chain.specular = chain.specular && drawn.specular;
-        chain.mirrored = drawn.specular;
-        chain.length_seen = drawn.specular ? chain.length_seen + hit->distance : 0.0f;
-        chain.reference = aur_shading_reference(&shading);
-        chain.density = drawn.pdf;
-        chain.light_draws = 1.0f;
-        chain.ray = aur_surface_ray(&surface, drawn.light);
-        hit = aur_scene_intersect(scene, &chain.ray, &next) ? &next : NULL;
+        add_emission(plan, &surface, &chain);
+        if (deeper && (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0)
+            add_scattered(plan, hit, &surface, waiting, rays, &chain);
+        if (deeper && (kinds & AUR_SCATTERS_SAMPLED) != 0 && samples_lights)
+            add_sampled_light(plan, &shading, &chain);
+        if (!deeper || (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 ||
+            !scatter(&shading, hit->distance, &chain, counters))
+            return chain.path.radiance;
     }
+    add_emission(plan, NULL, &chain);
+    return chain.path.radiance;
 }
 
 /* --- sixteen rays */
@@ -354,13 +285,15 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         } else {
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
-            const gather_chain chain = {.ray = aur_packet_ray(&rays->packet, lane),
+            const aur_bounce bounce = {.from = rays->reference[lane],
+                                       .pdf = weighed ? density_of(rays, lane) : 0.0f,
+                                       .light_samples = (float)plan->light.draws};
+            const gather_chain chain = {.path = {.beta = {1.0f, 1.0f, 1.0f},
+                                                 .ray = aur_packet_ray(&rays->packet, lane),
+                                                 .bounce = bounce},
                                         .lane = lane,
                                         .hash = aur_gather_rays_hash(rays, lane),
-                                        .specular = true,
-                                        .reference = rays->reference[lane],
-                                        .density = weighed ? density_of(rays, lane) : 0.0f,
-                                        .light_draws = (float)plan->light.draws};
+                                        .specular = true};
             aur_hit hit = {0};
             if (hits)
                 hit = aur_packet_hit(plan->scene, &rays->packet, lane);

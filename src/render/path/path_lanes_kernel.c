@@ -60,8 +60,8 @@ static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict pa
         const float scale = 1.0f / distance;
         const float cosine = aur_vector_dot(aur_lane_vector(&lanes->normal, k), way) * lanes->side[k] * scale;
         const float pdf = lanes->light.pdf[k];
-        const float ratio = cosine / AUR_PI_F / pdf * lanes->light.rivals[k];
-        const float weight = cosine / (AUR_PI_F * pdf * (1.0f + ratio * ratio));
+        const float bsdf_pdf = cosine / AUR_PI_F;
+        const float weight = aur_power_heuristic(pdf, bsdf_pdf * lanes->light.rivals[k]) * bsdf_pdf / pdf;
         const aur_vector light = aur_vector_multiply(aur_lane_vector(&lanes->reflectance, k),
                                                      aur_lane_vector(&lanes->light.radiance, k));
         const float any = light.x + light.y + light.z;
@@ -149,7 +149,7 @@ static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_pac
         const aur_vector throughput = aur_vector_multiply(aur_lane_vector(&lanes->throughput, k),
                                                           aur_lane_vector(&lanes->reflectance, k));
         const float most = aur_vector_max(throughput);
-        const float survival = aur_larger(aur_smaller(most, 0.95f), least);
+        const float survival = aur_larger(aur_survival(throughput), least);
         aur_lane_set(&lanes->throughput, k, aur_vector_scale(throughput, 1.0f / survival));
         lanes->alive[k] = -((int)(lanes->roulette[k] < survival) & (int)(most > 0.0f));
         lanes->pdf[k] = z / AUR_PI_F;

@@ -35,13 +35,6 @@ static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_bs
     return aur_bsdf_evaluate(surface->bsdf, part, surface->texture, shading->view, light, pdf);
 }
 
-/* A point on a light, u[0] chooses which. */
-static inline bool aur_shading_draw_light(const aur_scene *scene, const aur_shading *shading,
-                                          const float u[3], aur_light_sample *light) {
-    const aur_light_reference reference = aur_shading_reference(shading);
-    return aur_light_sample_direct(scene, &reference, u, light);
-}
-
 /* sample->light comes back in world coordinates. */
 static inline bool aur_shading_draw(const aur_shading *shading, aur_bsdf_part part, const float u[3],
                                     aur_bsdf_sample *sample) {

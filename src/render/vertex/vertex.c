@@ -28,6 +28,9 @@ aur_vector aur_vertex_evaluate(const aur_shading *shading, aur_vertex_lobes lobe
             return value;
         return aur_vector_subtract(value, aur_shading_evaluate(shading, AUR_BSDF_SAMPLED_LOBES, wi, &unused));
     }
+    *pdf = 0.0f;
+    if ((kinds_of(shading) & AUR_SCATTERS_SAMPLED) == 0)
+        return (aur_vector){0};
     const aur_vector value = aur_shading_evaluate(shading, AUR_BSDF_SAMPLED_LOBES, wi, pdf);
     if ((kinds_of(shading) & AUR_SCATTERS_SPECULAR) != 0 && !aur_vector_is_zero(value))
         aur_shading_evaluate(shading, AUR_BSDF_WHOLE, wi, pdf);
@@ -36,15 +39,17 @@ aur_vector aur_vertex_evaluate(const aur_shading *shading, aur_vertex_lobes lobe
 
 bool aur_vertex_direction(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3],
                           aur_bsdf_sample *sample) {
-    if (lobes == AUR_VERTEX_UNMAPPED && (kinds_of(shading) & AUR_SCATTERS_SPECULAR) == 0)
-        return aur_shading_draw(shading, AUR_BSDF_SAMPLED_LOBES, u, sample);
+    const unsigned kinds = kinds_of(shading);
+    if (lobes == AUR_VERTEX_UNMAPPED && (kinds & AUR_SCATTERS_SPECULAR) == 0)
+        return (kinds & AUR_SCATTERS_SAMPLED) != 0 &&
+               aur_shading_draw(shading, AUR_BSDF_SAMPLED_LOBES, u, sample);
     if (!aur_shading_sample(shading, u, sample))
         return false;
     if (lobes == AUR_VERTEX_ALL)
         return true;
     if (sample->specular)
         return lobes == AUR_VERTEX_UNMAPPED;
-    if (lobes == AUR_VERTEX_UNMAPPED && (kinds_of(shading) & AUR_SCATTERS_SAMPLED) == 0)
+    if (lobes == AUR_VERTEX_UNMAPPED && (kinds & AUR_SCATTERS_SAMPLED) == 0)
         return false;
     float pdf;
     const aur_vector value = lobes == AUR_VERTEX_MAPPED
