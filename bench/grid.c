@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "bench.h"
-#include "render/scene/embree.h"
 #include "render/scene/scene.h"
+#include "render/trace/embree.h"
 
 /* Rounded so that a text of 6 digits gives the same mesh. */
 static float rounded(double x) {

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "render/scene/embree.h"
+#include "render/trace/embree.h"
 
 enum { BENCH_RECORDED_LANES = 16 };
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "render/scene/embree.h"
+#include "render/trace/embree.h"
 
 typedef struct bench_recorded_ray {
     struct RTCRay ray;

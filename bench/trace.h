@@ -2,8 +2,8 @@
  * at most 16. */
 #pragma once
 
-#include "render/scene/embree.h"
 #include "render/scene/scene.h"
+#include "render/trace/embree.h"
 
 enum { BENCH_PACKET_SIZE = 16 };
 

@@ -117,8 +117,8 @@ points/base
 (cd "$source_tree" && ! grep -rnE '^#include [<"](aureole-)?(render|lighting)/' src/points tests/points include/aureole &&
   ! grep -rnE '^#include [<"](aureole-)?lighting/' src/render tests/render include/aureole-render) || exit 1
 # One header of the libraries and the program includes Embree.
-others=$(cd "$source_tree" && grep -rlE '^ *# *include <embree' src | grep -vx src/render/scene/embree.h)
-[ -z "$others" ] || { echo "$others: only render/scene/embree.h includes Embree"; exit 1; }
+others=$(cd "$source_tree" && grep -rlE '^ *# *include <embree' src | grep -vx src/render/trace/embree.h)
+[ -z "$others" ] || { echo "$others: only render/trace/embree.h includes Embree"; exit 1; }
 # No C file may stand outside a room.
 for folder in "$source_tree"/src/*/*/; do
   room=${folder#"$source_tree"/src/}

@@ -6,7 +6,7 @@
 
 #include "lighting/viewfactors/covers.h"
 #include "points/base/random.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 enum { DIMENSIONS = 4, LANES = AUR_PACKET_SIZE };
 

@@ -50,7 +50,7 @@ typedef struct aur_parallel_options {
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
                             void *context, aur_error *error);
 
-/* Rays that this thread has traced (render/scene/embree.h), and that others have in loops which it has run.
+/* Rays that this thread has traced (render/trace/embree.h), and that others have in loops which it has run.
  * What a piece of work has traced is the difference between its end and its beginning, on the thread that
  * began it: threads, ranks and callbacks do not change it. */
 extern AUR_INTERNAL _Thread_local uint64_t aur_rays_traced __attribute__((tls_model("initial-exec")));

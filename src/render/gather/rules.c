@@ -4,7 +4,7 @@
 
 #include "points/base/error.h"
 #include "points/base/random.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
     return (wanted + samples_per_pixel - 1) / samples_per_pixel * samples_per_pixel;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/sampling/rule.h"
-#include "render/scene/packet.h"
 #include "render/trace/interleave.h"
+#include "render/trace/packet.h"
 
 /* The 16 pixels of a group (packets/interleave.h) share a rotation of the pattern, so the rays of a packet
  * are one direction of it at 16 places, almost parallel where the surface is flat. */

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "points/base/simd.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 typedef struct aur_path_lanes {
     _Alignas(64) aur_lane_vectors throughput;

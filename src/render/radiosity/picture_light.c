@@ -4,7 +4,7 @@
 #include "points/base/random.h"
 #include "points/base/vector3d.h"
 #include "render/radiosity/picture.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 /* --- solid angles */
 

@@ -1,8 +1,8 @@
 /* Lights. Each stands in a file of the folder lights and has one line in lights/table.c. */
 #pragma once
 
+#include "render/scene/lanes.h"
 #include "render/scene/materials/texture.h"
-#include "render/scene/packet.h"
 #include "render/scene/patches.h"
 #include "render/scene/scene.h"
 

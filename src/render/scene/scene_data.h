@@ -102,6 +102,6 @@ void aur_scene_warn_of_faces(const aur_scene *scene, const aur_warnings *warning
 /* Chooses the origins of the scene and of groups, and makes all coordinates count from them; warns of shapes
  * that are too small for where they stand (recenter.c). */
 aur_result aur_scene_recenter(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
-/* Hands the shapes to Embree (accel.c). */
+/* Hands the shapes to Embree (render/trace/accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

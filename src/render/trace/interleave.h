@@ -8,7 +8,7 @@
 
 #include "points/base/random.h"
 #include "render/film/tile.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 enum {
     /* Groups, and pixels of a group, along each side of the tile. */

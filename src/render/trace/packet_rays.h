@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "points/base/vector.h"
-#include "render/scene/packet.h"
 #include "render/scene/scene.h"
+#include "render/trace/packet.h"
 
 /* Sets of a packet's sixteen lanes: bit k of a mask stands for lane k. All lanes of a mask are visited, from
  * the lowest one on, by

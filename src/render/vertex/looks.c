@@ -7,7 +7,7 @@
 #include "points/base/parallel.h"
 #include "points/base/random.h"
 #include "render/scene/elements.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 #include "render/vertex/lamps.h"
 
 enum { MOST_LOOKS = 256, LEAST_LOOKS = 4 };

@@ -7,7 +7,7 @@
 #include "points/base/simd.h"
 #include "render/scene/lights/arcs.h"
 #include "render/scene/materials/sampling.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 static float unit(uint64_t a, uint64_t b) {
     return aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "points/base/simd.h"
+#include "render/scene/lanes.h"
 #include "render/scene/lights/arcs.h"
 #include "render/scene/materials/sampling.h"
-#include "render/scene/packet.h"
 #include "render/scene/patches.h"
 
 /* Red, green, blue and luminance. */

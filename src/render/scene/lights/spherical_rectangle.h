@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "points/base/simd.h"
-#include "render/scene/packet.h"
+#include "render/scene/lanes.h"
 #include "render/scene/patches.h"
 
 typedef struct aur_rectangle {

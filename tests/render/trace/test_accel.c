@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/scene/embree.h"
 #include "render/scene/scene.h"
+#include "render/trace/embree.h"
 
 enum { SIDE = 160, RAYS = 20000 };
 

@@ -1,11 +1,11 @@
 #define _DEFAULT_SOURCE /* setenv */
-#include "scene_text.h"
+#include "../scene/scene_text.h"
 
 #include <stdlib.h>
 
 #include "points/base/random.h"
 #include "render/scene/materials/sampling.h"
-#include "render/scene/packet.h"
+#include "render/trace/packet.h"
 
 /* A mesh, a curved shape and copies of a group, so that every kind of hit is met. */
 static const char *const body =

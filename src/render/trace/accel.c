@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "points/base/simd.h"
-#include "render/scene/embree.h"
 #include "render/scene/scene_data.h"
+#include "render/trace/embree.h"
 
 static aur_result fail(const aur_scene *scene, enum RTCError code, aur_error *error) {
     if (code == RTC_ERROR_NONE)

@@ -7,10 +7,8 @@
 #pragma once
 
 #include "points/base/error.h"
-#include "render/scene/embree.h"
-#include "render/scene/scene.h"
-
-enum { AUR_PACKET_SIZE = 16 };
+#include "render/scene/lanes.h"
+#include "render/trace/embree.h"
 
 typedef struct aur_packet {
     _Alignas(64) int valid[AUR_PACKET_SIZE]; /* -1: a ray, 0: none */
@@ -58,22 +56,6 @@ uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packe
 
 /* --- what the sixteen hits need, an array a coordinate */
 
-typedef float aur_lane_numbers[AUR_PACKET_SIZE];
-
-typedef struct aur_lane_vectors {
-    aur_lane_numbers x, y, z;
-} aur_lane_vectors;
-
-static inline aur_vector aur_lane_vector(const aur_lane_vectors *vectors, size_t lane) {
-    return (aur_vector){vectors->x[lane], vectors->y[lane], vectors->z[lane]};
-}
-
-static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vector v) {
-    vectors->x[lane] = v.x;
-    vectors->y[lane] = v.y;
-    vectors->z[lane] = v.z;
-}
-
 /* Ask the memory for what aur_scene_surface will read of these lanes' hits: first where their vertices stand,
  * then, by that, the vertices. In scenes that no cache holds the sixteen then come together instead of one
  * after another. */
@@ -87,37 +69,3 @@ void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32
 
 /* Texture coordinates, and the mesh's colours there, of such a hit. */
 aur_bsdf_point aur_packet_texture(const aur_scene *scene, const aur_packet *packet, size_t lane);
-
-/* Sixteen aur_light_reference. */
-typedef struct aur_light_references {
-    const aur_lane_vectors *position, *normal;
-} aur_light_references;
-
-/* aur_light_sample_direct of sixteen points. */
-typedef struct aur_light_lanes {
-    aur_lane_vectors position, radiance;
-    aur_lane_vectors direction; /* set by aur_light_lanes_each only */
-    aur_lane_numbers pdf;       /* 0: no light from there */
-    aur_lane_numbers rivals;    /* 1, or 0 for lights that no ray finds */
-} aur_light_lanes;
-
-/* One of them, drawn by aur_light_lanes_each. */
-static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, size_t lane) {
-    return (aur_light_sample){.position = aur_lane_vector(&lights->position, lane),
-                              .direction = aur_lane_vector(&lights->direction, lane),
-                              .radiance = aur_lane_vector(&lights->radiance, lane),
-                              .pdf = lights->pdf[lane],
-                              .delta = lights->rivals[lane] == 0.0f};
-}
-
-/* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
- * aur_light_chooses, and may then be NULL. To the bits of single samples; those of environment maps are drawn
- * together. */
-void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
-                          const float *choice, const float *u, const float *v, aur_light_lanes *lights);
-/* The same, but for rounding: a light that stands alone and is a rectangle is drawn by vector code. */
-void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
-                            const float *choice, const float *u, const float *v, aur_light_lanes *lights);
-/* aur_environment_light for the lanes whose bit is set. */
-void aur_environment_lanes(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *directions,
-                           aur_lane_vectors *radiance, float *pdf);
