@@ -184,7 +184,7 @@ class Call:
 def encode(text: Any) -> bytes:
     """A text or path as the library takes it."""
     if not isinstance(text, (str, bytes, os.PathLike)):
-        raise TypeError(f"a text or a path is wanted, not {type(text).__name__}")
+        raise TypeError(f"expected a text or a path, not {type(text).__name__}")
     coded = os.fsencode(text)
     if b"\0" in coded:
         raise ArgumentError("a text with a zero byte in it")

@@ -123,7 +123,7 @@ const cli_verb cli_verb_completion = {
         "with a tab and its help. In bash: source <(aureole completion bash); in zsh: source <(aureole "
         "completion zsh), after compinit; in fish: aureole completion fish | source. An installed aureole "
         "brings the scripts to where the shells look for them.",
-    .too_few = "bash, zsh or fish is wanted",
+    .too_few = "expected bash, zsh or fish",
     .operands = {{"SHELL", "bash, zsh or fish", .name = shell_name},
                  {"WORD", "for the scripts", .optional = true, .repeated = true}},
     .run = run,

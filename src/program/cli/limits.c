@@ -19,7 +19,7 @@ static aur_result limit_memory(const char *text, void *field, aur_error *error) 
     (void)field;
     if (!cli_parse_quantity(text, sizeof units / sizeof units[0], units, &bytes) || bytes >= 0x1p62)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "--memory-limit: '%s' is no size: bytes, or 500M or 2G, are wanted", text);
+                        "--memory-limit: expected a size in bytes, or such as 500M or 2G, not '%s'", text);
     struct rlimit limit;
     getrlimit(RLIMIT_AS, &limit);
     limit.rlim_cur = (rlim_t)bytes < limit.rlim_max ? (rlim_t)bytes : limit.rlim_max;

@@ -308,7 +308,7 @@ static int run(const cli_call *call) {
     const manual_options *const given = call->options;
     if ((given->folder != NULL) == (call->operand_count > 0))
         return cli_bad_usage(
-            "manual: a PAGE to print, or -o FOLDER for all pages, is wanted: try 'aureole help "
+            "manual: expected a PAGE to print, or -o FOLDER for all pages: try 'aureole help "
             "manual'");
     return given->folder != NULL ? write_pages(call->verbs, given->folder)
                                  : print_page(call->verbs, call->operands[0]);

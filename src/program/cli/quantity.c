@@ -30,6 +30,6 @@ aur_result cli_parse_seconds(const char *option, const char *text, double *secon
     static const cli_unit units[] = {{"s", 1.0}, {"min", 60.0}, {"m", 60.0}, {"h", 3600.0}};
     if (cli_parse_quantity(text, sizeof units / sizeof units[0], units, seconds))
         return AUR_OK;
-    return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: '%s' is no time: 30s, 5min or 1h is wanted", option,
-                    text);
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: expected a time such as 30s, 5min or 1h, not '%s'",
+                    option, text);
 }

@@ -27,10 +27,10 @@ aur_result watch_place_read(const char *option, const char *text, watch_place *p
                       (colon == NULL || length > 0) &&
                       (bracketed || colon == NULL || memchr(text, ':', length) == NULL);
     if (!good)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "--%s: '%s' is no place: PORT, HOST:PORT or [HOST]:PORT is wanted, with a port of at "
-                        "most 65535",
-                        option, text);
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "--%s: expected PORT, HOST:PORT or [HOST]:PORT, with a port of at most 65535, not '%s'", option,
+            text);
     place->port = (unsigned)number;
     if (colon != NULL) {
         memcpy(place->host, host, length);

@@ -13,24 +13,23 @@
 
 static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
     if (!(wish->error >= 0.0 && wish->error <= 1.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "an error of %g: from above 0 to 1 (100 %%) is wanted",
-                        wish->error);
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the target error must be above 0 and at most 1 (100 %%), not %g", wish->error);
     if (!(wish->seconds >= 0.0 && wish->seconds < INFINITY))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a time of %g seconds: a positive one is wanted",
-                        wish->seconds);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the time must be above 0 seconds, not %g", wish->seconds);
     if (!(wish->bias >= 0.0 && wish->bias < (wish->error > 0.0 ? wish->error : INFINITY)))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "a bias of %g: from 0 on, and below the error asked, is wanted", wish->bias);
+                        "the bias must be at least 0 and below the target error, not %g", wish->bias);
     if (wish->confidence == 0.0)
         wish->confidence = 0.95;
     if (!(wish->confidence >= 0.5 && wish->confidence <= 0.9999))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a confidence of %g: .5 to .9999 is wanted",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be from .5 to .9999, not %g",
                         wish->confidence);
     if (wish->replicas == 0)
         wish->replicas = 4;
     if (wish->replicas < 3 || wish->replicas > AUR_REPLICAS_MAX)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu replicas: 3 to %d are wanted", wish->replicas,
-                        (int)AUR_REPLICAS_MAX);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 3 to %d replicas, not %zu",
+                        (int)AUR_REPLICAS_MAX, wish->replicas);
     if (wish->error == 0.0 && wish->seconds == 0.0 && wish->rays == 0 && wish->rounds == 0)
         wish->error = 0.01;
     return AUR_OK;

@@ -93,14 +93,14 @@ refuses() { # WORDS OPTION...
   grep -q -e "$words" said || fail "'$*' says: $(cat said)"
   [ ! -e no.exr ] || fail "'$*' left a picture"
 }
-refuses "'abc' is no error" --error abc
-refuses "'0' is no error" --error 0
-refuses "'200%' is no error" --error 200%
-refuses "'-3s' is no time" --time -3s
-refuses "'3x' is no time" --time 3x
-refuses "'many' is no number of rays" --rays many
-refuses "'0' is no bias" --error 1% --integrator path --bias 0
-refuses "below the error asked" --error 1% --integrator path --bias 2%
+refuses "expected 1% or .01, from above 0 to 100%, not 'abc'" --error abc
+refuses "from above 0 to 100%, not '0'" --error 0
+refuses "not '200%'" --error 200%
+refuses "expected a time such as 30s, 5min or 1h, not '-3s'" --time -3s
+refuses "5min or 1h, not '3x'" --time 3x
+refuses "expected a number such as 1e9, not 'many'" --rays many
+refuses "--bias: expected 1% or .01, from above 0 to 100%, not '0'" --error 1% --integrator path --bias 0
+refuses "below the target error" --error 1% --integrator path --bias 2%
 refuses "goes with an integrator that is named" --error 1% --bias .5%
 refuses "--spp' does not go with" --error 1% --spp 4
 refuses "--error-map' goes with" --error-map

@@ -28,5 +28,5 @@ receive b --rounds 2
 "$aureole" render "$scene" -q -o none.exr --display-server "127.0.0.1:$(cat port.txt)" 2>message.txt
 [ $? -eq 2 ] && grep -q -- "--display-server: cannot connect to 127.0.0.1:$(cat port.txt): Connection refused" message.txt || fail "nobody there: $(cat message.txt)"
 "$aureole" render "$scene" -q -o none.exr --display-server host:x 2>message.txt
-[ $? -eq 2 ] && grep -q -- "--display-server: 'host:x' is no place" message.txt || fail "no port: $(cat message.txt)"
+[ $? -eq 2 ] && grep -q -- "--display-server: expected PORT, HOST:PORT" message.txt || fail "no port: $(cat message.txt)"
 exit $((failures > 0))

@@ -39,15 +39,15 @@ refuses 'lies outside of the scene' 2 "$aureole" info --confine box/escapes.xml
 echo old >p.exr
 refuses 'the time limit is over' 3 "$aureole" render $scene --spp 1000000 -o p.exr -q --time-limit .5s
 [ "$(cat p.exr)" = old ] || fail "a render that was out of time replaced the picture"
-refuses 'is no time' 2 "$aureole" render $scene --time-limit soon
-refuses 'is no size' 2 "$aureole" render $scene --memory-limit much
+refuses 'expected a time such as' 2 "$aureole" render $scene --time-limit soon
+refuses 'expected a size in bytes' 2 "$aureole" render $scene --memory-limit much
 
 # Every verb has both limits.
 verbs=$("$aureole" help | awk 'NR > 2 && NF == 0 { exit } /^  [a-z]/ { print $1 }')
 [ "$(wc -w <<<"$verbs")" -ge 18 ] || fail "the list of verbs has another form: $verbs"
 for verb in $verbs; do
-  refuses 'is no time' 2 "$aureole" "$verb" --time-limit soon
-  refuses 'is no size' 2 "$aureole" "$verb" --memory-limit much
+  refuses 'expected a time such as' 2 "$aureole" "$verb" --time-limit soon
+  refuses 'expected a size in bytes' 2 "$aureole" "$verb" --memory-limit much
 done
 if [ "$(nm "$aureole" 2>/dev/null | grep -c __asan_init)" = 0 ]; then
   refuses 'the time limit is over' 3 "$aureole" voronoi spherical-fibonacci -n 20000000 --time-limit .3s

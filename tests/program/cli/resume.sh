@@ -63,7 +63,7 @@ refuses 'cut short' 2 render --spp 2 -o b.exr --checkpoint cut --resume
 refuses 'no checkpoint' 2 render --spp 2 -o b.exr --checkpoint a.exr --resume
 refuses 'goes on from the file' 2 render --spp 2 -o b.exr --resume
 refuses 'goes with' 2 render --spp 2 -o b.exr --checkpoint-every 5s
-refuses "'soon' is no time" 2 render --spp 2 -o b.exr --checkpoint kept --checkpoint-every soon
+refuses "5min or 1h, not 'soon'" 2 render --spp 2 -o b.exr --checkpoint kept --checkpoint-every soon
 refuses 'folder does not exist' 3 render --spp 2 -o b.exr --checkpoint none/kept
 [ ! -e b.exr ] || fail "a refused render left a picture"
 "$aureole" render "$scene" --width 16 --height 16 --spp 1 -o b.exr --checkpoint new --resume 2>said
@@ -91,9 +91,9 @@ refuses 'one of 4 parts' 2 merge cornell-box.{1,2}-of-3.part other.part
 refuses 'no checkpoint' 2 merge whole.exr
 refuses "cannot read" 2 merge none.part
 refuses "'-o FILE' is missing" 2 "$aureole" merge one.part
-refuses "'3/2' is no part" 2 render --shard 3/2
-refuses "'0/2' is no part" 2 render --shard 0/2
-refuses "'half' is no part" 2 render --shard half
+refuses "such as 2/3, not '3/2'" 2 render --shard 3/2
+refuses "such as 2/3, not '0/2'" 2 render --shard 0/2
+refuses "such as 2/3, not 'half'" 2 render --shard half
 refuses 'does not go with' 2 render --shard 1/2 --error 1%
 [ ! -e none.exr ] || fail "refused parts left a picture"
 # Parts and checkpoints of rays that other instructions traced differ in the last bits.

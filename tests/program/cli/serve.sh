@@ -107,7 +107,7 @@ wait "$pid"
 [ $? -eq 3 ] && [ -s long.partial.exr ] && [ ! -e long.exr ] || fail "stop: $(cat long.txt)"
 for place in x 65536 :80 '[::1' a:b:80 -1; do
   "$aureole" render "$scene" -q -o none.exr --serve="$place" 2>message.txt
-  [ $? -eq 2 ] && grep -qF -- "--serve: '$place' is no place: PORT, HOST:PORT or [HOST]:PORT is wanted" message.txt || fail "$place: $(cat message.txt)"
+  [ $? -eq 2 ] && grep -qF -- "--serve: expected PORT, HOST:PORT or [HOST]:PORT, with a port of at most 65535, not '$place'" message.txt || fail "$place: $(cat message.txt)"
 done
 
 # The file that the page saves, by its own script.

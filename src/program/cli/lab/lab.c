@@ -96,7 +96,7 @@ const cli_verb cli_verb_lab = {
         "folder "
         "of its name with its tables (NAME.csv), pictures, and timings.csv, the only file that differs from "
         "run to run. docs/lab.md says more.",
-    .too_few = "'list', 'run' or 'report' is wanted",
+    .too_few = "expected 'list', 'run' or 'report'",
     .operands =
         {{"ACTION",
           "list: the experiments, what each reproduces, and the processor time that it took; run: run "

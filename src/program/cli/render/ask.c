@@ -15,8 +15,8 @@ static aur_result parse_part(const char *option, const char *text, void *field, 
     double *const value = field;
     if (cli_parse_quantity(text, 1, units, value) && *value <= 1.0)
         return AUR_OK;
-    return aur_fail(error, AUR_ERROR_ARGUMENT,
-                    "--%s: '%s' is no %s: 1%% or .01 is wanted, from above 0 to 100%%", option, text, option);
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: expected 1%% or .01, from above 0 to 100%%, not '%s'",
+                    option, text);
 }
 
 static aur_result parse_error(const char *text, void *field, aur_error *error) {
@@ -34,8 +34,7 @@ static aur_result parse_time(const char *text, void *field, aur_error *error) {
 static aur_result parse_rays(const char *text, void *field, aur_error *error) {
     double value = 0.0;
     if (!cli_parse_quantity(text, 0, NULL, &value) || value < 1.0 || value > 1e18)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "--rays: '%s' is no number of rays: 1e9, say, is wanted",
-                        text);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--rays: expected a number such as 1e9, not '%s'", text);
     *(uint64_t *)field = (uint64_t)value;
     return AUR_OK;
 }

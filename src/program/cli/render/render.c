@@ -51,8 +51,8 @@ static aur_result parse_crop(const char *text, void *field, aur_error *error) {
     if (!good)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "--crop: '%s' is not of the form x0,x1,y0,y1", text);
     if (options->crop_x0 >= options->crop_x1 || options->crop_y0 >= options->crop_y1)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "--crop: '%s' is empty: x0 < x1 and y0 < y1 are wanted",
-                        text);
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--crop: '%s' is empty: x0 must be below x1 and y0 below y1", text);
     return AUR_OK;
 }
 
@@ -68,7 +68,7 @@ static aur_result parse_shard(const char *text, void *field, aur_error *error) {
                       aur_parse_integer(text + length + 1, MOST_SHARDS, &count);
     if (!good || shard == 0 || shard > count)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "--shard: '%s' is no part: i/n with i from 1 to n is wanted, such as 2/3", text);
+                        "--shard: expected i/n with i from 1 to n, such as 2/3, not '%s'", text);
     options->shard = (size_t)shard;
     options->shard_count = (size_t)count;
     return AUR_OK;
@@ -309,7 +309,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
 /* NULL, or why options do not go together. */
 static const char *conflict(const cli_call *call, const render_command *command) {
     if ((command->reference == NULL) != (command->errors == NULL))
-        return "render: '--reference' and '--errors' are wanted together";
+        return "render: '--reference' and '--errors' must be given together";
     if (command->reference != NULL && command->checkpoint.path != NULL)
         return "render: '--checkpoint' does not go with '--errors', whose table would begin anew";
     if (command->options.shard_count > 0 && (cli_is_wish(&command->wish) || command->reference != NULL))
