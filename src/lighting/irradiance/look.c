@@ -252,8 +252,8 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
         if (!(cosine > 0.0f) || aur_vector_is_zero(drawn.radiance))
             continue;
         const float share = place->shares != NULL ? place->shares[drawn.emitter] : AUR_LIGHT_OPEN;
-        const bool alone = drawn.delta || share >= 0.0f; /* no direction brings this light */
-        const float weight = alone ? 1.0f : aur_power_heuristic(drawn.pdf, cosine / AUR_PI_F);
+        const bool alone = share >= 0.0f; /* no direction brings this light */
+        const float weight = alone ? 1.0f : aur_light_weight(&drawn, AUR_VERTEX_ONE_EACH, cosine / AUR_PI_F);
         known[k] = share > 0.0f ? (double)share : 0.0;
         aur_vector_to_doubles(aur_vector_scale(drawn.radiance, weight * cosine / drawn.pdf), light[k]);
         const aur_vector way = aur_vector_subtract(drawn.position, place->position);

@@ -1,13 +1,13 @@
 /* The path tracer from the inside: one path by itself (path_single.c) and sixteen of them in
- * lockstep (path_group.c, with its arithmetic in path_lanes*), for the pixels of a tile (path_tile.c). */
+ * lockstep (path_group.c, with its arithmetic in vertex_lanes*), for the pixels of a tile (path_tile.c). */
 #pragma once
 
 #include "points/base/error.h"
 #include "render/film/integrator.h"
-#include "render/path/path_lanes.h"
 #include "render/trace/packet_rays.h"
 #include "render/vertex/lamps.h"
 #include "render/vertex/vertex.h"
+#include "render/vertex/vertex_lanes.h"
 
 typedef struct aur_path {
     uint32_t max_depth;  /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
@@ -17,7 +17,7 @@ typedef struct aur_path {
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
     double lamp_rays;    /* rays for lamps alone that a sample has more, in the picture's mean */
-    const aur_path_kernels *kernels;
+    const aur_vertex_kernels *kernels;
     aur_shape_class *classes;    /* one a shape */
     const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
 } aur_path;

@@ -9,7 +9,7 @@
 enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
-    data->kernels = &AUR_KERNEL_HERE(aur_path_kernels);
+    data->kernels = &AUR_KERNEL_HERE(aur_vertex_kernels);
     return aur_shape_classes_create(scene, &data->classes, error);
 }
 
@@ -21,7 +21,7 @@ static void share(float number, float *lanes) {
 }
 
 static void shared_numbers(aur_path_group *g, uint32_t depth) {
-    aur_path_lanes *const lanes = &g->lanes;
+    aur_vertex_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
     if (depth == 1 || depth % 2 == 0)
         aur_stream_pairs(&g->shared, first, AUR_STREAM_BLOCK, g->ahead);
@@ -57,7 +57,7 @@ static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v)
 
 /* Of each lane, only those that are asked for; `mixed`: not all surfaces are plain. */
 static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
-    aur_path_lanes *const lanes = &g->lanes;
+    aur_vertex_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
     if (g->chooses || depth >= g->data->rr_depth)
         own_pair(g, first + AUR_PATH_CHOICE, lanes->choice, lanes->roulette);
@@ -72,7 +72,7 @@ static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
 
 /* The path of a lane. */
 static aur_walk walk_of(const aur_path_group *g, size_t k) {
-    const aur_path_lanes *const lanes = &g->lanes;
+    const aur_vertex_lanes *const lanes = &g->lanes;
     return (aur_walk){
         aur_lane_vector(&lanes->sum, k), aur_lane_vector(&lanes->throughput, k),
         aur_packet_ray(&g->packet, k),
@@ -273,7 +273,7 @@ static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *far
 
 /* Points on lights, rays to them and what they bring; where light arrives is known. */
 static void draw_lights(aur_path_group *g, const float *choice, const float *u, const float *v) {
-    aur_path_lanes *const lanes = &g->lanes;
+    aur_vertex_lanes *const lanes = &g->lanes;
     const uint32_t plain = g->plain, others = g->alive & ~plain;
     const aur_light_references references = {&lanes->origin, &lanes->facing};
     if (plain != 0) {
@@ -288,9 +288,9 @@ static void draw_lights(aur_path_group *g, const float *choice, const float *u, 
 
 /* The same of one candidate of several. */
 static void draw_candidates(aur_path_group *g) {
-    aur_path_lanes *const lanes = &g->lanes;
-    const aur_path_kernels *const kernels = g->data->kernels;
-    aur_path_candidates kept = {0};
+    aur_vertex_lanes *const lanes = &g->lanes;
+    const aur_vertex_kernels *const kernels = g->data->kernels;
+    aur_vertex_candidates kept = {0};
     for (uint32_t i = 0; i < g->candidates; ++i) {
         aur_lane_numbers choice, u, v;
         float shift[3];
@@ -308,7 +308,7 @@ static void draw_candidates(aur_path_group *g) {
 
 /* Light straight from the lights. */
 static void add_direct(aur_path_group *g, uint32_t depth) {
-    aur_path_lanes *const lanes = &g->lanes;
+    aur_vertex_lanes *const lanes = &g->lanes;
     set_references(g, g->alive & ~g->plain);
     if (g->candidates > 1)
         draw_candidates(g);

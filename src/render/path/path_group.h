@@ -25,7 +25,7 @@ typedef struct aur_path_sensor {
 } aur_path_sensor;
 
 typedef struct aur_path_group {
-    aur_path_lanes lanes;
+    aur_vertex_lanes lanes;
     aur_packet packet, shadows;
     const aur_path *data;
     const aur_scene *scene;

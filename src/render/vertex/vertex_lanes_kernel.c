@@ -1,12 +1,13 @@
-/* The path tracer's loops over lanes. Without branches, so that they become vector
- * code; plain operations in one order without contraction: the bits are the same everywhere. */
-#include "render/path/path.h"
+/* Loops over lanes without branches, so that they become vector code; plain operations in one order without
+ * contraction: the bits are the same everywhere. */
+#include "render/vertex/vertex_lanes.h"
+
 #include "render/scene/materials/sampling.h"
 #include "render/trace/packet_rays.h"
 #include "render/vertex/candidates.h"
 #include "render/vertex/vertex.h"
 
-static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *restrict packet) {
+static void lanes_surface(aur_vertex_lanes *restrict lanes, const aur_packet *restrict packet) {
     const struct RTCRay16 *const rays = &packet->query.ray;
     const struct RTCHit16 *const hits = &packet->query.hit;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -38,7 +39,7 @@ static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *rest
     }
 }
 
-static uint32_t lanes_tilted(const aur_path_lanes *lanes, size_t first) {
+static uint32_t lanes_tilted(const aur_vertex_lanes *lanes, size_t first) {
     const aur_vector place = aur_lane_vector(&lanes->position, first);
     const aur_vector normal = aur_vector_scale(aur_lane_vector(&lanes->normal, first), lanes->side[first]);
     uint32_t tilted = 0;
@@ -50,7 +51,7 @@ static uint32_t lanes_tilted(const aur_path_lanes *lanes, size_t first) {
     return tilted;
 }
 
-static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict packet) {
+static void lanes_shadow(aur_vertex_lanes *restrict lanes, aur_packet *restrict packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const aur_vector origin = aur_lane_vector(&lanes->origin, k);
@@ -80,8 +81,8 @@ static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict pa
     }
 }
 
-static void lanes_consider(aur_path_lanes *restrict lanes, const aur_packet *restrict packet,
-                           aur_path_candidates *restrict kept) {
+static void lanes_consider(aur_vertex_lanes *restrict lanes, const aur_packet *restrict packet,
+                           aur_vertex_candidates *restrict kept) {
     const struct RTCRay16 *const rays = &packet->query.ray;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const aur_vector light = aur_lane_vector(&lanes->shadow, k);
@@ -102,8 +103,8 @@ static void lanes_consider(aur_path_lanes *restrict lanes, const aur_packet *res
     }
 }
 
-static void lanes_choose(const aur_path_candidates *restrict kept, uint32_t count,
-                         aur_path_lanes *restrict lanes, aur_packet *restrict packet) {
+static void lanes_choose(const aur_vertex_candidates *restrict kept, uint32_t count,
+                         aur_vertex_lanes *restrict lanes, aur_packet *restrict packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const float own = kept->own[k];
@@ -121,7 +122,7 @@ static void lanes_choose(const aur_path_candidates *restrict kept, uint32_t coun
     }
 }
 
-static void lanes_add(aur_path_lanes *restrict lanes, uint32_t lit) {
+static void lanes_add(aur_vertex_lanes *restrict lanes, uint32_t lit) {
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const bool on = (lit >> k & 1u) != 0;
         lanes->sum.x[k] += on ? lanes->shadow.x[k] : 0.0f;
@@ -130,7 +131,7 @@ static void lanes_add(aur_path_lanes *restrict lanes, uint32_t lit) {
     }
 }
 
-static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_packet *restrict packet) {
+static void lanes_scatter(aur_vertex_lanes *restrict lanes, bool roulette, aur_packet *restrict packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
     const float least = roulette ? 0.0f : 1.0f; /* probability to go on */
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -167,5 +168,5 @@ static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_pac
     }
 }
 
-const aur_path_kernels AUR_KERNEL(aur_path_kernels) = {
+const aur_vertex_kernels AUR_KERNEL(aur_vertex_kernels) = {
     lanes_surface, lanes_tilted, lanes_shadow, lanes_consider, lanes_choose, lanes_add, lanes_scatter};
