@@ -24,7 +24,7 @@ class AureoleConan(ConanFile):
 
     def export_sources(self):
         tree = os.path.join(self.recipe_folder, "..", "..")
-        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "data/*", "include/*", "src/*"):
             copy(self, pattern, tree, self.export_sources_folder)
 
     def configure(self):
