@@ -24,7 +24,7 @@ if(AUREOLE_RENDER)
     file(GLOB watch_files CONFIGURE_DEPENDS src/program/watch/page/*.js)
     set(watch_assets "${PROJECT_BINARY_DIR}/watch_assets.c")
     add_custom_command(OUTPUT "${watch_assets}" VERBATIM DEPENDS cmake/embed.cmake ${watch_files}
-        COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${watch_assets}" -DHEADER=program/watch/page.h -DARRAY=watch_assets "-DFILES=${watch_files}"
+        COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${watch_assets}" -DHEADER=program/watch/watch.h -DARRAY=watch_assets "-DFILES=${watch_files}"
                 -P "${PROJECT_SOURCE_DIR}/cmake/embed.cmake")
     aureole_program_part(render src/program/cli/render/*.[ch] src/program/watch/*.[ch] src/program/report/page/*.[ch] lab/gathering/*.[ch])
     target_sources(aureole_cli_render PRIVATE "${page_assets}" "${watch_assets}")

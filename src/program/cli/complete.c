@@ -3,8 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "program/cli/kinds.h"
-
 /* The word that is completed; `kept` of its characters stay as they are, since what comes next begins after
  * them: "--metric=", "energy,", "finalgather:photons=". */
 typedef struct partial {

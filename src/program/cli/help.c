@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "program/cli/kinds.h"
 #include "program/cli/listing.h"
 
 enum { OPTION_COLUMN = 26, NAME_COLUMN = 14 };

@@ -1,4 +1,4 @@
-#include "program/cli/kinds.h"
+#include "program/cli/listing.h"
 
 #include <ctype.h>
 #include <string.h>

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "program/cli/options.h"
-#include "program/cli/quantity.h"
 
 static aur_result limit_memory(const char *text, void *field, aur_error *error) {
     static const cli_unit units[] = {{"K", 0x1p10}, {"M", 0x1p20}, {"G", 0x1p30}, {"T", 0x1p40}};

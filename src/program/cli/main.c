@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/cli/kinds.h"
+#include "program/cli/listing.h"
 
 #define VERBS(ROW)                                                                                           \
     ROW(sets)                                                                                                \

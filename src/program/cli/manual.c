@@ -8,7 +8,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "program/cli/kinds.h"
 #include "program/cli/listing.h"
 
 typedef struct manual_options {

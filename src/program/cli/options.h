@@ -3,7 +3,9 @@
 #pragma once
 
 #include <aureole-render/scene.h>
+#include <aureole/core.h>
 #include <aureole/tables.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "program/cli/cli.h"
@@ -145,3 +147,16 @@ extern const cli_option cli_definitions_option[], cli_model_light_option[]; /* o
 
 /* Reads the name of a file for a figure: --plot. Errors: ARGUMENT when its ending is no format of one. */
 aur_result cli_parse_plot(const char *text, void *field, aur_error *error);
+
+/* Numbers with units on the command line. */
+
+typedef struct cli_unit {
+    const char *name;
+    double factor;
+} cli_unit;
+
+/* A positive number, with one of the units' names after it or none. */
+bool cli_parse_quantity(const char *text, size_t unit_count, const cli_unit *units, double *value);
+
+/* 30s, 5min or 1h; a number alone is seconds. */
+aur_result cli_parse_seconds(const char *option, const char *text, double *seconds, aur_error *error);

@@ -1,4 +1,4 @@
-#include "program/cli/quantity.h"
+#include "program/cli/options.h"
 
 #include <aureole/text.h>
 #include <math.h>

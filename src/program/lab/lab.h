@@ -8,7 +8,7 @@
 #include <aureole-render/render.h>
 #include <stdbool.h>
 
-#include "program/report/plot.h"
+#include "program/report/report.h"
 
 typedef struct lab_run lab_run;
 
@@ -179,3 +179,11 @@ lab_interval lab_root_ratio_paired(size_t count, const double *squares, const do
 /* The slope of log y against log x by least squares; the interval is of the scatter about the line
  * (Student's t), and as wide as can be for fewer than three points. */
 lab_interval lab_slope(size_t count, const double *x, const double *y);
+
+/* The report of what was run. */
+
+/* Writes the page of all results in a folder to `folder`/index.html, which `path` gets. Beside it stand its
+ * plots for print, as PDF, SVG and TikZ, unless it is small; a small page shows large pictures as means of 2
+ * x 2 pixels, within .8 %. Errors: OPEN when there are no results, FORMAT, WRITE, MEMORY. */
+aur_result lab_publish(const char *results, const char *folder, bool small,
+                       char path[AUR_ERROR_FILE_CAPACITY], aur_error *error);

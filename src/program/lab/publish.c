@@ -1,4 +1,4 @@
-#include "program/lab/publish.h"
+#include "program/lab/lab.h"
 
 #include <stdlib.h>
 #include <string.h>

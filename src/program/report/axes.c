@@ -1,5 +1,5 @@
 /* What an axis shows, and where its numbers stand. */
-#include "program/report/axes.h"
+#include "program/report/figure.h"
 
 #include <math.h>
 

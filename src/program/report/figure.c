@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/report/axes.h"
 #include "program/report/canvas.h"
 
 enum { LEFT = 60, RIGHT = 20, TOP = 24, BOTTOM = 40, MARGIN = 20, SCALE = 80, LINE = 16, KEY = 26, GAP = 24 };

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "program/report/axes.h"
 #include "program/report/canvas.h"
+#include "program/report/figure.h"
 
 enum { MOST_ENTRIES = 64 };
 

@@ -1,5 +1,5 @@
 /* Figures of tables: which rows belong to which panel and line. */
-#include "program/report/plot.h"
+#include "program/report/report.h"
 
 #include <aureole/text.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "program/watch/display.h"
+#include "program/watch/watch.h"
 
 #include <aureole/text.h>
 #include <errno.h>

@@ -1,4 +1,4 @@
-#include "program/watch/page.h"
+#include "program/watch/watch.h"
 
 #include <stdlib.h>
 #include <string.h>

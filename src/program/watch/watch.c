@@ -10,8 +10,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "program/watch/display.h"
-#include "program/watch/page.h"
 #include "program/watch/server.h"
 
 enum { TOKEN_BYTES = 16, TOKEN_LENGTH = 2 * TOKEN_BYTES, TEXT_CAPACITY = 256, MOST_PAGES = 16 };

@@ -4,6 +4,8 @@
 
 #include <aureole-render/image.h>
 
+#include "program/report/page/page.h"
+
 typedef struct watch_session watch_session;
 
 /* Both may be asked for; NULL: it is not. */
@@ -44,3 +46,47 @@ bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text);
 /* The render has ended with the picture `image`, or NULL, which `words` say: "finished". Pages that are open
  * are given some seconds to fetch it, and a display server is sent it. */
 void watch_end(watch_session *watch, const aur_image *image, const char *words);
+
+/* What the page of a render that is watched consists of: texts from memory that the caller frees, NULL when
+ * there is none left. */
+
+extern const report_asset watch_assets[]; /* ends without a name */
+
+/* The page itself, which asks for all else. */
+char *watch_page(const char *title, size_t *size);
+
+/* A part of a picture that is seen at once: three channels, or one. */
+typedef struct watch_layer {
+    char name[AUR_CHANNEL_NAME_CAPACITY]; /* "albedo" */
+    size_t channel, channel_count;
+} watch_layer;
+
+enum { WATCH_LAYER_LIMIT = 80 };
+
+/* Channels in turn whose names have the same beginning before a dot are one layer where they are three, such
+ * as R, G, B. Returns how many layers there are, at most WATCH_LAYER_LIMIT. */
+size_t watch_layers(const aur_image *image, watch_layer layers[WATCH_LAYER_LIMIT]);
+
+/* One layer of a picture as `unpack` of src/program/report/page/pictures.js takes it. */
+char *watch_picture(const aur_image *image, const watch_layer *layer, size_t *size);
+
+/* The picture sent to an image viewer on the network, by the protocol of tev (Müller), which pbrt-v4 speaks
+ * too: little-endian packets over TCP, each the count of its bytes (uint32), a kind (uint8) and what belongs
+ * to it. */
+
+typedef struct watch_display watch_display;
+
+/* Connects to "PORT" or "HOST:PORT"; `name` is the picture's there, where an earlier one of that name is
+ * closed. Errors: ARGUMENT, OPEN, MEMORY. */
+aur_result watch_display_create(const char *where, const char *name, watch_display **display,
+                                aur_error *error);
+void watch_display_destroy(watch_display *display); /* NULL is allowed */
+
+/* Whether another picture would be sent at once. */
+bool watch_display_is_free(watch_display *display);
+/* Sends what has changed since the last picture; takes the picture over. From any thread. */
+void watch_display_show(watch_display *display, aur_image *image);
+/* Waits until all is sent or nothing can be; then nothing more is to be shown. */
+void watch_display_finish(watch_display *display);
+/* Why nothing is sent any more: text[capacity]; false where all is well. */
+bool watch_display_has_failed(watch_display *display, size_t capacity, char *text);

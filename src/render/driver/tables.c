@@ -4,7 +4,7 @@
 #include "render/film/integrator.h"
 #include "render/image/format.h"
 #include "render/scene/emitter.h"
-#include "render/scene/load/ignored.h"
+#include "render/scene/load/loader.h"
 #include "render/scene/load/spectrum.h"
 #include "render/scene/materials/texture.h"
 #include "render/scene/medium.h"

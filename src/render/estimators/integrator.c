@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "render/scene/load/ignored.h"
+#include "render/scene/load/loader.h"
 #include "render/scene/plugin/plugin.h"
 
 #define INTEGRATORS(ROW)                                                                                     \

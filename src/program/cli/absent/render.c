@@ -1,8 +1,7 @@
 /* In the place of the commands of libaureole-render, and of what others take from it, in a program that is
  * built without it. */
-#include "program/cli/kinds.h"
-#include "program/cli/points/draw.h"
-#include "program/cli/points/info.h"
+#include "program/cli/listing.h"
+#include "program/cli/points/point_source.h"
 #include "program/report/canvas.h"
 
 static const char library[] = "libaureole-render";

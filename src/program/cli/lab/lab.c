@@ -5,7 +5,7 @@
 
 #include "program/cli/lab/lab_run.h"
 #include "program/cli/listing.h"
-#include "program/lab/publish.h"
+#include "program/lab/lab.h"
 
 static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results, and lab-report for report",

@@ -1,4 +1,4 @@
-#include "program/cli/lighting/daylight.h"
+#include "program/cli/lighting/irradiance.h"
 
 #include <aureole/text.h>
 #include <stdlib.h>

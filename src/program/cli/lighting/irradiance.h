@@ -1,10 +1,28 @@
 /* The parts of `aureole irradiance`. */
 #pragma once
 
+#include <aureole-lighting/daylight.h>
 #include <aureole-lighting/irradiance.h>
+
+#include "program/cli/options.h"
 
 /* Draws the luminance of each sensor at its place, seen along the axis in which the sensors spread least:
  * cells where they stand on a grid, else dots. `unit` is the word at the scale; NULL: "luminance". Errors:
  * MEMORY, WRITE. */
 aur_result cli_irradiance_plot(const char *path, const char *unit, const aur_sensors_view *sensors,
                                const aur_irradiance *results, aur_error *error);
+
+/* A year of weather at sensors: the part of `aureole irradiance` that --weather asks for. */
+
+typedef struct cli_daylight {
+    const char *weather; /* NULL: none is asked for */
+    aur_daylight_options options;
+} cli_daylight;
+extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
+
+/* False, with a message, where one of these options was given without --weather. */
+bool cli_daylight_check(const cli_call *call);
+
+/* The year at the sensors, written to `output`; `given->options` holds what other options said too. */
+aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,
+                            const char *output, const char *format, bool quiet, aur_error *error);

@@ -1,4 +1,4 @@
-#include "program/cli/points/draw.h"
+#include "program/cli/points/point_source.h"
 
 #include <math.h>
 #include <stdlib.h>

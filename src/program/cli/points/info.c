@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "program/cli/points/info.h"
 #include "program/cli/points/point_source.h"
 
 enum { START_CAPACITY = 4096 };

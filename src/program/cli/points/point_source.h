@@ -1,6 +1,7 @@
 /* Where a verb's points come from: a set that is named, or a file. */
 #pragma once
 
+#include <aureole/pointset.h>
 #include <aureole/sphere.h>
 
 #include "program/cli/options.h"
@@ -28,3 +29,34 @@ void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warn
  * equal, until aur_points_destroy. */
 aur_result cli_load_points(const char *text, const cli_points *from, size_t count, aur_points **points,
                            aur_points_view *view, aur_error *error);
+
+/* Pictures of points: the square, the disk, and the sphere from the side and from the pole. */
+
+/* Draws points in a format of report/figure.h to `path` ("-": standard output), whole or not at all. A
+ * point's area goes with its weight. The square has v upwards; a point set on the cube shows its first two
+ * coordinates. The sphere is seen from the side (x to the right, z up) and from the pole (x to the right, y
+ * up); points on the far side are pale. */
+aur_result cli_draw_points(const char *path, const char *format, const aur_points_view *points,
+                           aur_error *error);
+
+/* The density that a picture's brightness (Rec. 709 luminance) makes; returns the exit status. */
+int cli_read_density(const char *path, aur_density_image **density);
+
+/* What `aureole info` describes by each library. */
+
+typedef struct cli_info_options {
+    cli_definitions definitions;
+    cli_common common;
+} cli_info_options;
+
+/* What is described: a file, or the bytes that came by standard input. */
+typedef struct cli_info_input {
+    const char *path;
+    size_t size;
+    char *data; /* NULL: a file */
+} cli_info_input;
+
+/* Describes an image or a scene, whose file or stream starts with `size` bytes. False: it is neither of them;
+ * else *status is the exit status. */
+bool cli_describe_rendered(const cli_info_input *input, size_t size, const char *start,
+                           const cli_info_options *options, int *status);

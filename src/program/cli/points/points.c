@@ -6,7 +6,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "program/cli/points/draw.h"
 #include "program/cli/points/point_source.h"
 #include "program/report/figure.h"
 

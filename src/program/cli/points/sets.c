@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "program/cli/kinds.h"
 #include "program/cli/listing.h"
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */

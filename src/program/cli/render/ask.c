@@ -1,4 +1,3 @@
-#include "program/cli/render/ask.h"
 
 #include <aureole/ranks.h>
 #include <aureole/text.h>
@@ -7,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "program/cli/quantity.h"
+#include "program/cli/options.h"
 #include "program/cli/render/render_result.h"
 
 static aur_result parse_part(const char *option, const char *text, void *field, aur_error *error) {

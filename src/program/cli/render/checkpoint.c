@@ -1,4 +1,4 @@
-#include "program/cli/render/checkpoint.h"
+#include "program/cli/render/render_result.h"
 
 #include <aureole/ranks.h>
 #include <errno.h>
@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "program/cli/quantity.h"
+#include "program/cli/options.h"
 
 static aur_result parse_interval(const char *text, void *field, aur_error *error) {
     return cli_parse_seconds("checkpoint-every", text, field, error);

@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "program/cli/render/denoise_known.h"
-#include "program/cli/render/oidn.h"
-
 const cli_option cli_denoise_options[] = {
     {CLI_FLAG(cli_denoise, wanted, "denoise",
               "take the noise out by Open Image Denoise, whose library AUREOLE_OIDN names or the system has; "

@@ -1,6 +1,7 @@
 /* `aureole render --denoise`: Open Image Denoise (Intel), where its library is found when it is asked for. */
 #pragma once
 
+#include <aureole-render/image.h>
 #include <aureole-render/render.h>
 
 #include "program/cli/options.h"
@@ -26,3 +27,30 @@ aur_result cli_denoise_picture(const cli_denoise *denoise, aur_renderer *rendere
 /* A format that has R, G and B alone leaves the noisy picture out: it goes beside, as OUT.noisy.exr. */
 aur_result cli_denoise_keep(const cli_denoise *denoise, const char *output, const aur_image *image,
                             aur_error *error);
+
+/* What is known of a picture better than by any denoiser: light that the camera sees directly, and how far
+ * the values of pixels may be from the truth. */
+
+/* The first three channels of `image` less bright light that is seen directly, of which the first three
+ * channels of `lights` tell: denoisers spread a lamp beyond its rim. */
+aur_result cli_known_take(const aur_image *image, const aur_image *lights, aur_image **rest,
+                          aur_error *error);
+
+/* In `out`, what the denoiser made of that: pixels that see bright light are those of `image` again, and
+ * where this has standard errors (channels error.R, error.G and error.B) no value is further than twice its
+ * own from where it was. All pictures are of one size. */
+void cli_known_restore(const aur_image *image, const aur_image *lights, aur_image *out);
+
+/* Open Image Denoise, loaded while the program runs: its C interface, version 1.4 or 2. */
+
+typedef struct cli_oidn cli_oidn;
+
+/* From the file that AUREOLE_OIDN names; else as the system finds it, or beside oidnDenoise in PATH. Errors:
+ * UNSUPPORTED. */
+aur_result cli_oidn_open(cli_oidn **oidn, aur_error *error);
+void cli_oidn_close(cli_oidn *oidn); /* NULL is allowed */
+
+/* The first three channels of `image` without noise into those of `out`, by channels 3 to 5 (albedo) and 6 to
+ * 8 (normals) of `features`; all of one size. Errors: INTERNAL with the library's words. */
+aur_result cli_oidn_run(const cli_oidn *oidn, aur_image *image, aur_image *features, aur_image *out,
+                        aur_error *error);

@@ -1,4 +1,4 @@
-#include "program/cli/render/denoise_known.h"
+#include "program/cli/render/denoise.h"
 
 #include <math.h>
 

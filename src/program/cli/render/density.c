@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "program/cli/cli.h"
-#include "program/cli/points/draw.h"
+#include "program/cli/points/point_source.h"
 
 int cli_read_density(const char *path, aur_density_image **density) {
     aur_image *image;

@@ -5,7 +5,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "program/cli/points/info.h"
+#include "program/cli/points/point_source.h"
 #include "program/lab/gather.h"
 
 static int describe_scene(const cli_info_input *input, const cli_info_options *options) {

@@ -1,4 +1,4 @@
-#include "program/cli/render/errors.h"
+#include "program/cli/render/render_result.h"
 
 #include <stdio.h>
 #include <stdlib.h>

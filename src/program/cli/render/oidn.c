@@ -1,4 +1,4 @@
-#include "program/cli/render/oidn.h"
+#include "program/cli/render/denoise.h"
 
 #include <dlfcn.h>
 #include <limits.h>

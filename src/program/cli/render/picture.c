@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "program/cli/kinds.h"
+#include "program/cli/listing.h"
 
 const cli_option cli_picture_options[] = {
     {CLI_TEXT(cli_picture, channels, "channels", "NAME", NULL, "only these channels, in this order"),

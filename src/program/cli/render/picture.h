@@ -23,3 +23,10 @@ void cli_warn_of_values(const char *path, const aur_image *image, bool negative,
 /* Reads a picture and makes of it what the options ask for. Prints what is wrong and returns the exit
  * status. */
 int cli_read_picture(const char *path, const cli_picture *options, aur_image **image);
+
+/* Pages with a viewer of pictures. */
+
+/* Writes a page with pictures of one size to `path`; the first is the reference of the others where `judged`.
+ * Prints what is wrong and returns the exit status. */
+int cli_write_viewer(const char *path, size_t count, char **names, const cli_picture *how, double exposure,
+                     bool judged);

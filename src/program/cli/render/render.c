@@ -9,9 +9,7 @@
 #include <string.h>
 
 #include "program/cli/options.h"
-#include "program/cli/render/ask.h"
 #include "program/cli/render/denoise.h"
-#include "program/cli/render/errors.h"
 #include "program/cli/render/render_result.h"
 #include "program/lab/gather.h"
 

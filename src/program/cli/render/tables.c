@@ -1,6 +1,6 @@
 #include <aureole-render/render.h>
 
-#include "program/cli/kinds.h"
+#include "program/cli/listing.h"
 #include "program/lab/gather.h"
 
 const aur_table *cli_render_table_at(size_t index) {

@@ -1,4 +1,4 @@
-#include "program/cli/render/viewer.h"
+#include "program/cli/render/picture.h"
 
 #include <stdlib.h>
 #include <string.h>

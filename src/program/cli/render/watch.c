@@ -1,4 +1,3 @@
-#include "program/cli/render/watch.h"
 
 #include <aureole/ranks.h>
 #include <aureole/text.h>

@@ -1,4 +1,4 @@
-#include "render/scene/load/ignored.h"
+#include "render/scene/load/loader.h"
 
 #include <string.h>
 

@@ -6,7 +6,6 @@
 
 #include "points/base/array.h"
 #include "points/base/names.h"
-#include "render/scene/load/ignored.h"
 
 /* Objects may stand in or refer to each other this deep; what they become is walked recursively. */
 enum { DEEPEST_OBJECT = 100 };

@@ -1,6 +1,7 @@
 /* The walk from the tree of elements to the objects of a scene, and what builds an object of each kind. */
 #pragma once
 
+#include "points/base/keys.h"
 #include "points/base/parameters.h"
 #include "render/image/format.h"
 #include "render/scene/importers/xml/xml.h"
@@ -74,3 +75,13 @@ aur_result aur_xml_add_transform(const aur_xml_node *node, aur_parameters *param
 
 /* Reads three numbers from `value`, or from x, y, z; those that are not given become `missing`. */
 aur_result aur_xml_read_triple(const aur_xml_node *node, double missing, double triple[3], aur_error *error);
+
+/* Names of Mitsuba's parameters that do nothing here. */
+
+/* A row for each kind of object, with the names that are ignored where a type of that kind does not read
+ * them. A help text that begins with "of no effect" is a warning, too. */
+extern const aur_table aur_ignored_table;
+
+/* Marks what is ignored of an object's parameters as read, whatever its value is, unless `reader` has a key
+ * of that name; NULL: nothing is known to read them. */
+void aur_parameters_ignore(aur_parameters *parameters, const aur_row *reader, const aur_warnings *warnings);
