@@ -18,8 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         char path[64];
         snprintf(path, sizeof path, "fuzz-points-%ld", (long)getpid());
         fuzz_write_file(path, data, size);
-        result = anywhere ? aur_points_read(path, &points, &error)
-                          : aur_points_read_on(path, domain, &points, &error);
+        result = aur_points_read(path, anywhere ? NULL : &domain, &points, &error);
         unlink(path);
     }
     if (result != AUR_OK) {

@@ -1,6 +1,6 @@
 /* Files of radiosity solutions, for a scene of 12 triangles. The hash at their end is made right before they
  * are read, so that what is damaged reaches the checks behind it. */
-#include <aureole-render/radiosity.h>
+#include "render/radiosity/solution.h"
 
 #include "words.h"
 

@@ -143,14 +143,6 @@ AUR_EXPERIMENTAL aur_result aur_view_factors_write(const aur_view_factors *facto
 AUR_EXPERIMENTAL aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
 
-/* y = F x and the sky factors without the matrix: rays alone, each of which brings home the x of the row that
- * it meets. The same options are the same linear map. x, y and sky (may be NULL) have one number a row. Rows
- * add up to 1 but A_i F_ij = A_j F_ji holds within the error only. Errors as for aur_view_factors_create. */
-AUR_EXPERIMENTAL aur_result aur_view_factors_product(const aur_facets *facets,
-                                                     const aur_view_factors_options *options, const double *x,
-                                                     double *y, double *sky, aur_error *error)
-    AUR_NONNULL(1, 3, 4);
-
 /* --- radiosities */
 
 /* Light on facets that all reflect the same part of it, diffusely. At least one source is not 0. */

@@ -139,21 +139,6 @@ AUR_EXPERIMENTAL aur_result aur_radiosity_results(const aur_radiosity *radiosity
                                                   size_t size, aur_radiosity_triangle_result *results,
                                                   aur_error *error) AUR_NONNULL(1, 4);
 
-/* Writes the solution with all that is needed to go on; loading it for another scene is an error. Of
- * `options` only threads, progress and warnings are used. Errors: WRITE; OPEN, FORMAT (which says what is
- * wrong). */
-AUR_EXPERIMENTAL aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path,
-                                               aur_error *error) AUR_NONNULL(1, 2);
-AUR_EXPERIMENTAL aur_result aur_radiosity_load(const aur_scene *scene, const char *path,
-                                               const aur_radiosity_options *options,
-                                               aur_radiosity **radiosity, aur_error *error)
-    AUR_NONNULL(1, 2, 4);
-
-/* Triangles coloured by their radiance: a binary PLY file of 3 vertices a triangle, sRGB bytes at `exposure`
- * stops and the radiance itself as floats. Errors: WRITE, UNSUPPORTED beyond 715 million triangles. */
-AUR_EXPERIMENTAL aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path,
-                                                    double exposure, aur_error *error) AUR_NONNULL(1, 2);
-
 #ifdef __cplusplus
 }
 #endif

@@ -111,13 +111,6 @@ AUR_EXPERIMENTAL void aur_render_destroy(aur_render *render); /* NULL is allowed
  * where this one was stopped; MEMORY and others, after which the render can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_render_step(aur_render *render, size_t count, aur_error *error)
     AUR_NONNULL(1);
-/* The same pixel by pixel: pixel i of the film, row by row, gets the samples that it lacks up to targets[i],
- * so that samples can go where they are needed. Where pixels share what they find (`radiosity`, finalgather's
- * `share`), all of a tile of 16 x 16 pixels get as many as the one that is to have most. Errors as above;
- * ARGUMENT when the film has not `pixel_count` pixels, or a target is beyond samples_per_pixel. */
-AUR_EXPERIMENTAL aur_result aur_render_step_pixels(aur_render *render, size_t pixel_count,
-                                                   const uint32_t *targets, aur_error *error)
-    AUR_NONNULL(1, 3);
 /* Stops the step that another thread is in. May be called from any thread and from a signal handler. */
 AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
 
@@ -130,12 +123,8 @@ AUR_EXPERIMENTAL size_t aur_render_samples_wanted(const aur_render *render) AUR_
 AUR_EXPERIMENTAL bool aur_render_steps_agree(const aur_render *render) AUR_NONNULL(1);
 
 /* The film so far, owned by the render: aur_film_develop makes the picture, aur_film_error tells its error,
- * aur_film_save keeps it. Developing and saving may be done while another thread is in a step. */
+ * also while another thread is in a step. */
 AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
-/* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render
- * goes on where that one ended. Errors as for aur_film_merge. */
-AUR_EXPERIMENTAL aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error)
-    AUR_NONNULL(1, 2);
 
 /* Keeps a resumable render in a file, which is replaced whole or not at all: its film, what it has cost, and
  * what it is of - version, scene and all files that it names by their content, options. May be called while

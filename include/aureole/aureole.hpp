@@ -246,7 +246,7 @@ class points {
     }
     static points read(const std::string &path) {
         aur_points *made = nullptr;
-        detail::call(aur_points_read, path.c_str(), &made);
+        detail::call(aur_points_read, path.c_str(), nullptr, &made);
         return points(made);
     }
 

@@ -62,16 +62,6 @@ typedef struct aur_error {
  * Returns the length that the whole text has, as snprintf does. */
 AUR_API size_t aur_error_format(const aur_error *error, size_t capacity, char *text) AUR_NONNULL(1);
 
-/* For bindings, which need not know the layout of aur_error: an error without content (NULL when there is no
- * memory), its end (NULL is allowed), and what stands in it. The texts live as long as the error keeps its
- * content; `place` returns the file, empty when none is concerned. */
-AUR_API aur_error *aur_error_create(void);
-AUR_API void aur_error_destroy(aur_error *error);
-AUR_API aur_result aur_error_result(const aur_error *error) AUR_NONNULL(1);
-AUR_API const char *aur_error_message(const aur_error *error) AUR_NONNULL(1);
-AUR_API const char *aur_error_place(const aur_error *error, size_t *line, size_t *column)
-    AUR_NONNULL(1, 2, 3);
-
 /* Fills `error` (NULL: nothing is filled) with a result and a formatted message, and returns that result: for
  * callbacks that fail, and for programs that report their own errors as the library's. */
 AUR_API aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...) AUR_NONNULL(3)

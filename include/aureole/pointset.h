@@ -128,10 +128,6 @@ typedef struct aur_output {
     float *floats;
 } aur_output;
 
-/* Elements that `count` points need (`stride` as above, of no use to POINTS); SIZE_MAX when there is no such
- * number. */
-AUR_API size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride);
-
 /* Coordinates dimension .. dimension + dimension_count - 1 of the points first .. first+count-1 in any
  * layout, as if the points had no others. Errors: ARGUMENT for a dimension or a range beyond the set or an
  * output that contradicts itself, CAPACITY. */
@@ -197,16 +193,13 @@ AUR_API const aur_points_view *aur_points_look(const aur_points *points) AUR_NON
  * u1,u2,... for the cube, and w after it where there are weights; without a header two columns are u,v and
  * three are x,y,z) or NPY. A comment "# domain: NAME" at the end of the header, or in CSV on a line of its
  * own, gives the domain; without it directions that all have z >= 0 are of the hemisphere, and the view says
- * that this was guessed. Errors: OPEN, MEMORY, and FORMAT, which names the line; *points is then NULL. */
-AUR_API aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) AUR_NONNULL(1, 2);
-/* The same where it is known which domain the points are of: x,y stands for the square too when SQUARE or
- * CUBE is asked for, and directions may be of the hemisphere or the sphere. CUBE takes any number of
- * coordinates. Errors: also UNSUPPORTED for points of another domain, FORMAT for directions below the
- * hemisphere. */
-AUR_API aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points **points,
-                                      aur_error *error) AUR_NONNULL(1, 3);
-/* The same from the bytes of a file, data[size]; `name` stands in messages. `domain` as for
- * aur_points_read_on, or NULL. */
+ * that this was guessed. `domain`, unless NULL, is where the points must be: x,y stands for the square too
+ * when it is SQUARE or CUBE, directions may be of the hemisphere or the sphere, and CUBE takes any number of
+ * coordinates. Errors: OPEN, MEMORY, and FORMAT, which names the line; with a domain also UNSUPPORTED for
+ * points of another one and FORMAT for directions below the hemisphere. *points is then NULL. */
+AUR_API aur_result aur_points_read(const char *path, const aur_domain *domain, aur_points **points,
+                                   aur_error *error) AUR_NONNULL(1, 3);
+/* The same from the bytes of a file, data[size]; `name` stands in messages. */
 AUR_API aur_result aur_points_read_memory(const char *name, size_t size, const void *data,
                                           const aur_domain *domain, aur_points **points, aur_error *error)
     AUR_NONNULL(1, 3, 5);
@@ -241,13 +234,7 @@ typedef struct aur_points_origin {
 
 AUR_API aur_result aur_points_origin_init(aur_points_origin *origin, aur_error *error) AUR_NONNULL(1);
 
-/* Writes points to `path`, "-" for standard output; the file is replaced whole or not at all. `origin` may be
- * NULL. Errors: ARGUMENT for an unknown format or domain or a stride below the dimension, UNSUPPORTED for a
- * ply file of more than three coordinates, WRITE. */
-AUR_API aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *points,
-                                    const aur_points_origin *origin, aur_error *error) AUR_NONNULL(1, 3);
-
-/* How they are written, where it is to be another way. Fields that a format has no use for are refused. */
+/* How they are written. Fields that a format has no use for are refused. */
 typedef struct aur_points_write_options {
     size_t size;                     /* of the caller's struct, so that it can grow */
     const aur_points_origin *origin; /* or NULL */
@@ -259,11 +246,13 @@ typedef struct aur_points_write_options {
 AUR_API aur_result aur_points_write_options_init(aur_points_write_options *options, aur_error *error)
     AUR_NONNULL(1);
 
-/* aur_points_write with options (NULL: none). Errors: also ARGUMENT for more than 17 digits, UNSUPPORTED for
- * an option that the format has no use for. */
-AUR_API aur_result aur_points_write_as(const char *path, aur_points_format format,
-                                       const aur_points_view *points, const aur_points_write_options *options,
-                                       aur_error *error) AUR_NONNULL(1, 3);
+/* Writes points to `path`, "-" for standard output; the file is replaced whole or not at all. `options` may
+ * be NULL. Errors: ARGUMENT for an unknown format or domain, a stride below the dimension or more than 17
+ * digits, UNSUPPORTED for an option that the format has no use for and a ply file of more than three
+ * coordinates, WRITE. */
+AUR_API aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *points,
+                                    const aur_points_write_options *options, aur_error *error)
+    AUR_NONNULL(1, 3);
 
 #ifdef __cplusplus
 }

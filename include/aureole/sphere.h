@@ -60,9 +60,6 @@ typedef struct aur_lobe {
 
 /* "uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]". */
 AUR_API aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) AUR_NONNULL(1, 2);
-/* ARGUMENT when a member is out of the range given above. */
-AUR_API aur_result aur_lobe_check(const aur_lobe *lobe, aur_error *error) AUR_NONNULL(1);
-
 /* `count` uniform directions of the hemisphere to ones that follow the lobe, at the same azimuths about +z
  * (GGX: about the normal of the stretched space): z' = z^{1/(M+1)}; GGX by spherical caps (Dupuy and Benyoub
  * 2023). And back: the inverse of a direction that the lobe never takes is some direction of the hemisphere.
@@ -108,10 +105,6 @@ typedef struct aur_rotation {
  * Rotating one set many times randomises it without generating it again. */
 AUR_API void aur_rotation_axial(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
 AUR_API void aur_rotation_uniform(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
-/* The frame about a unit vector (Duff et al. 2017): takes +z to `axis`, and so directions about +z into the
- * hemisphere or lobe about it. Its columns m[0], m[3], m[6] and so on are a right-handed orthonormal basis.
- */
-AUR_API void aur_rotation_frame(const double axis[3], aur_rotation *rotation) AUR_NONNULL(1, 2);
 /* Rotates `count` vectors in xyz[3 * count] in place. */
 AUR_API void aur_rotation_apply(const aur_rotation *rotation, size_t count, double *xyz) AUR_NONNULL(1, 3);
 

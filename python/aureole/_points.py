@@ -138,11 +138,11 @@ def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) ->
     """
     made = ffi.new("aur_points **")
     if domain is None:
-        core.call(lib.aur_points_read, encode(path), made)
+        core.call(lib.aur_points_read, encode(path), ffi.NULL, made)
         if lib.aur_points_look(made[0]).guessed:
             _warn(core.text(lib.aur_domain_name(lib.aur_points_look(made[0]).domain)) or "", os.fspath(path))
     else:
-        core.call(lib.aur_points_read_on, encode(path), core.value("domain", domain), made)
+        core.call(lib.aur_points_read, encode(path), ffi.new("aur_domain *", core.value("domain", domain)), made)
     return look(core.own("points", made))
 
 

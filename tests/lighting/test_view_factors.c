@@ -4,6 +4,9 @@
 
 #include "mesh_text.h"
 
+#include "lighting/viewfactors/facet_rays.h"
+#include "lighting/viewfactors/view_factors.h"
+
 static aur_facets_options grouped(void) {
     aur_facets_options options = {.size = sizeof options};
     aur_facets_options_init(&options, NULL);
@@ -252,22 +255,34 @@ static void test_product(void **state) {
     double *const numbers = malloc(3 * rows * sizeof *numbers);
     assert_non_null(numbers);
     double *const x = numbers, *const y = x + rows, *const sky = y + rows;
+    aur_view_factors_options options;
+    assert_int_equal(aur_view_factors_read_options(&wish, &options, NULL), AUR_OK);
+    aur_facet_pattern pattern = {0};
+    const aur_parallel_options parallel = {.threads = 0};
+    assert_int_equal(aur_facet_pattern_create(options.set, options.rays / options.randomizations,
+                                              options.seed, &pattern, NULL),
+                     AUR_OK);
     for (size_t i = 0; i < rows; ++i)
         x[i] = 1.0;
-    assert_int_equal(aur_view_factors_product(facets, &wish, x, y, sky, NULL), AUR_OK);
+    assert_int_equal(
+        aur_facet_product(facets, &pattern, 0, options.randomizations, &parallel, NULL, x, y, sky, NULL),
+        AUR_OK);
     for (size_t i = 0; i < rows; ++i) {
         assert_near(y[i] + sky[i] + m.back[i], 1.0, 0.05);
         assert_near(sky[i], m.sky[i], 0.03);
     }
     for (size_t i = 0; i < rows; ++i)
         x[i] = (double)(i % 7);
-    assert_int_equal(aur_view_factors_product(facets, &wish, x, y, NULL, NULL), AUR_OK);
+    assert_int_equal(
+        aur_facet_product(facets, &pattern, 0, options.randomizations, &parallel, NULL, x, y, NULL, NULL),
+        AUR_OK);
     for (size_t i = 0; i < rows; ++i) {
         double sum = 0.0;
         for (uint64_t e = m.starts[i]; e < m.starts[i + 1]; ++e)
             sum += m.values[e] * x[m.columns[e]];
         assert_near(y[i], sum, 0.1);
     }
+    aur_facet_pattern_release(&pattern);
     free(numbers);
     aur_view_factors_destroy(factors);
     aur_facets_destroy(facets);

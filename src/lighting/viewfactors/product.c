@@ -87,20 +87,3 @@ aur_result aur_facet_product(const aur_facets *facets, const aur_facet_pattern *
     free(patches);
     return result;
 }
-
-aur_result aur_view_factors_product(const aur_facets *facets, const aur_view_factors_options *given,
-                                    const double *x, double *y, double *sky, aur_error *error) {
-    aur_view_factors_options options;
-    aur_result result = aur_view_factors_read_options(given, &options, error);
-    if (result != AUR_OK)
-        return result;
-    aur_facet_pattern pattern = {0};
-    const aur_parallel_options parallel = {.threads = options.threads, .progress = options.progress};
-    result = aur_facet_pattern_create(options.set, options.rays / options.randomizations, options.seed,
-                                      &pattern, error);
-    if (result == AUR_OK)
-        result =
-            aur_facet_product(facets, &pattern, 0, options.randomizations, &parallel, NULL, x, y, sky, error);
-    aur_facet_pattern_release(&pattern);
-    return result;
-}

@@ -96,28 +96,6 @@ aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...
     return result;
 }
 
-aur_error *aur_error_create(void) {
-    return calloc(1, sizeof(aur_error));
-}
-
-void aur_error_destroy(aur_error *error) {
-    free(error);
-}
-
-aur_result aur_error_result(const aur_error *error) {
-    return error->result;
-}
-
-const char *aur_error_message(const aur_error *error) {
-    return error->message;
-}
-
-const char *aur_error_place(const aur_error *error, size_t *line, size_t *column) {
-    *line = error->line;
-    *column = error->column;
-    return error->file;
-}
-
 aur_result aur_fail_memory(aur_error *error) {
     return aur_fail_memory_at(error, (aur_location){0});
 }

@@ -82,6 +82,10 @@ typedef struct aur_strides {
 aur_result aur_output_open(const aur_output *output, size_t dimension, size_t count, aur_strides *strides,
                            aur_error *error);
 
+/* Elements that `count` points need (`stride` as above, of no use to POINTS); SIZE_MAX when there is no such
+ * number. */
+size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride);
+
 /* Writes coordinates to points first .. first + count - 1 of an output that begins with this coordinate.
  * Floats are cut to 24 binary digits. */
 void aur_output_put(const aur_output *output, aur_strides strides, size_t first, size_t count,

@@ -2,13 +2,12 @@
 #include <math.h>
 #include <string.h>
 
-#include <aureole/sphere.h>
-
 #include "points/base/error.h"
 #include "points/base/parameters.h"
 #include "points/base/text.h"
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
+#include "points/sphere/lobe.h"
 
 enum { MAXIMUM_EXPONENT = 1000000000 };
 

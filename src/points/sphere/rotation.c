@@ -16,13 +16,6 @@ void aur_rotation_axial(uint64_t seed, aur_rotation *rotation) {
     *rotation = (aur_rotation){{cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0}};
 }
 
-void aur_rotation_frame(const double axis[3], aur_rotation *rotation) {
-    const double x = axis[0], y = axis[1], z = axis[2];
-    const double sign = copysign(1.0, z), a = -1.0 / (sign + z), b = x * y * a;
-    *rotation =
-        (aur_rotation){{1.0 + sign * x * x * a, b, x, sign * b, sign + y * y * a, y, -sign * x, -y, z}};
-}
-
 void aur_quaternion_uniform(uint64_t seed, double wxyz[4]) {
     const double u = aur_unit_double(aur_hash3(seed, STREAM_UNIFORM, 0));
     double s1, c1, s2, c2;

@@ -10,7 +10,7 @@
 const aur_scene *aur_renderer_scene(const aur_renderer *renderer);
 struct aur_cache *aur_renderer_cache(const aur_renderer *renderer);
 
-/* What a render with these options is of, a line "KEY VALUE" each (render/film/checkpoint.h). The text is
+/* What a render with these options is of, a line "KEY VALUE" each (render/film/film.h). The text is
  * allocated with malloc. Errors: OPEN when a file of the scene is gone, MEMORY. */
 aur_result aur_render_identify(const aur_scene *scene, const aur_render_options *options, char **identity,
                                aur_error *error);
@@ -56,3 +56,13 @@ static inline void aur_stopwatch_add(const aur_stopwatch *start, double *wall, d
     *wall += aur_clock_seconds(CLOCK_MONOTONIC) - start->wall;
     *cpu += aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
 }
+
+/* aur_render_step pixel by pixel: pixel i of the film, row by row, gets the samples that it lacks up to
+ * targets[i], so that samples can go where they are needed. Where pixels share what they find (`radiosity`,
+ * finalgather's `share`), all of a tile of 16 x 16 pixels get as many as the one that is to have most. Errors
+ * as above; ARGUMENT when the film has not `pixel_count` pixels, or a target is beyond samples_per_pixel. */
+aur_result aur_render_step_pixels(aur_render *render, size_t pixel_count, const uint32_t *targets,
+                                  aur_error *error);
+/* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render
+ * goes on where that one ended. Errors as for aur_film_merge. */
+aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error);

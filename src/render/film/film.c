@@ -202,26 +202,6 @@ aur_counters aur_film_counted(const aur_film *film) {
     return counted;
 }
 
-aur_result aur_film_describe(const aur_film *film, aur_film_description *description, aur_error *error) {
-    const aur_film_layout *const layout = &film->layout;
-    aur_film_description own = {.width = layout->width,
-                                .height = layout->height,
-                                .x0 = layout->x0,
-                                .x1 = layout->x1,
-                                .y0 = layout->y0,
-                                .y1 = layout->y1,
-                                .channel_count = layout->channel_count,
-                                .least_samples = aur_film_samples(film)};
-    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
-        if (film->given[i] > own.most_samples)
-            own.most_samples = film->given[i];
-    return aur_description_write(&own, sizeof own, description, "aur_film_description", error);
-}
-
-const char *aur_film_channel_name(const aur_film *film, size_t channel) {
-    return channel < film->layout.channel_count ? film->channels[channel].name : NULL;
-}
-
 /* Whether a side of the part lies on the film's own side or between two tiles. */
 static bool fits(size_t part, size_t own) {
     return part == own || part % AUR_TILE_SIZE == 0;

@@ -140,3 +140,19 @@ aur_result aur_identity_compare(const char *path, const char *kept, const char *
                                 aur_error *error);
 /* The value of a key's line, or NULL; *length is its length. */
 const char *aur_identity_find(const char *identity, const char *key, size_t *length);
+
+/* Adds the samples of `part`, whose picture has the same size and channels and whose pixels are the film's
+ * own or whole tiles of them (16 x 16 pixels on a grid over the whole picture). Pixels that have samples from
+ * only one of the two keep every bit; where both have some, the sums are added in double precision. The
+ * parts' samples must be different ones: nothing can tell. Errors: ARGUMENT for another size, other channels,
+ * or pixels that do not fit. */
+aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error);
+
+/* Writes all that the film holds, little-endian, with a checksum; the file is replaced whole or not at all.
+ * Errors: WRITE, MEMORY. */
+aur_result aur_film_save(const aur_film *film, const char *path, aur_error *error);
+/* Errors: OPEN, FORMAT (no film, a damaged one, or one of another version), MEMORY. */
+aur_result aur_film_load(const char *path, aur_film **film, aur_error *error);
+/* The same from memory; `name` stands in messages. */
+aur_result aur_film_load_memory(const char *name, size_t size, const void *data, aur_film **film,
+                                aur_error *error);

@@ -7,21 +7,13 @@
 #include "calls.h"
 
 static void errors(void) {
-    aur_error *const error = aur_error_create();
-    require(error != NULL, "aur_error_create");
-    require(aur_fail(error, AUR_ERROR_FORMAT, "%d words", 2) == AUR_ERROR_FORMAT, "aur_fail");
-    require(aur_error_result(error) == AUR_ERROR_FORMAT, "aur_error_result");
-    require(strcmp(aur_error_message(error), "2 words") == 0, "aur_error_message");
-    size_t line, column;
-    require(strcmp(aur_error_place(error, &line, &column), "") == 0 && line == 0, "aur_error_place");
+    aur_error own = {0};
+    require(aur_fail(&own, AUR_ERROR_FORMAT, "%d words", 2) == AUR_ERROR_FORMAT, "aur_fail");
     char text[32];
-    require(aur_error_format(error, sizeof text, text) == strlen(text), "aur_error_format");
-    aur_error_destroy(error);
-    aur_error_destroy(NULL);
+    require(aur_error_format(&own, sizeof text, text) == strlen(text), "aur_error_format");
     require(strlen(aur_result_string((aur_result)99)) > 0, "aur_result_string");
     int major;
     require(sscanf(aur_version(), "%d.", &major) == 1 && major == AUREOLE_VERSION_MAJOR, "aur_version");
-    aur_error own = {0};
     accept(aur_file_write("calls.txt", 4, "text", &own), &own);
     refuse(aur_file_write("no such folder/calls.txt", 4, "text", &own), AUR_ERROR_WRITE, &own);
     remove("calls.txt");

@@ -41,22 +41,6 @@ static void long_texts_are_cut(void **state) {
     assert_int_equal(strlen(error.message), AUR_ERROR_MESSAGE_CAPACITY - 1);
 }
 
-static void bindings_need_no_layout(void **state) {
-    (void)state;
-    aur_error *const error = aur_error_create();
-    assert_non_null(error);
-    assert_int_equal(aur_error_result(error), AUR_OK);
-    assert_string_equal(aur_error_message(error), "");
-    assert_int_equal(aur_fail(error, AUR_ERROR_NAME, "no %s", "such"), AUR_ERROR_NAME);
-    assert_int_equal(aur_error_result(error), AUR_ERROR_NAME);
-    assert_string_equal(aur_error_message(error), "no such");
-    size_t line = 9, column = 9;
-    assert_string_equal(aur_error_place(error, &line, &column), "");
-    assert_true(line == 0 && column == 0);
-    aur_error_destroy(error);
-    aur_error_destroy(NULL);
-}
-
 static void headers_and_library_have_one_version(void **state) {
     (void)state;
     char text[32];
@@ -70,7 +54,6 @@ int main(void) {
         cmocka_unit_test(says_where_and_what),
         cmocka_unit_test(may_be_made_from_itself),
         cmocka_unit_test(long_texts_are_cut),
-        cmocka_unit_test(bindings_need_no_layout),
         cmocka_unit_test(headers_and_library_have_one_version),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

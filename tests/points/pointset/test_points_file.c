@@ -18,7 +18,7 @@ static aur_points *read_text(const char *text) {
     write_file(text, strlen(text));
     aur_points *points;
     aur_error error = {0};
-    const aur_result result = aur_points_read(path, &points, &error);
+    const aur_result result = aur_points_read(path, NULL, &points, &error);
     if (result != AUR_OK)
         print_error("%s\n", error.message);
     assert_int_equal(result, AUR_OK);
@@ -55,7 +55,7 @@ static void headers_say_what_columns_are(void **state) {
 
 static aur_result read_on(aur_domain domain, const char *text, aur_points **points, aur_error *error) {
     write_file(text, strlen(text));
-    return aur_points_read_on(path, domain, points, error);
+    return aur_points_read(path, &domain, points, error);
 }
 
 /* A header x,y is the disk's, and the square's where the square is asked for. */
@@ -67,7 +67,7 @@ static void the_domain_asked_for_decides(void **state) {
     assert_int_equal(read_on(AUR_DOMAIN_SQUARE, unit, &points, &error), AUR_OK);
     assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SQUARE);
     aur_points_destroy(points);
-    assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_points_read(path, NULL, &points, &error), AUR_ERROR_FORMAT);
     assert_non_null(strstr(error.message, "header x,y"));
     assert_int_equal(read_on(AUR_DOMAIN_DISK, unit, &points, &error), AUR_ERROR_FORMAT);
     assert_int_equal(read_on(AUR_DOMAIN_DISK, "u,v\n0.5,0.5\n", &points, &error), AUR_ERROR_UNSUPPORTED);
@@ -136,19 +136,19 @@ static void bad_text_names_its_line(void **state) {
         write_file(cases[k].text, strlen(cases[k].text));
         aur_points *points;
         aur_error error = {0};
-        assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
+        assert_int_equal(aur_points_read(path, NULL, &points, &error), AUR_ERROR_FORMAT);
         assert_string_equal(error.file, path);
         assert_int_equal(error.line, cases[k].line);
         assert_null(points);
     }
     aur_points *points;
     write_file("", 0);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_ERROR_FORMAT);
     write_file("u,v\n", 4);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_ERROR_FORMAT);
     write_file("0,\0", 3);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
-    assert_int_equal(aur_points_read("no such folder/file.csv", &points, NULL), AUR_ERROR_OPEN);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_points_read("no such folder/file.csv", NULL, &points, NULL), AUR_ERROR_OPEN);
 }
 
 /* Builds an NPY file of version 1 around the given numbers. */
@@ -166,14 +166,14 @@ static void arrays_come_back(void **state) {
     static const double rows[] = {0.125, 0.25, 0.5, 0.625, 0.75, 0.875};
     aur_points *points;
     write_npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }\n", rows, sizeof rows);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
     assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SQUARE);
     assert_int_equal(aur_points_look(points)->count, 3);
     assert_memory_equal(aur_points_look(points)->coordinates, rows, sizeof rows);
     aur_points_destroy(points);
 
     write_npy("{'descr': '<f8', 'fortran_order': True, 'shape': (3, 2), }\n", rows, sizeof rows);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
     for (size_t r = 0; r < 3; ++r)
         for (size_t c = 0; c < 2; ++c)
             assert_near(aur_points_look(points)->coordinates[2 * r + c], rows[3 * c + r], 0.0);
@@ -181,7 +181,7 @@ static void arrays_come_back(void **state) {
 
     static const unsigned char half[] = {0x3f, 0, 0, 0};
     write_npy("{'descr': '>f4', 'fortran_order': False, 'shape': (1,), }\n", half, sizeof half);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
     assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_CUBE);
     assert_int_equal(aur_points_look(points)->dimension, 1);
     assert_near(aur_points_look(points)->coordinates[0], 0.5, 0.0);
@@ -189,7 +189,7 @@ static void arrays_come_back(void **state) {
 
     static const float pole[] = {0, 0, -1, 0.25f};
     write_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 4), }\n", pole, sizeof pole);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
     assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SPHERE);
     assert_near(aur_points_look(points)->weights[0], 0.25, 0.0);
     aur_points_destroy(points);
@@ -215,23 +215,23 @@ static void bad_arrays_are_refused(void **state) {
         write_npy(headers[k], rows, sizeof rows);
         aur_points *points;
         aur_error error = {0};
-        assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
+        assert_int_equal(aur_points_read(path, NULL, &points, &error), AUR_ERROR_FORMAT);
         assert_null(points);
     }
     aur_points *points;
     /* Points and columns count from 1, as lines do. */
     aur_error error = {0};
     write_npy(headers[0], rows, sizeof rows);
-    aur_points_read(path, &points, &error);
+    aur_points_read(path, NULL, &points, &error);
     assert_non_null(strstr(error.message, "point 2, column 1"));
     static const double outside[] = {0.5, 0.5, 0.5, 2.0};
     write_npy(headers[0], outside, sizeof outside);
-    aur_points_read(path, &points, &error);
+    aur_points_read(path, NULL, &points, &error);
     assert_non_null(strstr(error.message, "point 2:"));
     write_file("\x93NUMPY\x01", 8);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_ERROR_FORMAT);
     write_file("\x93NUMPY\x01\0\xff\xff{}          ", 20);
-    assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_ERROR_FORMAT);
 }
 
 int main(void) {

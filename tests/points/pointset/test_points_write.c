@@ -21,7 +21,8 @@ static char *slurp(size_t *size) {
 
 static void expect_text(aur_points_format format, const aur_points_view *points,
                         const aur_points_origin *origin, const char *expected) {
-    assert_int_equal(aur_points_write(path, format, points, origin, NULL), AUR_OK);
+    const aur_points_write_options options = {.size = sizeof options, .origin = origin};
+    assert_int_equal(aur_points_write(path, format, points, &options, NULL), AUR_OK);
     size_t size;
     char *const text = slurp(&size);
     assert_string_equal(text, expected);
@@ -95,7 +96,8 @@ static void npy_is_what_numpy_reads(void **state) {
 static void ply_has_three_coordinates(void **state) {
     (void)state;
     const aur_points_origin origin = {.size = sizeof origin, .set = "file:a\nb", .count = 2};
-    assert_int_equal(aur_points_write(path, AUR_POINTS_PLY, &flat, &origin, NULL), AUR_OK);
+    const aur_points_write_options options = {.size = sizeof options, .origin = &origin};
+    assert_int_equal(aur_points_write(path, AUR_POINTS_PLY, &flat, &options, NULL), AUR_OK);
     size_t size;
     char *const text = slurp(&size);
     static const char header[] =

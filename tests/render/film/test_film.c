@@ -7,6 +7,8 @@
 
 #include <aureole-render/render.h>
 
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
 #include "render/image/format.h"
 
 static aur_scene *load(const char *name) {
@@ -152,8 +154,8 @@ static int stop_at(void *user, const char *what, uint64_t done, uint64_t total) 
     return done == *(const uint64_t *)user;
 }
 
-/* The least and the most samples of a pixel, which are those of the film that has part of them. */
-static void samples_of_pixels_are_described(void **state) {
+/* Pixels have the samples that a step gives each of them. */
+static void pixels_get_samples_of_their_own(void **state) {
     const fixture *const f = *state;
     const aur_render_options options = small("path", 1);
     aur_render *const render = start(f->renderer, &options);
@@ -162,11 +164,10 @@ static void samples_of_pixels_are_described(void **state) {
     for (size_t i = 0; i < 45 * 37; ++i)
         all += targets[i] = i == 700 ? 7 : 2 + (uint32_t)(i % 3);
     assert_int_equal(aur_render_step_pixels(render, 45 * 37, targets, NULL), AUR_OK);
-    aur_film_description described = {.size = sizeof described};
     aur_render_statistics statistics = {.size = sizeof statistics};
-    assert_int_equal(aur_film_describe(aur_render_film(render), &described, NULL), AUR_OK);
     assert_int_equal(aur_render_get_statistics(render, &statistics, NULL), AUR_OK);
-    assert_true(described.least_samples == 2 && described.most_samples == 7);
+    assert_int_equal(aur_film_samples(aur_render_film(render)), 2);
+    assert_memory_equal(aur_render_film(render)->given, targets, sizeof targets);
     assert_int_equal(statistics.samples, all);
     aur_render_destroy(render);
 }
@@ -182,9 +183,11 @@ static void a_stopped_step_is_kept_and_continued(void **state) {
     aur_render *const render = start(f->renderer, &options);
     assert_int_equal(aur_render_step(render, 3, NULL), AUR_ERROR_CANCELLED);
     assert_int_equal(aur_render_samples(render), 0);
-    aur_film_description described = {.size = sizeof described};
-    assert_int_equal(aur_film_describe(aur_render_film(render), &described, NULL), AUR_OK);
-    assert_int_equal(described.most_samples, 3);
+    const aur_film *const film = aur_render_film(render);
+    uint32_t most = 0;
+    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
+        most = film->given[i] > most ? film->given[i] : most;
+    assert_int_equal(most, 3);
     tiles = 0;
     assert_int_equal(aur_render_step(render, 3, NULL), AUR_OK);
     assert_int_equal(aur_render_samples(render), 3);
@@ -326,7 +329,7 @@ static void damaged_films_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_one_render),
                                        cmocka_unit_test(parts_are_merged),
-                                       cmocka_unit_test(samples_of_pixels_are_described),
+                                       cmocka_unit_test(pixels_get_samples_of_their_own),
                                        cmocka_unit_test(a_stopped_step_is_kept_and_continued),
                                        cmocka_unit_test(a_tile_is_stopped_within),
                                        cmocka_unit_test(the_error_is_that_of_independent_samples),

@@ -7,6 +7,7 @@
 
 #include "points/base/random.h"
 #include "program/lab/gather.h"
+#include "render/driver/renderer.h"
 #include "render/film/film.h"
 #include "render/image/format.h"
 

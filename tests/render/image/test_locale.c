@@ -64,7 +64,7 @@ static void writes_and_reads_points(void **state) {
     assert_int_equal(aur_points_write("points.json", AUR_POINTS_JSON, &points, NULL, &error), AUR_OK);
     assert_true(file_contains("points.json", "[0.5, 0.25]"));
     aur_points *read;
-    assert_int_equal(aur_points_read("points.csv", &read, &error), AUR_OK);
+    assert_int_equal(aur_points_read("points.csv", NULL, &read, &error), AUR_OK);
     assert_memory_equal(aur_points_look(read)->coordinates, coordinates, sizeof coordinates);
     assert_memory_equal(aur_points_look(read)->weights, weights, sizeof weights);
     aur_points_destroy(read);

@@ -1,6 +1,8 @@
 /* Radiosity kept in files. */
 #include "radiosity_room.h"
 
+#include "render/radiosity/solution.h"
+
 static void saved_solutions_go_on(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);

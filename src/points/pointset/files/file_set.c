@@ -24,7 +24,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
     if (path == NULL || path[0] == '\0')
         return aur_fail(error, AUR_ERROR_FORMAT, "a file of points is named by file:PATH");
     aur_points *points;
-    result = aur_points_read_on(path, AUR_DOMAIN_CUBE, &points, error);
+    result = aur_points_read(path, &(const aur_domain){AUR_DOMAIN_CUBE}, &points, error);
     if (result != AUR_OK)
         return result;
     const aur_location where = {.file = path};

@@ -289,12 +289,9 @@ static aur_result read_points(const char *path, const aur_domain *wanted, aur_po
     return result;
 }
 
-aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) {
-    return read_points(path, NULL, points, error);
-}
-
-aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points **points, aur_error *error) {
-    return read_points(path, &domain, points, error);
+aur_result aur_points_read(const char *path, const aur_domain *domain, aur_points **points,
+                           aur_error *error) {
+    return read_points(path, domain, points, error);
 }
 
 aur_result aur_points_read_memory(const char *name, size_t size, const void *data, const aur_domain *domain,

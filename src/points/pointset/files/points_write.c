@@ -211,16 +211,8 @@ static aur_result check_options(aur_points_format format, const aur_points_write
     return AUR_OK;
 }
 
-aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *points,
-                            const aur_points_origin *origin, aur_error *error) {
-    aur_points_write_options options = {.size = sizeof options};
-    aur_points_write_options_init(&options, NULL);
-    options.origin = origin;
-    return aur_points_write_as(path, format, points, &options, error);
-}
-
-aur_result aur_points_write_as(const char *path, aur_points_format format, const aur_points_view *given,
-                               const aur_points_write_options *given_options, aur_error *error) {
+aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *given,
+                            const aur_points_write_options *given_options, aur_error *error) {
     if (aur_points_format_name(format) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown format %d", (int)format);
     aur_points_write_options options = {.size = sizeof options};

@@ -7,6 +7,7 @@
 #include "points/base/vector.h"
 #include "points/quadrature/check.h"
 #include "points/quadrature/exact/system.h"
+#include "points/sphere/lobe.h"
 
 /* Points this far below the rim still belong to a domain: rounding. */
 static const double rim = 1e-9;

@@ -12,6 +12,7 @@
 #include "points/base/vector3d.h"
 #include "points/quadrature/check.h"
 #include "points/quadrature/linear/solve.h"
+#include "points/sphere/lobe.h"
 
 static bool is_ggx(const aur_oswa *oswa) {
     return oswa->lobe[1].kind == AUR_LOBE_GGX;

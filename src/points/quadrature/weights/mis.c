@@ -5,6 +5,7 @@
 #include "points/base/error.h"
 #include "points/base/vector3d.h"
 #include "points/quadrature/potential/potential.h"
+#include "points/sphere/lobe.h"
 
 /* The density that a strategy draws a direction with. */
 static double drawn_density(const aur_strategy *strategy, const double direction[3]) {

@@ -5,6 +5,7 @@
 
 #include "points/base/error.h"
 #include "points/quadrature/potential/potential.h"
+#include "points/sphere/lobe.h"
 
 /* The density at a point, up to a factor; the whole sphere's is 1. */
 static double value_at(const aur_lobe *lobe, aur_domain domain, const double direction[3]) {

@@ -11,6 +11,7 @@
 #include "points/base/vector.h"
 #include "points/pointset/points.h"
 #include "points/pointset/set.h"
+#include "points/sphere/lobe.h"
 #include "points/sphere/map.h"
 #include "points/sphere/native.h"
 
@@ -129,7 +130,7 @@ static aur_result open_square(const char *set, const aur_directions_options *opt
 static aur_result open_file(const char *set, const aur_directions_options *options, aur_scramble scramble,
                             aur_directions *directions, aur_error *error) {
     const char *const path = set + sizeof file_prefix - 1;
-    const aur_result result = aur_points_read(path, &directions->file, error);
+    const aur_result result = aur_points_read(path, NULL, &directions->file, error);
     if (result != AUR_OK)
         return result;
     const aur_points_view *const file = aur_points_look(directions->file);

@@ -43,9 +43,9 @@ static aur_result choose_domain(job *j) {
     if (j->size != 0 && !request->natural_domain && j->domain != AUR_DOMAIN_DISK)
         return AUR_OK;
     const char *const path = j->set + 5;
-    const aur_result result = !request->natural_domain && is_flat(j->domain)
-                                  ? aur_points_read_on(path, AUR_DOMAIN_CUBE, &j->file, j->error)
-                                  : aur_points_read(path, &j->file, j->error);
+    const aur_domain cube = AUR_DOMAIN_CUBE;
+    const bool flat = !request->natural_domain && is_flat(j->domain);
+    const aur_result result = aur_points_read(path, flat ? &cube : NULL, &j->file, j->error);
     if (result != AUR_OK)
         return result;
     const aur_points_view *const held = aur_points_look(j->file);

@@ -16,7 +16,7 @@ static int describe_points(const cli_info_input *input, const cli_info_options *
     aur_error error;
     const aur_result read = input->data != NULL ? aur_points_read_memory(input->path, input->size,
                                                                          input->data, NULL, &points, &error)
-                                                : aur_points_read(input->path, &points, &error);
+                                                : aur_points_read(input->path, NULL, &points, &error);
     if (read != AUR_OK) {
         /* Nothing says that this is a file of points. */
         if (read == AUR_ERROR_FORMAT && error.line <= 1) {

@@ -81,8 +81,7 @@ static aur_result load(const char *text, const cli_points *from, size_t count, a
                        aur_error *error) {
     const aur_domain domain = from->options.domain;
     if (cli_is_file(text)) {
-        const aur_result result = from->domain_given ? aur_points_read_on(text, domain, points, error)
-                                                     : aur_points_read(text, points, error);
+        const aur_result result = aur_points_read(text, from->domain_given ? &domain : NULL, points, error);
         const size_t held = result == AUR_OK ? aur_points_look(*points)->count : count;
         if (count == 0 || held == count)
             return result;

@@ -164,8 +164,8 @@ static int write_points(const char *set, points_command *wanted, const aur_point
     wanted->write.origin = &origin;
     const aur_result result = wanted->format >= FIRST_PICTURE
                                   ? cli_draw_points(wanted->path, format_name(wanted->format), points, &error)
-                                  : aur_points_write_as(wanted->path, (aur_points_format)wanted->format,
-                                                        points, &wanted->write, &error);
+                                  : aur_points_write(wanted->path, (aur_points_format)wanted->format, points,
+                                                     &wanted->write, &error);
     return cli_status(result, &error);
 }
 
