@@ -103,7 +103,7 @@ expect "'albedo' is not of the form name:type" --integrator aov:aovs=albedo
 expect "two channels are called 'a.T'" --integrator 'aov:aovs=(a:depth,a:depth)'
 expect "'finalgather' treats pixels together" --integrator aov:integrator=finalgather
 expect "did you mean 'path'" --integrator aov:integrator=pth
-expect "wanted together" --reference reference.exr
+expect "must be given together" --reference reference.exr
 expect "none.exr: cannot read" --reference none.exr --errors errors.csv
 expect "reference.exr: the sizes differ" --reference reference.exr --errors errors.csv --width 8
 sed 's|</integrator></integrator>|</integrator><integrator type="path"/></integrator>|' veil.xml >two.xml
