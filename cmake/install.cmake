@@ -38,7 +38,7 @@ if(AUREOLE_RENDER AND BUILD_SHARED_LIBS)
     endif()
     add_custom_target(aureole-python-render DEPENDS ${wheel_targets})
     if(SKBUILD) # a wheel has no links
-        set_target_properties(${libraries} PROPERTIES VERSION 0)
+        set_target_properties(${libraries} PROPERTIES VERSION 1)
     endif()
     install(TARGETS ${wheel_targets} LIBRARY DESTINATION aureole_render COMPONENT python-render NAMELINK_SKIP EXCLUDE_FROM_ALL
             RUNTIME DESTINATION aureole_render COMPONENT python-render EXCLUDE_FROM_ALL)

@@ -15,7 +15,7 @@ names() {
   sed '/^#/d' "${@:2}" | tr '\n' ' ' | grep -oE "($1) [^(;]*\(" | sed -E 's/.*[ *](aur_[a-z0-9_]+)\($/\1/' | sort -u
 }
 [ -n "$map" ] || { names "$kinds" "$@"; exit; }
-printf '%s_0 {\n  global:\n' "$node"
+printf '%s_1 {\n  global:\n' "$node"
 names AUR_API "$@" | sed 's/.*/    &;/'
 printf '};\n%s_EXPERIMENTAL_%s {\n  global:\n' "$node" "$map"
 names AUR_EXPERIMENTAL "$@" | sed 's/.*/    &;/'

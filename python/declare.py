@@ -34,7 +34,7 @@ def declarations(header, compiled):
     `compiled`: static inline functions and numbers of #define are declared too, for the compiler to fill in.
     """
     text = re.sub(r"/\*.*?\*/", " ", header, flags=re.S).replace("\\\n", " ")
-    numbers = re.findall(r"^#define (AUR_\w+) +([0-9][0-9.eE+]*|SIZE_MAX)$", text, flags=re.M)
+    numbers = re.findall(r"^#define (AUR_\w+) +([0-9][0-9.eE+-]*|SIZE_MAX)$", text, flags=re.M)
     text = re.sub(r"^#ifdef __cplusplus.*?^#endif", "", text, flags=re.S | re.M)
     text = re.sub(r"^#.*$", "", text, flags=re.M)
     text = re.sub(r"\bAUR_(NONNULL|PRINTF)\([^)]*\)", "", text)
@@ -67,4 +67,5 @@ def main():
         ffi.emit_python_code(out)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -2,7 +2,7 @@
 # abi.sh check BUILD: whether the libraries of a build have the binary interface that stands in scripts/abi, by libabigail (Debian:
 # abigail-tools). Additions pass; what would break a program that is linked with an older library is told, and the exit code is 1.
 # abi.sh record BUILD: writes scripts/abi again. docs/embedding.md says when that is right.
-# Only what stays is looked at, the symbols of versions AUREOLE_0, AUREOLE_RENDER_0 and AUREOLE_LIGHTING_0. Builds need their debug information.
+# Only what stays is looked at, the symbols of versions AUREOLE_1, AUREOLE_RENDER_1 and AUREOLE_LIGHTING_1. Builds need their debug information.
 set -euo pipefail
 for tool in abidw abidiff xz; do
   command -v $tool >/dev/null || { echo "abi.sh: skipped: there is no $tool (Debian: abigail-tools, xz-utils)"; exit 77; }

@@ -4,7 +4,7 @@
 #define AUREOLE_VERSION_H
 
 #define AUREOLE_VERSION_MAJOR 0
-#define AUREOLE_VERSION_MINOR 1
+#define AUREOLE_VERSION_MINOR 2
 #define AUREOLE_VERSION_PATCH 0
 
 /* One number that grows with the version: 0xMMmmpp. */

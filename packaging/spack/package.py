@@ -7,7 +7,7 @@ class Aureole(CMakePackage):
     license("Apache-2.0")
 
     # Of a release, url and version(..., sha256=...) go here; until then `spack develop` takes a copy of the tree.
-    version("0.1.0")
+    version("0.2.0")
 
     variant("render", default=False, description="the renderer and the program")
     variant("lighting", default=True, when="+render", description="irradiance, daylight and view factors")

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 Picture = NDArray[np.float32]
 Path = Union[str, os.PathLike[str]]
 
-_NAMES = "libaureole-lighting.so.0", "libaureole-render.so.0"  # the first loads the second
+_NAMES = "libaureole-lighting.so.1", "libaureole-render.so.1"  # the first loads the second
 _opened: dict[str, Bridge] = {}
 
 

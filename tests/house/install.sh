@@ -86,7 +86,7 @@ export PKG_CONFIG_PATH
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name aureole-render.pc)")
 [ "aureole $(pkg-config --modversion aureole-render)" = "$version" ]
 sanitizers=()
-nm -D "$(find "$prefix" -name 'libaureole.so.0')" | grep -q __asan_init && sanitizers=(-fsanitize=address,undefined)
+nm -D "$(find "$prefix" -name 'libaureole.so.1')" | grep -q __asan_init && sanitizers=(-fsanitize=address,undefined)
 libraries=$(pkg-config --variable=libdir aureole)
 # shellcheck disable=SC2046 # the flags are words
 cc "${sanitizers[@]}" consumer/consumer.c -o consumer/by-pkg-config $(pkg-config --cflags --libs aureole-lighting)

@@ -10,7 +10,7 @@ points=$build/tests/program_of_points render=$build/tests/program_of_render
 
 libraries() { readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | grep -v '^lib\(c\|m\|asan\|ubsan\|tsan\)\.so' | sort | paste -sd' '; }
 if [ -e "$build/libaureole.so" ]; then
-  [ "$(libraries "$points")" = libaureole.so.0 ] || fail "the program of points needs $(libraries "$points")"
+  [ "$(libraries "$points")" = libaureole.so.1 ] || fail "the program of points needs $(libraries "$points")"
   libraries "$render" | grep -q lighting && fail "the program of the renderer needs $(libraries "$render")"
 fi
 

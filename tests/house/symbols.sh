@@ -19,9 +19,9 @@ for library in aureole aureole-render aureole-lighting; do
   comm -23 declared.txt experimental.txt >stable.txt
   cat declared.txt >>public.txt
   node=${library^^} node=${node//-/_}
-  shown "${node}_0" stable.txt
+  shown "${node}_1" stable.txt
   shown "${node}_EXPERIMENTAL_$release" experimental.txt
-  grep -vE "^aur_[a-z0-9_]+@@${node}_(0|EXPERIMENTAL_$release|PRIVATE_$release)$" "$library.txt" && { echo "names that are not the library's own"; status=1; }
+  grep -vE "^aur_[a-z0-9_]+@@${node}_(1|EXPERIMENTAL_$release|PRIVATE_$release)$" "$library.txt" && { echo "names that are not the library's own"; status=1; }
 done
 [ "$(wc -l <public.txt)" -gt 250 ] || { echo "only $(wc -l <public.txt) public functions were read"; exit 1; }
 cat aureole.txt aureole-render.txt aureole-lighting.txt >shown.txt

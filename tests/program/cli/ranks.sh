@@ -107,7 +107,7 @@ refuses 'does not know' 2 env OMPI_COMM_WORLD_SIZE=2 "$aureole" render "$scene"
 
 # A build without MPI.
 mkdir bare
-cp "$(dirname "$aureole")"/libaureole*.so.0 bare 2>/dev/null &&
+cp "$(dirname "$aureole")"/libaureole*.so.1 bare 2>/dev/null &&
   refuses 'built without MPI' 2 env LD_LIBRARY_PATH="$PWD/bare" OMPI_COMM_WORLD_SIZE=2 "$aureole" render "$scene"
 
 # A rank that is killed ends the job, and the checkpoint is good. Where a fast machine ends before the kill, longer work follows.

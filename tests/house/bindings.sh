@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Bindings lose nothing: cffi reads every public header without a compiler and finds all functions in the libraries; its structs have
+# the compiler's sizes; and inline functions and macros, which a binding cannot call, are those that are known here.
+set -u
+build=$(dirname "$1")
+source_tree=$2
+[ -e "$build/libaureole-lighting.so" ] || { echo "skipped: the libraries are static, or not all are built"; exit 77; }
+grep -q '^AUREOLE_SANITIZE:[^=]*=.' "$build/CMakeCache.txt" && { echo "skipped: the release build is asked"; exit 77; }
+python3 -c 'import cffi' 2>/dev/null || { echo "skipped: there is no cffi (Debian: python3-cffi)"; exit 77; }
+bash "$source_tree/cmake/symbols.sh" "$source_tree"/include/aureole*/*.h >functions.txt
+cat >read.py <<'END'
+import pathlib, re, subprocess, sys
+
+source, build = map(pathlib.Path, sys.argv[1:])
+sys.path.insert(0, str(source / "python"))
+sys.dont_write_bytecode = True
+import cffi, declare
+
+ordered, texts = [], {}
+def visit(name):  # a header after those that it includes
+    if name in texts:
+        return
+    texts[name] = (source / "include" / name).read_text()
+    for other in re.findall(r"^#include <(aureole[^>]*\.h)>", texts[name], flags=re.M):
+        visit(other)
+    ordered.append(name)
+for path in sorted((source / "include").glob("aureole*/*.h")):
+    visit(str(path.relative_to(source / "include")))
+
+lost, ffi = [], cffi.FFI()
+for name in ordered:
+    ffi.cdef(declare.declarations(texts[name], False))
+library = ffi.dlopen(str(build / "libaureole-lighting.so"))
+public = pathlib.Path("functions.txt").read_text().split()
+for function in public:
+    if not hasattr(library, function):
+        lost.append(f"cffi does not find {function}")
+
+whole = "\n".join(re.sub(r"/\*.*?\*/", " ", texts[name], flags=re.S).replace("\\\n", " ") for name in ordered)
+structs = re.findall(r"^typedef struct (aur_\w+) \{", whole, flags=re.M)
+program = "".join(f"#include <{name}>\n" for name in ordered) + "#include <stdio.h>\nint main(void) {\n"
+program += "".join(f'    printf("{name} %zu\\n", sizeof({name}));\n' for name in structs) + "    return 0;\n}\n"
+pathlib.Path("sizes.c").write_text(program)
+subprocess.run(["cc", "-std=c17", "-I", source / "include", "sizes.c", "-o", "sizes"], check=True)
+for line in subprocess.run(["./sizes"], check=True, capture_output=True, text=True).stdout.splitlines():
+    name, size = line.split()
+    if ffi.sizeof(name) != int(size):
+        lost.append(f"{name} has {size} bytes, and {ffi.sizeof(name)} by cffi")
+
+inline = re.findall(r"^static inline [^;{]*?\b(aur_\w+)\(", whole, flags=re.M)
+macros = re.findall(r"^#define (AUR_\w+)(?! +[0-9][0-9.eE+-]*$)(?! +SIZE_MAX$)\b(?=.)", whole, flags=re.M)
+if set(inline) != {"aur_points_view_of"}:
+    lost.append(f"inline functions, which bindings cannot call: {inline}")
+if set(macros) - {"AUR_API", "AUR_EXPERIMENTAL", "AUR_NONNULL", "AUR_PRINTF"}:
+    lost.append(f"macros that are no numbers: {set(macros)}")
+if len(public) < 200 or len(structs) < 50:
+    lost.append(f"only {len(public)} functions and {len(structs)} structs were read")
+print(len(ordered), "headers,", len(public), "functions,", len(structs), "structs")
+print("\n".join(lost))
+sys.exit(bool(lost))
+END
+python3 read.py "$source_tree" "$build"
