@@ -9,7 +9,6 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
-#include "points/base/ranks.h"
 #include "points/base/text.h"
 #include "points/base/words.h"
 
@@ -81,18 +80,19 @@ static char *read_here(const char *kind, const char *key, size_t *size) {
     return data;
 }
 
-/* Rank 0 of several processes looks for all. */
+/* One of several processes looks for all. */
 char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
-    const bool looks = aur_ranks_rank() == 0;
-    aur_ranks *const ranks = aur_ranks_set_aside();
+    const bool looks = aur_io_leads();
+    const aur_io *const io = aur_io_use(NULL);
     char *data = looks ? read_here(kind, key, size) : NULL;
-    aur_ranks_put_back(ranks);
+    aur_io_use(io);
     bool found = data != NULL;
-    aur_ranks_agree(sizeof found, &found);
-    if (ranks == NULL || !found)
+    if (io != NULL)
+        io->agree(io->user, sizeof found, &found);
+    if (io == NULL || !found)
         return data;
     char *const own = data;
-    if (aur_ranks_broadcast(ranks, &data, size, NULL) == AUR_OK)
+    if (io->share(io->user, &data, size, NULL) == AUR_OK)
         return data;
     free(own);
     return NULL;
@@ -165,8 +165,7 @@ static void remove_oldest(const char *path, uint64_t limit) {
 void aur_cache_file_write(const char *kind, const char *key, size_t size, const void *data) {
     char folder[PATH_CAPACITY], path[PATH_CAPACITY];
     const uint64_t limit = limit_in_bytes();
-    if (aur_ranks_rank() != 0 || size > limit / 4 || !find_folder(folder) ||
-        !find_path(folder, kind, key, path))
+    if (!aur_io_leads() || size > limit / 4 || !find_folder(folder) || !find_path(folder, kind, key, path))
         return;
     struct stat status;
     if (stat(path, &status) == 0 &&

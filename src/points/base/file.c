@@ -13,7 +13,22 @@
 #include <unistd.h>
 
 #include "points/base/array.h"
-#include "points/base/ranks.h"
+
+static _Thread_local const aur_io *here;
+
+const aur_io *aur_io_use(const aur_io *io) {
+    const aur_io *const before = here;
+    here = io;
+    return before;
+}
+
+const aur_io *aur_io_here(void) {
+    return here;
+}
+
+bool aur_io_leads(void) {
+    return here == NULL || here->leads(here->user);
+}
 
 static aur_result fail_write(aur_error *error, const char *path, int code) {
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_WRITE, "cannot write: %s",
@@ -112,7 +127,7 @@ static char *end_of_links(const char *path) {
 
 aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error) {
     *writer = (aur_file_writer){0};
-    if (aur_ranks_rank() != 0) { /* rank 0 writes */
+    if (!aur_io_leads()) {
         writer->path = strdup(path);
         writer->stream = writer->path != NULL ? fopen("/dev/null", "wb") : NULL;
         if (writer->stream != NULL)
@@ -312,20 +327,20 @@ static aur_result read_for_all(const char *path, size_t limit, bool input, char 
                                aur_error *error) {
     *data = NULL;
     *size = 0;
-    aur_ranks *const ranks = aur_ranks_here();
-    if (ranks == NULL)
+    const aur_io *const io = aur_io_here();
+    if (io == NULL)
         return read_here(path, limit, input, data, size, error);
     aur_error said = {0};
-    if (aur_ranks_rank() == 0)
+    if (io->leads(io->user))
         (void)read_here(path, limit, input, data, size, &said);
-    aur_ranks_agree(sizeof said, &said);
+    io->agree(io->user, sizeof said, &said);
     if (said.result != AUR_OK) {
         if (error != NULL)
             *error = said;
         return said.result;
     }
-    const aur_result result = aur_ranks_broadcast(ranks, data, size, error);
-    if (result != AUR_OK && aur_ranks_rank() == 0) {
+    const aur_result result = io->share(io->user, data, size, error);
+    if (result != AUR_OK && io->leads(io->user)) {
         free(*data);
         *data = NULL;
     }
@@ -342,8 +357,11 @@ aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_
 
 bool aur_file_status(const char *path, struct stat *status) {
     *status = (struct stat){0};
-    bool exists = aur_ranks_rank() == 0 && stat(path, status) == 0;
-    aur_ranks_agree(sizeof exists, &exists);
-    aur_ranks_agree(sizeof *status, status);
+    const aur_io *const io = aur_io_here();
+    bool exists = aur_io_leads() && stat(path, status) == 0;
+    if (io != NULL) {
+        io->agree(io->user, sizeof exists, &exists);
+        io->agree(io->user, sizeof *status, status);
+    }
     return exists;
 }

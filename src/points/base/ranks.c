@@ -19,11 +19,28 @@ aur_ranks *aur_ranks_here(void) {
 aur_ranks *aur_ranks_set_aside(void) {
     aur_ranks *const ranks = here;
     here = NULL;
+    aur_io_use(NULL);
     return ranks;
+}
+
+static bool leads(void *user) {
+    return ((const aur_ranks *)user)->carrier.rank == 0;
+}
+
+static void agree(void *user, size_t size, void *data) {
+    (void)user; /* the thread's own job */
+    aur_ranks_agree(size, data);
+}
+
+static aur_result share(void *user, char **data, size_t *size, aur_error *error) {
+    return aur_ranks_broadcast(user, data, size, error);
 }
 
 void aur_ranks_put_back(aur_ranks *ranks) {
     here = ranks;
+    if (ranks != NULL)
+        ranks->io = (aur_io){ranks, leads, agree, share};
+    aur_io_use(ranks != NULL ? &ranks->io : NULL);
 }
 
 size_t aur_ranks_rank(void) {

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <time.h>
 
-#include "points/base/error.h"
+#include "points/base/file.h"
 
 /* What carries bytes from rank to rank. All of it is called by one thread. */
 typedef struct aur_carrier {
@@ -63,6 +63,7 @@ typedef struct aur_ranks {
     size_t kept_count, kept_capacity;
     uint64_t sent, received;
     double talk_seconds;
+    aur_io io; /* rank 0 reads and writes for all */
 } aur_ranks;
 
 /* The job that the calling thread is in; NULL outside of one. */

@@ -264,6 +264,45 @@ static void tells_inputs_from_outputs(void **state) {
                      0);
 }
 
+/* The other process of two: what it is given is what the leader has found. */
+static bool follows(void *user) {
+    (void)user;
+    return false;
+}
+
+static void give_nothing_bad(void *user, size_t size, void *data) {
+    (void)user;
+    memset(data, 0, size); /* an aur_error without an error */
+}
+
+static aur_result give_text(void *user, char **data, size_t *size, aur_error *error) {
+    (void)error;
+    *data = strdup(user);
+    *size = strlen(user);
+    return AUR_OK;
+}
+
+static void one_process_reads_and_writes_for_all(void **state) {
+    (void)state;
+    char text[] = "of the leader", place[] = "/tmp/aureole-test-XXXXXX", path[64];
+    const aur_io io = {text, follows, give_nothing_bad, give_text};
+    assert_non_null(mkdtemp(place));
+    snprintf(path, sizeof path, "%s/out.txt", place);
+    assert_null(aur_io_use(&io));
+    char *data;
+    size_t size;
+    assert_int_equal(aur_file_read("/nowhere", 100, &data, &size, NULL), AUR_OK);
+    assert_string_equal(data, text);
+    free(data);
+    struct stat status;
+    assert_false(aur_file_status(place, &status));
+    assert_int_equal(aur_file_write(path, 1, "x", NULL), AUR_OK);
+    assert_ptr_equal(aur_io_use(NULL), &io);
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_true(aur_file_status(place, &status));
+    assert_int_equal(rmdir(place), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(replaces_whole_or_not_at_all),
@@ -277,6 +316,7 @@ int main(void) {
         cmocka_unit_test(reads_files_only),
         cmocka_unit_test(makes_what_links_point_to),
         cmocka_unit_test(tells_inputs_from_outputs),
+        cmocka_unit_test(one_process_reads_and_writes_for_all),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -139,6 +139,11 @@ static int together(size_t rank) {
     WANT(aur_ranks_gather(aur_ranks_here(), LONG, data, note_rank, &next, NULL) == AUR_OK);
     WANT(next == (rank == 0 ? RANKS : 1));
     free(data);
+    /* Rank 0 reads for all: the others do not look at their own path. */
+    WANT(aur_file_read(rank == 0 ? AUR_SOURCE_DIR "/LICENSE" : "/nowhere", SIZE_MAX / 2, &data, &size,
+                       NULL) == AUR_OK);
+    WANT(size > 1000 && strstr(data, "Apache License") != NULL);
+    free(data);
     double wall = 1.0 + (double)rank, cpu = (double)rank;
     aur_ranks_share_seconds(&wall, &cpu);
     WANT(wall == 1.0 && cpu == 0.0 + 1.0 + 2.0 + 3.0 + 4.0);
