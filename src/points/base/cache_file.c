@@ -87,8 +87,7 @@ char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
     char *data = looks ? read_here(kind, key, size) : NULL;
     aur_io_use(io);
     bool found = data != NULL;
-    if (io != NULL)
-        io->agree(io->user, sizeof found, &found);
+    (void)aur_io_agree(sizeof found, &found, NULL);
     if (io == NULL || !found)
         return data;
     char *const own = data;

@@ -30,6 +30,10 @@ bool aur_io_leads(void) {
     return here == NULL || here->leads(here->user);
 }
 
+aur_result aur_io_agree(size_t size, void *data, aur_error *error) {
+    return here != NULL ? here->agree(here->user, size, data, error) : AUR_OK;
+}
+
 static aur_result fail_write(aur_error *error, const char *path, int code) {
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_WRITE, "cannot write: %s",
                        strerror(code));
@@ -333,7 +337,7 @@ static aur_result read_for_all(const char *path, size_t limit, bool input, char 
     aur_error said = {0};
     if (io->leads(io->user))
         (void)read_here(path, limit, input, data, size, &said);
-    io->agree(io->user, sizeof said, &said);
+    (void)aur_io_agree(sizeof said, &said, NULL);
     if (said.result != AUR_OK) {
         if (error != NULL)
             *error = said;
@@ -357,11 +361,8 @@ aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_
 
 bool aur_file_status(const char *path, struct stat *status) {
     *status = (struct stat){0};
-    const aur_io *const io = aur_io_here();
     bool exists = aur_io_leads() && stat(path, status) == 0;
-    if (io != NULL) {
-        io->agree(io->user, sizeof exists, &exists);
-        io->agree(io->user, sizeof *status, status);
-    }
+    (void)aur_io_agree(sizeof exists, &exists, NULL);
+    (void)aur_io_agree(sizeof *status, status, NULL);
     return exists;
 }

@@ -16,7 +16,7 @@ typedef struct aur_io {
     bool (*leads)(void *user); /* whether this is the process that does */
     /* Gives all of them the leader's bytes, or its data[*size]: the others' *data is allocated with malloc,
      * with a zero byte after it. */
-    void (*agree)(void *user, size_t size, void *data);
+    aur_result (*agree)(void *user, size_t size, void *data, aur_error *error);
     aur_result (*share)(void *user, char **data, size_t *size, aur_error *error);
 } aur_io;
 
@@ -26,6 +26,9 @@ const aur_io *aur_io_use(const aur_io *io);
 /* What this thread uses, NULL when it is alone; and whether it reads and writes itself. */
 const aur_io *aur_io_here(void);
 bool aur_io_leads(void);
+/* Replaces data[size] by the leader's; nothing where this thread is alone. Fails with what has gone wrong
+ * between the processes. */
+aur_result aur_io_agree(size_t size, void *data, aur_error *error);
 
 /* A file that is being written beside its destination. "-" is standard output. */
 typedef struct aur_file_writer {

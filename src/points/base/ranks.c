@@ -27,9 +27,9 @@ static bool leads(void *user) {
     return ((const aur_ranks *)user)->carrier.rank == 0;
 }
 
-static void agree(void *user, size_t size, void *data) {
-    (void)user; /* the thread's own job */
-    aur_ranks_agree(size, data);
+static aur_result agree(void *user, size_t size, void *data, aur_error *error) {
+    aur_ranks_agree(size, data); /* in the thread's own job, which `user` is */
+    return aur_ranks_have_failed(user) ? aur_ranks_failure(user, error) : AUR_OK;
 }
 
 static aur_result share(void *user, char **data, size_t *size, aur_error *error) {

@@ -7,7 +7,6 @@
 
 #include "points/base/error.h"
 #include "points/base/file.h"
-#include "points/base/ranks.h"
 #include "points/base/words.h"
 
 /* "AURCHKP1" */
@@ -136,7 +135,7 @@ aur_result aur_render_check_checkpoint(const char *path, aur_error *error) {
     if (!aur_file_status(path, &status))
         return AUR_OK;
     bool good = S_ISREG(status.st_mode) && status.st_size == 0;
-    if (S_ISREG(status.st_mode) && !good && aur_ranks_rank() == 0) {
+    if (S_ISREG(status.st_mode) && !good && aur_io_leads()) {
         char start[sizeof magic] = {0};
         FILE *const stream = fopen(path, "rb");
         good = stream != NULL && fread(start, sizeof start, 1, stream) == 1 &&
@@ -144,7 +143,7 @@ aur_result aur_render_check_checkpoint(const char *path, aur_error *error) {
         if (stream != NULL)
             fclose(stream);
     }
-    aur_ranks_agree(sizeof good, &good);
+    (void)aur_io_agree(sizeof good, &good, NULL);
     return good ? AUR_OK
                 : aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
                               "a checkpoint must not replace what is no checkpoint: choose another file");

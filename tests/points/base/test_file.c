@@ -270,9 +270,11 @@ static bool follows(void *user) {
     return false;
 }
 
-static void give_nothing_bad(void *user, size_t size, void *data) {
+static aur_result give_nothing_bad(void *user, size_t size, void *data, aur_error *error) {
     (void)user;
+    (void)error;
     memset(data, 0, size); /* an aur_error without an error */
+    return AUR_OK;
 }
 
 static aur_result give_text(void *user, char **data, size_t *size, aur_error *error) {

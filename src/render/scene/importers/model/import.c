@@ -7,7 +7,6 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
-#include "points/base/ranks.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
 
@@ -52,24 +51,24 @@ static aur_result receive_here(conversation *self, message *got) {
 
 /* The errors of one rank are those of all. */
 static aur_result agree(aur_error *error, aur_result result) {
-    aur_ranks *const ranks = aur_ranks_here();
-    if (ranks == NULL)
-        return result;
-    aur_ranks_agree(sizeof result, &result);
+    aur_error failure = {0};
+    const aur_result heard = aur_io_agree(sizeof result, &result, &failure);
     if (result != AUR_OK)
-        aur_ranks_agree(sizeof *error, error);
-    return result == AUR_OK && aur_ranks_have_failed(ranks) ? aur_ranks_failure(ranks, error) : result;
+        (void)aur_io_agree(sizeof *error, error, NULL);
+    else if (heard != AUR_OK)
+        *error = failure;
+    return result != AUR_OK ? result : heard;
 }
 
 static aur_result receive(conversation *self, message *got) {
     *got = (message){0};
-    aur_ranks *const ranks = aur_ranks_here();
+    const aur_io *const io = aur_io_here();
     aur_result result = agree(self->error, self->child != NULL ? receive_here(self, got) : AUR_OK);
-    if (ranks == NULL || result != AUR_OK)
+    if (io == NULL || result != AUR_OK)
         return result;
-    aur_ranks_agree(sizeof got->kind, &got->kind);
-    aur_ranks_agree(sizeof got->value, &got->value);
-    result = aur_ranks_broadcast(ranks, &got->data, &got->size, self->error);
+    (void)aur_io_agree(sizeof got->kind, &got->kind, NULL);
+    (void)aur_io_agree(sizeof got->value, &got->value, NULL);
+    result = io->share(io->user, &got->data, &got->size, self->error);
     return result;
 }
 
@@ -251,7 +250,7 @@ aur_result aur_model_import(const aur_model_source *source, aur_model_files *fil
     aur_error *const error = nodes->error;
     aur_child child;
     char path[PATH_CAPACITY];
-    const bool here = aur_ranks_rank() == 0;
+    const bool here = aur_io_leads();
     aur_result result = here ? find_program(source, path, error) : AUR_OK;
     if (here && result == AUR_OK)
         result = aur_fail_in(error, aur_child_start(&child, path, &source->progress, error),

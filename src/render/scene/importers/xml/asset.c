@@ -9,7 +9,6 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
-#include "points/base/ranks.h"
 #include "render/scene/importers/xml/xml.h"
 
 /* The first `length` bytes of a path. */
@@ -130,7 +129,7 @@ static bool is_allowed(const aur_xml_document *document, const char *path) {
     bool allowed = real != NULL && strncmp(real, document->confines, length) == 0 &&
                    (real[length] == '/' || document->confines[length - 1] == '/');
     free(real);
-    aur_ranks_agree(sizeof allowed, &allowed);
+    (void)aur_io_agree(sizeof allowed, &allowed, NULL);
     return allowed;
 }
 

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "points/base/ranks.h"
+#include "points/base/file.h"
 #include "render/scene/importers/xml/xml.h"
 
 enum { CAPACITY = 4096 };
@@ -77,9 +77,9 @@ aur_result aur_xml_forgive_name(const aur_xml_document *document, aur_location l
         *used = strdup(name);
         return *used != NULL ? AUR_OK : aur_fail_memory(error);
     }
-    if (aur_ranks_rank() == 0)
+    if (aur_io_leads())
         forgive(location.file, name, forgiven);
-    aur_ranks_agree(sizeof forgiven, forgiven);
+    (void)aur_io_agree(sizeof forgiven, forgiven, NULL);
     if (forgiven[0] == '\0')
         return AUR_OK;
     *used = strdup(forgiven);
