@@ -40,9 +40,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         /* Whatever numbers it holds, it can be asked. */
         aur_radiosity_description description = {.size = sizeof description};
         aur_radiosity_triangle_result results[12];
-        aur_radiosity_describe(radiosity, &description, NULL);
+        aur_radiosity_get_description(radiosity, &description, NULL);
         fuzz_require(description.triangles == 12, "triangles that the scene does not have");
-        fuzz_require(aur_radiosity_results(radiosity, 12, sizeof *results, results, NULL) == AUR_OK,
+        fuzz_require(aur_radiosity_get_results(radiosity, 12, sizeof *results, results, NULL) == AUR_OK,
                      "no results");
     } else {
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");

@@ -128,9 +128,9 @@ typedef struct aur_view_factors_description {
 } aur_view_factors_description;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_EXPERIMENTAL aur_result aur_view_factors_describe(const aur_view_factors *factors,
-                                                      aur_view_factors_description *description,
-                                                      aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_view_factors_get_description(const aur_view_factors *factors,
+                                                             aur_view_factors_description *description,
+                                                             aur_error *error) AUR_NONNULL(1, 2);
 
 /* Writes the matrix. Formats: "npz" (scipy.sparse.load_npz reads it; the other arrays stand beside it),
  * "csv" (one line an entry; the sky has the column -1, backs -2), "view3d" (the text of View3D's output: all

@@ -118,9 +118,9 @@ typedef struct aur_radiosity_description {
 } aur_radiosity_description;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_EXPERIMENTAL aur_result aur_radiosity_describe(const aur_radiosity *radiosity,
-                                                   aur_radiosity_description *description, aur_error *error)
-    AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_radiosity_get_description(const aur_radiosity *radiosity,
+                                                          aur_radiosity_description *description,
+                                                          aur_error *error) AUR_NONNULL(1, 2);
 
 /* A triangle, seen from the side of its normal; RGB. Triangles are numbered shape by shape in the order of
  * the scene's file. */
@@ -135,9 +135,9 @@ typedef struct aur_radiosity_triangle_result {
 
 /* All triangles into results[capacity]; `size` is sizeof *results, so that the struct can grow. Errors:
  * CAPACITY; ARGUMENT for a size that no version of the struct has. */
-AUR_EXPERIMENTAL aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
-                                                  size_t size, aur_radiosity_triangle_result *results,
-                                                  aur_error *error) AUR_NONNULL(1, 4);
+AUR_EXPERIMENTAL aur_result aur_radiosity_get_results(const aur_radiosity *radiosity, size_t capacity,
+                                                      size_t size, aur_radiosity_triangle_result *results,
+                                                      aur_error *error) AUR_NONNULL(1, 4);
 
 #ifdef __cplusplus
 }

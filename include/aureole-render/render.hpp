@@ -64,7 +64,7 @@ class scene {
     aur_scene_description describe() const {
         aur_scene_description found{};
         found.size = sizeof found;
-        detail::call(aur_scene_describe, owned_.get(), &found);
+        detail::call(aur_scene_get_description, owned_.get(), &found);
         return found;
     }
     const aur_scene *get() const noexcept {

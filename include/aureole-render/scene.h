@@ -93,8 +93,9 @@ typedef struct aur_scene_description {
 } aur_scene_description;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_EXPERIMENTAL aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description,
-                                               aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_scene_get_description(const aur_scene *scene,
+                                                      aur_scene_description *description, aur_error *error)
+    AUR_NONNULL(1, 2);
 
 /* What clip planes hide of the surfaces before the camera, by rays spread evenly over its picture. `size` is
  * set by the caller to that of the struct. */
@@ -108,9 +109,8 @@ typedef struct aur_clip_description {
 } aur_clip_description;
 
 /* Errors: ARGUMENT when `size` is not set, FORMAT when the scene has no camera. */
-AUR_EXPERIMENTAL aur_result aur_scene_describe_clips(const aur_scene *scene,
-                                                     aur_clip_description *description, aur_error *error)
-    AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_scene_get_clips(const aur_scene *scene, aur_clip_description *description,
+                                                aur_error *error) AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

@@ -27,7 +27,7 @@ static aur_result solve(const lab_run *run, const aur_scene *scene, double epsil
     if (result == AUR_OK)
         result = aur_radiosity_terminate(radiosity, &rule, NULL, error);
     if (result == AUR_OK)
-        result = aur_radiosity_describe(radiosity, found, error);
+        result = aur_radiosity_get_description(radiosity, found, error);
     aur_radiosity_destroy(radiosity);
     return result;
 }

@@ -29,12 +29,12 @@ static aur_result deviation(const aur_radiosity *radiosity, bool outer_faces, do
                             aur_error *error) {
     aur_radiosity_description d = {.size = sizeof d};
     double plain, outer = 0.0;
-    aur_result result = aur_radiosity_describe(radiosity, &d, error);
+    aur_result result = aur_radiosity_get_description(radiosity, &d, error);
     aur_radiosity_triangle_result *const found = malloc(d.triangles * sizeof *found);
     if (found == NULL)
         return AUR_ERROR_MEMORY;
     if (result == AUR_OK)
-        result = aur_radiosity_results(radiosity, d.triangles, sizeof *found, found, error);
+        result = aur_radiosity_get_results(radiosity, d.triangles, sizeof *found, found, error);
     if (result == AUR_OK)
         result = keller_deviation(radiosity, 0.5, &plain, square, error);
     for (size_t i = 0; i < WALL_TRIANGLES && result == AUR_OK; ++i)
@@ -65,7 +65,7 @@ static aur_result deviations(const lab_run *run, const aur_scene *scene, bool ou
             result = deviation(radiosity, outer_faces, &squares[n], aside, error);
     }
     if (result == AUR_OK)
-        result = aur_radiosity_describe(radiosity, &d, error);
+        result = aur_radiosity_get_description(radiosity, &d, error);
     aur_radiosity_destroy(radiosity);
     if (!outer_faces)
         *aside = (double)d.lost / (double)d.rays;

@@ -60,7 +60,7 @@ static aur_result deviations(const lab_run *run, const char *text, double found[
         double squares = 0.0;
         result = aur_radiosity_trace(radiosity, keller_sizes[n], error);
         if (result == AUR_OK)
-            result = aur_radiosity_results(radiosity, TRIANGLES, sizeof *triangles, triangles, error);
+            result = aur_radiosity_get_results(radiosity, TRIANGLES, sizeof *triangles, triangles, error);
         for (size_t i = 0; i < TRIANGLES - 2 && result == AUR_OK; ++i)
             squares += pow(triangles[i].radiance[0] - 0.5, 2);
         found[n] = sqrt(squares) / (TRIANGLES - 2); /* of equal areas */

@@ -77,14 +77,15 @@ aur_result keller_start(const lab_run *run, const aur_scene *scene, const char *
 aur_result keller_deviation(const aur_radiosity *radiosity, double answer, double *plain, double *weighted,
                             aur_error *error) {
     aur_radiosity_description d = {.size = sizeof d};
-    aur_radiosity_describe(radiosity, &d, NULL);
+    aur_radiosity_get_description(radiosity, &d, NULL);
     aur_radiosity_triangle_result *const results = malloc(d.triangles * sizeof *results);
     if (results == NULL) {
         if (error != NULL)
             *error = (aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"};
         return AUR_ERROR_MEMORY;
     }
-    const aur_result result = aur_radiosity_results(radiosity, d.triangles, sizeof *results, results, NULL);
+    const aur_result result =
+        aur_radiosity_get_results(radiosity, d.triangles, sizeof *results, results, NULL);
     double sum = 0.0, weighted_sum = 0.0;
     for (size_t i = 0; i < d.triangles && result == AUR_OK; ++i) {
         const double difference = results[i].radiance[0] - answer;

@@ -57,7 +57,7 @@ static aur_result measure(lab_run *run, size_t s, const aur_scene *scene, const 
                                                     .limit = UINT64_C(4000000)};
             aur_radiosity_description d = {.size = sizeof d};
             result = aur_radiosity_terminate(radiosity, &rule, NULL, error);
-            aur_radiosity_describe(radiosity, &d, NULL);
+            aur_radiosity_get_description(radiosity, &d, NULL);
             found->paths[e][v] = (double)d.paths;
         }
         aur_radiosity_destroy(radiosity);

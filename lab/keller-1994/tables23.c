@@ -57,7 +57,7 @@ static aur_result measure_variant(lab_run *run, const aur_scene *scene, const ke
             result =
                 keller_deviation(radiosity, answer, &d->plain[n][variant], &d->weighted[n][variant], error);
         if (result == AUR_OK && (n + 1 == d->size_count || !set->extensible)) {
-            aur_radiosity_describe(radiosity, &description, error);
+            aur_radiosity_get_description(radiosity, &description, error);
             d->lost += description.lost + description.behind;
             aur_radiosity_destroy(radiosity);
             radiosity = NULL;

@@ -103,7 +103,7 @@ static aur_result of_matrix(const aur_facets *facets, const aur_view_factors_opt
     if (result == AUR_OK)
         result = aur_view_factors_get_matrix(factors, &m, error);
     if (result == AUR_OK)
-        result = aur_view_factors_describe(factors, &d, error);
+        result = aur_view_factors_get_description(factors, &d, error);
     /* Pairs that no ray found have the interval that the description tells. */
     for (size_t i = 0; i < m.rows * m.rows && kind == FACTORS && result == AUR_OK; ++i)
         half[i] = i % m.rows > i / m.rows ? d.unseen : 0.0;

@@ -160,7 +160,7 @@ class Scene:
         """What is in the scene."""
         library = _library()
         found = library.options("scene_description")
-        library.call(library.lib.aur_scene_describe, self._scene, found)
+        library.call(library.lib.aur_scene_get_description, self._scene, found)
         values = {name: getattr(found, name) for name in SceneDescription._fields}
         for name in ("integrator", "sampler", "filter"):
             values[name] = library.text(values[name]) or ""

@@ -53,6 +53,9 @@ if set(inline) != {"aur_points_view_of"}:
     lost.append(f"inline functions, which bindings cannot call: {inline}")
 if set(macros) - {"AUR_API", "AUR_EXPERIMENTAL", "AUR_NONNULL", "AUR_PRINTF"}:
     lost.append(f"macros that are no numbers: {set(macros)}")
+for function, rest in re.findall(r"\b(aur_\w+)\([^;]*?size_t capacity, ([^,;]*)", whole):
+    if "*" not in rest and function != "aur_format":  # as snprintf
+        lost.append(f"{function}: a capacity that does not stand before its array")
 if len(public) < 200 or len(structs) < 50:
     lost.append(f"only {len(public)} functions and {len(structs)} structs were read")
 print(len(ordered), "headers,", len(public), "functions,", len(structs), "structs")

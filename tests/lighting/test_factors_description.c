@@ -19,7 +19,7 @@ static aur_facets *load_plates(void) {
 
 static aur_view_factors_description description_of(const aur_view_factors *factors) {
     aur_view_factors_description d = {.size = sizeof d};
-    assert_int_equal(aur_view_factors_describe(factors, &d, NULL), AUR_OK);
+    assert_int_equal(aur_view_factors_get_description(factors, &d, NULL), AUR_OK);
     return d;
 }
 

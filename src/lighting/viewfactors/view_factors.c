@@ -253,8 +253,8 @@ aur_result aur_view_factors_get_matrix(const aur_view_factors *factors, aur_view
     return aur_description_write(&own, sizeof own, matrix, "aur_view_factors_matrix", error);
 }
 
-aur_result aur_view_factors_describe(const aur_view_factors *factors,
-                                     aur_view_factors_description *description, aur_error *error) {
+aur_result aur_view_factors_get_description(const aur_view_factors *factors,
+                                            aur_view_factors_description *description, aur_error *error) {
     const aur_view_factors_description *const own = &factors->description;
     return aur_description_write(own, sizeof *own, description, "aur_view_factors_description", error);
 }

@@ -42,10 +42,10 @@ double aur_radiosity_standard_error(const aur_radiosity *radiosity);
  * take their place. */
 double aur_radiosity_measure_change(const aur_radiosity *radiosity, double (*before)[3]);
 
-/* What aur_radiosity_describe tells. */
+/* What aur_radiosity_get_description tells. */
 void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_description *description);
 
-/* One triangle's row of aur_radiosity_results. */
+/* One triangle's row of aur_radiosity_get_results. */
 void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
                           aur_radiosity_triangle_result *out);
 

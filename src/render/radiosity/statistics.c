@@ -141,8 +141,8 @@ void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
     }
 }
 
-aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity, size_t size,
-                                 aur_radiosity_triangle_result *results, aur_error *error) {
+aur_result aur_radiosity_get_results(const aur_radiosity *radiosity, size_t capacity, size_t size,
+                                     aur_radiosity_triangle_result *results, aur_error *error) {
     const size_t count = radiosity->scene.triangle_count;
     aur_radiosity_triangle_result row;
     /* The field that was the last one of version 0.1: an older program's row ends there. */
@@ -163,8 +163,8 @@ aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity
     return AUR_OK;
 }
 
-aur_result aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *description,
-                                  aur_error *error) {
+aur_result aur_radiosity_get_description(const aur_radiosity *radiosity,
+                                         aur_radiosity_description *description, aur_error *error) {
     aur_radiosity_description own;
     aur_radiosity_summarize(radiosity, &own);
     return aur_description_write(&own, sizeof own, description, "aur_radiosity_description", error);

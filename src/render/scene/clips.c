@@ -17,8 +17,7 @@ static void look(const aur_scene *scene, aur_ray ray, aur_clip_description *own)
     own->too_near += !meets && nearest > 0.0f && aur_scene_occluded(scene, &ray);
 }
 
-aur_result aur_scene_describe_clips(const aur_scene *scene, aur_clip_description *description,
-                                    aur_error *error) {
+aur_result aur_scene_get_clips(const aur_scene *scene, aur_clip_description *description, aur_error *error) {
     enum { SIDE = 32 };
     aur_clip_description own = {.size = sizeof own};
     const aur_result result = aur_scene_check_camera(scene, error);

@@ -273,7 +273,8 @@ void aur_scene_destroy(aur_scene *scene) {
     free(scene);
 }
 
-aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description, aur_error *error) {
+aur_result aur_scene_get_description(const aur_scene *scene, aur_scene_description *description,
+                                     aur_error *error) {
     aur_scene_description own = {
         .size = sizeof own,
 

@@ -112,10 +112,10 @@ static aur_scene *scenes(void) {
     accept(aur_scene_load_memory("calls", sizeof scene_text - 1, scene_text, &options, &scene, &error),
            &error);
     aur_scene_description d = {.size = sizeof d};
-    accept(aur_scene_describe(scene, &d, &error), &error);
-    require(d.shapes == 2 && d.width == 8, "aur_scene_describe");
+    accept(aur_scene_get_description(scene, &d, &error), &error);
+    require(d.shapes == 2 && d.width == 8, "aur_scene_get_description");
     d.size = 0;
-    refuse(aur_scene_describe(scene, &d, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_scene_get_description(scene, &d, &error), AUR_ERROR_ARGUMENT, &error);
     return scene;
 }
 
@@ -218,11 +218,11 @@ static void radiosity_solutions(const aur_scene *scene) {
     bool converged = false;
     accept(aur_radiosity_terminate(radiosity, &rule, &converged, &error), &error);
     aur_radiosity_description d = {.size = sizeof d};
-    accept(aur_radiosity_describe(radiosity, &d, &error), &error);
+    accept(aur_radiosity_get_description(radiosity, &d, &error), &error);
     aur_radiosity_triangle_result results[4];
-    require(d.triangles == 4, "aur_radiosity_describe");
-    accept(aur_radiosity_results(radiosity, 4, sizeof results[0], results, &error), &error);
-    refuse(aur_radiosity_results(radiosity, 3, sizeof results[0], results, &error), AUR_ERROR_CAPACITY,
+    require(d.triangles == 4, "aur_radiosity_get_description");
+    accept(aur_radiosity_get_results(radiosity, 4, sizeof results[0], results, &error), &error);
+    refuse(aur_radiosity_get_results(radiosity, 3, sizeof results[0], results, &error), AUR_ERROR_CAPACITY,
            &error);
     aur_radiosity_destroy(radiosity);
 }

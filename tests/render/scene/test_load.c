@@ -11,7 +11,7 @@ static void loads_a_small_scene(void **state) {
         "<shape type='cube'><transform name='to_world'><translate z='5'/></transform></shape>"
         "<bsdf type=\"diffuse\" id=\"red\"><rgb name=\"reflectance\" value=\"0.5 0 0\"/></bsdf>");
     aur_scene_description description = {.size = sizeof description};
-    aur_scene_describe(scene, &description, NULL);
+    aur_scene_get_description(scene, &description, NULL);
     assert_int_equal(description.shapes, 2);
     assert_int_equal(description.triangles, 14);
     assert_int_equal(description.emitters, 0);
@@ -39,10 +39,10 @@ static void loads_from_memory(void **state) {
     aur_error error;
     assert_int_equal(aur_scene_load_memory(name, sizeof text - 1, text, NULL, &scene, &error), AUR_OK);
     aur_scene_description description = {.size = sizeof description};
-    assert_int_equal(aur_scene_describe(scene, &description, &error), AUR_OK);
+    assert_int_equal(aur_scene_get_description(scene, &description, &error), AUR_OK);
     assert_int_equal(description.shapes, 1);
     description.size = 0;
-    assert_int_equal(aur_scene_describe(scene, &description, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_scene_get_description(scene, &description, &error), AUR_ERROR_ARGUMENT);
     aur_scene_destroy(scene);
     assert_int_equal(aur_scene_load_memory(name, 20, text, NULL, &scene, &error), AUR_ERROR_FORMAT);
     assert_string_equal(error.file, name);
@@ -106,7 +106,7 @@ static void refers_to_parts(void **state) {
     aur_error error = {0};
     assert_int_equal(aur_scene_load(write_text("parts.xml", text), NULL, &scene, &error), AUR_OK);
     aur_scene_description description = {.size = sizeof description};
-    aur_scene_describe(scene, &description, NULL);
+    aur_scene_get_description(scene, &description, NULL);
     assert_string_equal(description.integrator, "path");
     assert_string_equal(description.sampler, "sobol");
     assert_string_equal(description.filter, "box");
@@ -154,7 +154,7 @@ static void includes_files(void **state) {
         must_load_body("<include filename='walls.xml'/><include filename='white.xml'/>"
                        "<alias id='w' as='again'/><shape type='cube'><ref id='again'/></shape>");
     aur_scene_description description = {.size = sizeof description};
-    aur_scene_describe(scene, &description, NULL);
+    aur_scene_get_description(scene, &description, NULL);
     assert_int_equal(description.shapes, 2);
     assert_int_equal(description.materials, 1);
     aur_scene_destroy(scene);
@@ -282,7 +282,7 @@ static void loads_public_scenes(void **state) {
     if (aur_scene_load(path, NULL, &scene, &error) != AUR_OK)
         fail_msg("%s", error.message);
     aur_scene_description description = {.size = sizeof description};
-    aur_scene_describe(scene, &description, NULL);
+    aur_scene_get_description(scene, &description, NULL);
     assert_int_equal(description.shapes, 8);
     assert_int_equal(description.triangles,
                      32); /* of 36: the boxes' undersides lie in the floor, which comes first */

@@ -182,8 +182,8 @@ static void rays_meet_the_same(void **state) {
             compare_rays(near, far, places[p]);
             assert_relative(far->shapes[0]->area, near->shapes[0]->area, 1e-6);
             aur_scene_description a = {.size = sizeof a}, b = a;
-            assert_int_equal(aur_scene_describe(near, &a, NULL), AUR_OK);
-            assert_int_equal(aur_scene_describe(far, &b, NULL), AUR_OK);
+            assert_int_equal(aur_scene_get_description(near, &a, NULL), AUR_OK);
+            assert_int_equal(aur_scene_get_description(far, &b, NULL), AUR_OK);
             for (size_t k = 0; k < 3; ++k) {
                 assert_near(b.lower[k] - places[p][k], a.lower[k], 1e-5);
                 assert_near(b.upper[k] - places[p][k], a.upper[k], 1e-5);

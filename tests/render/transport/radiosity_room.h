@@ -76,13 +76,13 @@ static inline aur_radiosity *must_trace(const aur_scene *scene, const aur_radios
 
 static inline aur_radiosity_description describe(const aur_radiosity *radiosity) {
     aur_radiosity_description description = {.size = sizeof description};
-    assert_int_equal(aur_radiosity_describe(radiosity, &description, NULL), AUR_OK);
+    assert_int_equal(aur_radiosity_get_description(radiosity, &description, NULL), AUR_OK);
     return description;
 }
 
 static inline size_t get_results(const aur_radiosity *radiosity, aur_radiosity_triangle_result *results) {
     const size_t count = describe(radiosity).triangles;
-    assert_int_equal(aur_radiosity_results(radiosity, MOST_TRIANGLES, sizeof *results, results, NULL),
+    assert_int_equal(aur_radiosity_get_results(radiosity, MOST_TRIANGLES, sizeof *results, results, NULL),
                      AUR_OK);
     return count;
 }

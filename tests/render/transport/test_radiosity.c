@@ -97,7 +97,8 @@ static void independent_paths_spread_as_they_must(void **state) {
                 const aur_radiosity_description d = describe(radiosity);
                 aur_radiosity_triangle_result *const results = malloc(d.triangles * sizeof *results);
                 assert_int_equal(
-                    aur_radiosity_results(radiosity, d.triangles, sizeof *results, results, NULL), AUR_OK);
+                    aur_radiosity_get_results(radiosity, d.triangles, sizeof *results, results, NULL),
+                    AUR_OK);
                 for (size_t i = 0; i < d.triangles; ++i) {
                     const double difference = results[i].radiance[0] - 0.5;
                     plain += difference * difference / (double)d.triangles;

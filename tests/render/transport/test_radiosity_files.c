@@ -81,8 +81,8 @@ static void meshes_are_written(void **state) {
     aur_scene *const again =
         must_load_body("<shape type='ply'><string name='filename' value='room.ply'/></shape>");
     aur_scene_description a = {.size = sizeof a}, b = {.size = sizeof b};
-    aur_scene_describe(scene, &a, NULL);
-    aur_scene_describe(again, &b, NULL);
+    aur_scene_get_description(scene, &a, NULL);
+    aur_scene_get_description(again, &b, NULL);
     assert_int_equal(b.triangles, 12);
     assert_memory_equal(a.lower, b.lower, sizeof a.lower);
     assert_memory_equal(a.upper, b.upper, sizeof a.upper);

@@ -114,7 +114,7 @@ static void structs_may_grow(void **state) {
     aur_radiosity *refused = NULL;
     assert_int_equal(aur_radiosity_create(scene, &larger.options, &refused, &error), AUR_ERROR_UNSUPPORTED);
     aur_radiosity_description unset = {.size = 0};
-    assert_int_equal(aur_radiosity_describe(radiosity, &unset, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_radiosity_get_description(radiosity, &unset, &error), AUR_ERROR_ARGUMENT);
     assert_int_equal(
         aur_radiosity_terminate(radiosity, &(aur_radiosity_termination){.epsilon = 1.0}, NULL, &error),
         AUR_ERROR_ARGUMENT);
@@ -126,14 +126,15 @@ static void structs_may_grow(void **state) {
     aur_radiosity_triangle_result plain[MOST_TRIANGLES];
     assert_int_equal(aur_radiosity_trace(radiosity, 100, &error), AUR_OK);
     const size_t count = get_results(radiosity, plain);
-    assert_int_equal(aur_radiosity_results(radiosity, count, sizeof rows[0], &rows[0].row, &error), AUR_OK);
+    assert_int_equal(aur_radiosity_get_results(radiosity, count, sizeof rows[0], &rows[0].row, &error),
+                     AUR_OK);
     for (size_t i = 0; i < count; ++i) {
         assert_memory_equal(&rows[i].row, &plain[i], sizeof plain[i]);
         assert_true(rows[i].later == 0.0);
     }
-    assert_int_equal(aur_radiosity_results(radiosity, count - 1, sizeof plain[0], plain, &error),
+    assert_int_equal(aur_radiosity_get_results(radiosity, count - 1, sizeof plain[0], plain, &error),
                      AUR_ERROR_CAPACITY);
-    assert_int_equal(aur_radiosity_results(radiosity, count, 8, plain, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_radiosity_get_results(radiosity, count, 8, plain, &error), AUR_ERROR_ARGUMENT);
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);
 }

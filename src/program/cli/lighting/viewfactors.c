@@ -133,7 +133,7 @@ static bool read_light(const cli_call *call) {
 static int print_summary(const aur_view_factors *factors, report_format format) {
     aur_view_factors_description d = {.size = sizeof d};
     aur_view_factors_matrix m = {.size = sizeof m};
-    aur_view_factors_describe(factors, &d, NULL);
+    aur_view_factors_get_description(factors, &d, NULL);
     aur_view_factors_get_matrix(factors, &m, NULL);
     report_table *const table = report_create(0, NULL);
     report_fact_number(table, "rows", (double)m.rows);

@@ -28,7 +28,7 @@ static int describe_scene(const cli_info_input *input, const cli_info_options *o
         return cli_fail(&error);
     }
     aur_scene_description d = {.size = sizeof d};
-    aur_scene_describe(scene, &d, NULL);
+    aur_scene_get_description(scene, &d, NULL);
     report_table *const facts = report_create(0, NULL);
     report_fact_text(facts, "kind", "scene");
     report_fact_number(facts, "shapes", (double)d.shapes);

@@ -152,7 +152,7 @@ static aur_result render_steps(aur_render *render, render_command *command, cli_
 
 static aur_result print_json(const aur_render *render, const render_command *command, aur_error *error) {
     aur_scene_description scene = {.size = sizeof scene};
-    aur_scene_describe(command->scene, &scene, NULL);
+    aur_scene_get_description(command->scene, &scene, NULL);
     cli_render_summary summary = {
         .output = command->output,
         .integrator = command->options.integrator != NULL ? command->options.integrator : scene.integrator,
@@ -202,7 +202,7 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
 static void plan(const render_command *command) {
     static cli_phase phases[] = {{"photons", 5e5}, {"rendering", 0.0}};
     aur_scene_description scene = {.size = sizeof scene};
-    aur_scene_describe(command->scene, &scene, NULL);
+    aur_scene_get_description(command->scene, &scene, NULL);
     const aur_render_options *const given = &command->options;
     const double width = (double)(given->width > 0 ? given->width : scene.width),
                  height = given->height > 0 ? (double)given->height

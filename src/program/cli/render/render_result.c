@@ -103,7 +103,7 @@ static bool is_black(const aur_image *image) {
 
 void cli_explain_black(const aur_scene *scene, const aur_image *image) {
     aur_clip_description clips = {.size = sizeof clips};
-    if (!is_black(image) || aur_scene_describe_clips(scene, &clips, NULL) != AUR_OK)
+    if (!is_black(image) || aur_scene_get_clips(scene, &clips, NULL) != AUR_OK)
         return;
     if (clips.too_far > 0)
         aur_print(stderr,
