@@ -106,11 +106,11 @@ static void store(void *context, size_t first, aur_embree_order order, aur_packe
 }
 
 static void store_all(occlusion_bench *self) {
-    aur_occlusion_places places = {0};
+    aur_occlusion_points places = {0};
     for (size_t i = 0; i < TILES; ++i) {
         size_t x, y;
         tile_corner(i, &x, &y);
-        aur_occlusion_find_places(self->view, x, y, 0, &places);
+        aur_occlusion_find_points(self->view, x, y, 0, &places);
         aur_occlusion_visit(self->integrator->data, &places, x, y, 0, store, self);
     }
 }

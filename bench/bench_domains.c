@@ -79,8 +79,8 @@ static bool open_points(const bench_options *options, aur_domain domain, points_
     bool good = context->indices != NULL && make_points("random", domain, count, 1, &context->points) &&
                 make_points("random", domain, QUERIES, 2, &context->queries);
     if (good) {
-        context->look = *aur_points_look(context->points);
-        context->asked = *aur_points_look(context->queries);
+        context->look = *aur_points_get_view(context->points);
+        context->asked = *aur_points_get_view(context->queries);
         good = aur_nearest_create(&context->look, &context->nearest, NULL) == AUR_OK;
     }
     if (!good)
@@ -194,7 +194,7 @@ static bool run_exact(const bench_options *options, const char *name, size_t cou
     const bool good = context.weights != NULL &&
                       make_points("spherical-fibonacci", AUR_DOMAIN_SPHERE, count, 0, &context.points.points);
     if (good) {
-        context.points.look = *aur_points_look(context.points.points);
+        context.points.look = *aur_points_get_view(context.points.points);
         const bench_work work = {find_weights, &context, 1.0};
         bench_print_seconds(options, name, &work);
     }

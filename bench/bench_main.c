@@ -13,9 +13,9 @@
 /* A line a bench. */
 /* clang-format off */
 extern const bench bench_ao;
-extern const bench bench_ask;
-extern const bench bench_ask_calibration_alone;
-extern const bench bench_ask_speed_alone;
+extern const bench bench_adaptive;
+extern const bench bench_adaptive_calibration_alone;
+extern const bench bench_adaptive_speed_alone;
 extern const bench bench_defaults;
 extern const bench bench_domains;
 extern const bench bench_gather;
@@ -38,9 +38,9 @@ extern const bench bench_weights;
 
 static const bench *const benches[] = {
     &bench_ao,
-    &bench_ask,
-    &bench_ask_calibration_alone,
-    &bench_ask_speed_alone,
+    &bench_adaptive,
+    &bench_adaptive_calibration_alone,
+    &bench_adaptive_speed_alone,
     &bench_defaults,
     &bench_domains,
     &bench_gather,

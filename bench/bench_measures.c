@@ -70,7 +70,7 @@ static bool bench_sums(const bench_options *options) {
         free(fast.coordinates);
         return bench_fail("out of memory");
     }
-    structured.points = *aur_points_look(fibonacci);
+    structured.points = *aur_points_get_view(fibonacci);
     structured.options.fast = false;
     measure_context exact = fast, shared = fast;
     exact.options.fast = false;

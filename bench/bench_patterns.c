@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask_scene.h"
+#include "adaptive_scene.h"
 #include "child.h"
 #include "error_pattern.h"
 #include "figures.h"
@@ -37,7 +37,7 @@ static double clumps_of(const error_blocks *squares) {
 }
 
 /* The sums of a picture's error, less those of the truth's own. */
-static void add(const bench_ask_scene *known, const error_pattern *error, const error_pattern *own,
+static void add(const bench_adaptive_scene *known, const error_pattern *error, const error_pattern *own,
                 alike *sum) {
     const error_blocks seen = error_pattern_blocks(error, BLOCK),
                        known_off = error_pattern_blocks(own, BLOCK);
@@ -58,22 +58,22 @@ static void add(const bench_ask_scene *known, const error_pattern *error, const 
 }
 
 /* Pictures of two seeds: what each is wrong by, and what they are not wrong by alike. */
-static aur_result add_pair(const bench_ask_scene *known, uint64_t seed, alike *sum, aur_error *error) {
-    double values[2][BENCH_ASK_MOST_VALUES];
+static aur_result add_pair(const bench_adaptive_scene *known, uint64_t seed, alike *sum, aur_error *error) {
+    double values[2][BENCH_ADAPTIVE_MOST_VALUES];
     error_pattern own = {known->width, known->height, (double *)known->wrong};
     aur_result result = AUR_OK;
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k) {
-        aur_ask *ask = NULL;
+        aur_adaptive *adaptive = NULL;
         aur_image *image = NULL;
-        result = bench_ask_scene_render(known, seed + k, &ask, &image, error);
+        result = bench_adaptive_scene_render(known, seed + k, &adaptive, &image, error);
         for (size_t i = 0; i < known->count && result == AUR_OK; ++i)
             values[k][i] = (double)aur_image_data(image)[i] - known->values[i];
         if (result == AUR_OK) {
-            sum->gathered += strstr(aur_ask_integrator(ask), "finalgather") != NULL;
+            sum->gathered += strstr(aur_adaptive_integrator(adaptive), "finalgather") != NULL;
             add(known, &(error_pattern){known->width, known->height, values[k]}, &own, sum);
         }
         aur_image_destroy(image);
-        aur_ask_destroy(ask);
+        aur_adaptive_destroy(adaptive);
     }
     for (size_t i = 0; i < known->count; ++i)
         values[0][i] -= values[1][i];
@@ -95,7 +95,7 @@ static average average_of(size_t count, const double *seeds) {
     return (average){mean, sqrt(squares / (n * (n - 1.0)))};
 }
 
-static double print(const char *name, const bench_ask_scene *known, const alike *found) {
+static double print(const char *name, const bench_adaptive_scene *known, const alike *found) {
     const double n = (double)found->seeds;
     double most = -INFINITY;
     printf("  %-34.34s %5.3g %6.2f %6.2f %6.2f +- %.2f %7.2f\n", name, known->row.asked,
@@ -119,14 +119,14 @@ static double print(const char *name, const bench_ask_scene *known, const alike 
     return most;
 }
 
-static aur_result study(const bench_options *options, const bench_ask_row *row, const char *name,
+static aur_result study(const bench_options *options, const bench_adaptive_row *row, const char *name,
                         const char *folder, bench_figures *figures, aur_error *error) {
-    bench_ask_scene known;
+    bench_adaptive_scene known;
     alike found = {.seeds = 0};
-    aur_result result = bench_ask_scene_open(options, row, folder, &known, error);
+    aur_result result = bench_adaptive_scene_open(options, row, folder, &known, error);
     for (size_t i = 0; i < (options->quick ? QUICK_SEEDS : SEEDS) && result == AUR_OK; i += 2)
         result = add_pair(&known, FIRST_SEED + i, &found, error);
-    bench_ask_scene_close(&known);
+    bench_adaptive_scene_close(&known);
     if (result != AUR_OK)
         return result;
     const double peak = print(name, &known, &found);
@@ -145,14 +145,14 @@ static bool run(const bench_options *options) {
         return false;
     bench_figures figures = {0};
     printf("  %-34s %5s %6s %6s %14s %7s\n", "scene", "asked", "gather", "error", "8 x 8 means", "between");
-    for (size_t i = 0; i < bench_ask_row_count && !(options->quick && i > 0); ++i) {
-        bench_ask_row row = bench_ask_rows[i];
+    for (size_t i = 0; i < bench_adaptive_row_count && !(options->quick && i > 0); ++i) {
+        bench_adaptive_row row = bench_adaptive_rows[i];
         if (row.scene[0] == '.')
             continue;
         char name[64];
         snprintf(name, sizeof name, "%.50s%s", row.scene, row.scale > 1 ? ", fine" : "");
         if (!options->quick)
-            row.scale = BENCH_ASK_MOST_SCALE;
+            row.scale = BENCH_ADAPTIVE_MOST_SCALE;
         aur_error error = {0};
         if ((options->only == NULL || strstr(name, options->only) != NULL) &&
             study(options, &row, name, folder, &figures, &error) != AUR_OK)

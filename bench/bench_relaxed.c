@@ -20,7 +20,7 @@ static void relax(void *data) {
     request.dimension = context->domain == AUR_DOMAIN_SQUARE ? 2 : 0;
     aur_points *points = NULL;
     if (aur_points_generate(context->set, &request, &points, NULL) == AUR_OK) {
-        bench_keep(aur_points_look(points)->coordinates[0]);
+        bench_keep(aur_points_get_view(points)->coordinates[0]);
         aur_points_destroy(points);
     } else
         context->failed = true;

@@ -38,7 +38,7 @@ static double open_share(RTCScene scene, const char *set, size_t count) {
     if (aur_points_generate(set, &request, &points, NULL) != AUR_OK)
         return NAN;
     for (size_t i = 0; i < count; ++i)
-        seen += is_open(scene, aur_points_look(points)->coordinates + 3 * i);
+        seen += is_open(scene, aur_points_get_view(points)->coordinates + 3 * i);
     aur_points_destroy(points);
     return seen / (double)count;
 }

@@ -48,7 +48,7 @@ int main(void) {
             fprintf(stderr, "%s\n", error.message);
             return 1;
         }
-        judge(sets[which], aur_points_look(points));
+        judge(sets[which], aur_points_get_view(points));
         aur_points_destroy(points);
     }
     return 0;

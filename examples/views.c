@@ -26,14 +26,14 @@ int main(int argc, char **argv) {
     aur_error error;
     aur_result result = aur_points_generate("spherical-fibonacci", &request, &views, &error);
     if (result == AUR_OK)
-        result = aur_measure("covering", aur_points_look(views), &within, &covering, &error);
+        result = aur_measure("covering", aur_points_get_view(views), &within, &covering, &error);
     if (result == AUR_OK)
-        result = aur_measure("min-angle", aur_points_look(views), &within, &apart, &error);
+        result = aur_measure("min-angle", aur_points_get_view(views), &within, &apart, &error);
     if (result != AUR_OK) {
         fprintf(stderr, "%s\n", error.message);
         return 1;
     }
-    const double degrees = 57.29577951308232, *const xyz = aur_points_look(views)->coordinates;
+    const double degrees = 57.29577951308232, *const xyz = aur_points_get_view(views)->coordinates;
     for (uint64_t i = 0; i < count; ++i)
         printf("view %llu: %.4f %.4f %.4f\n", (unsigned long long)i + 1, 0.5 * xyz[3 * i],
                0.5 * xyz[3 * i + 1], 0.5 * xyz[3 * i + 2]);

@@ -30,9 +30,9 @@ static void turn_on(int stream, int kept) {
 
 /* Limits hold for the fuzzer itself once they are read, and options may be shortened: --mem 8 is
  * --memory-limit. */
-static bool may_limit(const char *verb, const char *argument) {
+static bool may_limit(const char *command, const char *argument) {
     const size_t length = strcspn(argument, "=");
-    if (length == strlen("--time") && strcmp(verb, "render") == 0)
+    if (length == strlen("--time") && strcmp(command, "render") == 0)
         return strncmp(argument, "--memory-limit", length) == 0;
     return length > 2 && (strncmp(argument, "--memory-limit", length) == 0 ||
                           strncmp(argument, "--time-limit", length) == 0);
@@ -51,20 +51,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
          word = strtok_r(NULL, " \n", &rest))
         arguments[count++] = word;
     arguments[count] = NULL;
-    const cli_verb *const verb = count > 0 ? find_verb(arguments[0]) : NULL;
+    const cli_command *const command = count > 0 ? find_command(arguments[0]) : NULL;
     bool limits = false;
     for (int i = 1; i < count; ++i)
         limits = limits || may_limit(arguments[0], arguments[i]);
-    if (verb != NULL && !limits) {
-        cli_call call = {.verbs = verbs, .options = calloc(1, verb->size + 1)};
+    if (command != NULL && !limits) {
+        cli_call call = {.commands = commands, .options = calloc(1, command->size + 1)};
         fuzz_require(call.options != NULL, "out of memory");
         const int kept = turn_off(STDERR_FILENO);
-        const bool good = cli_read_options(verb, count, arguments, &call);
+        const bool good = cli_read_options(command, count, arguments, &call);
         turn_on(STDERR_FILENO, kept);
         for (size_t i = 0; good && i < call.operand_count; ++i)
             fuzz_require(call.operands[i] != NULL, "an operand that is none");
         const cli_option *option;
-        for (size_t i = 0; good && (option = cli_option_at(verb, i, NULL)) != NULL; ++i)
+        for (size_t i = 0; good && (option = cli_option_at(command, i, NULL)) != NULL; ++i)
             if (call.texts[i] != NULL)
                 fuzz_require(cli_given(&call, option->key.name) != NULL, "an option that was given is not");
         free(call.options);

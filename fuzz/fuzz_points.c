@@ -26,7 +26,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_OPEN, "a failure of the wrong kind");
         return 0;
     }
-    const aur_points_view *const view = aur_points_look(points);
+    const aur_points_view *const view = aur_points_get_view(points);
     fuzz_require(view->dimension > 0 && view->coordinates != NULL, "points without coordinates");
     double sum = 0.0; /* every value can be read and is finite */
     for (size_t i = 0; i < view->count * view->dimension; ++i)

@@ -40,7 +40,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                      "a failure of the wrong kind");
         return 0;
     }
-    const aur_sensors_view *const view = aur_sensors_look(sensors);
+    const aur_sensors_view *const view = aur_sensors_get_view(sensors);
     fuzz_require(view->count > 0, "sensors that are none");
     for (size_t i = 0; i < view->count; ++i) {
         const double *const n = view->normals + 3 * i;

@@ -80,8 +80,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(error.result == AUR_ERROR_FORMAT && error.message[0] != '\0' && weather == NULL,
                      "a failure of the wrong kind, or without a message");
     else
-        fuzz_require(aur_weather_look(weather)->count % 24 == 0 &&
-                         aur_weather_look(weather)->count <= LEAP_YEAR,
+        fuzz_require(aur_weather_get_view(weather)->count % 24 == 0 &&
+                         aur_weather_get_view(weather)->count <= LEAP_YEAR,
                      "a year of other hours");
     aur_weather_destroy(weather);
     return 0;

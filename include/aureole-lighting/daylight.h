@@ -58,7 +58,7 @@ AUR_EXPERIMENTAL aur_result aur_weather_read(const char *path, aur_weather **wea
     AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL void aur_weather_destroy(aur_weather *weather); /* NULL is allowed */
 /* Its arrays, with all fields set, for as long as it is kept. */
-AUR_EXPERIMENTAL const aur_weather_view *aur_weather_look(const aur_weather *weather) AUR_NONNULL(1);
+AUR_EXPERIMENTAL const aur_weather_view *aur_weather_get_view(const aur_weather *weather) AUR_NONNULL(1);
 
 /* --- estimates */
 

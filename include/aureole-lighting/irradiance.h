@@ -59,7 +59,7 @@ AUR_EXPERIMENTAL aur_result aur_sensors_read(const char *path, const aur_sensors
                                              aur_sensors **sensors, aur_error *error) AUR_NONNULL(1, 3);
 AUR_EXPERIMENTAL void aur_sensors_destroy(aur_sensors *sensors);
 /* Their arrays, with all fields set, for as long as they are kept. */
-AUR_EXPERIMENTAL const aur_sensors_view *aur_sensors_look(const aur_sensors *sensors) AUR_NONNULL(1);
+AUR_EXPERIMENTAL const aur_sensors_view *aur_sensors_get_view(const aur_sensors *sensors) AUR_NONNULL(1);
 
 /* --- estimates */
 

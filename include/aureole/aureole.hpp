@@ -251,7 +251,7 @@ class points {
     }
 
     const aur_points_view &view() const noexcept {
-        return *aur_points_look(owned_.get());
+        return *aur_points_get_view(owned_.get());
     }
     std::size_t size() const noexcept {
         return view().count;

@@ -187,7 +187,7 @@ static inline aur_points_view aur_points_view_of(aur_domain domain, size_t count
 typedef struct aur_points aur_points;
 AUR_API void aur_points_destroy(aur_points *points);
 /* Their arrays, with all fields set, for as long as they are kept. */
-AUR_API const aur_points_view *aur_points_look(const aur_points *points) AUR_NONNULL(1);
+AUR_API const aur_points_view *aur_points_get_view(const aur_points *points) AUR_NONNULL(1);
 
 /* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, w,x,y,z for rotations,
  * u1,u2,... for the cube, and w after it where there are weights; without a header two columns are u,v and

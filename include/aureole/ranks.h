@@ -43,7 +43,7 @@ typedef struct aur_rank_description {
     char host[AUR_RANK_HOST_CAPACITY];
     uint64_t sent, received; /* bytes */
     double cpu_seconds;      /* of the process */
-    double talk_seconds;     /* of them, in talking to other ranks */
+    double message_seconds;  /* of them, in talking to other ranks */
 } aur_rank_description;
 
 /* On rank 0, fills ranks[aur_ranks_count()]; on others, nothing. All ranks call it. */

@@ -157,7 +157,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     free(made);
     if (made == NULL || result != AUR_OK)
         return made == NULL ? AUR_ERROR_MEMORY : result;
-    const bool chance = outside <= allowed_outside(points);
+    const bool probability = outside <= allowed_outside(points);
     lab_note(run,
              "%zu of %zu cases hold: references within %g of the largest value, every point within %g, none "
              "beyond %g standard errors",
@@ -166,7 +166,7 @@ static aur_result run(lab_run *run, aur_error *error) {
              "%zu of %zu points are outside of their intervals of 99 %%; chance has at most %zu but for once "
              "in 1000",
              outside, points, allowed_outside(points));
-    lab_note(run, "verdict: %s", failed == 0 && chance ? "all holds" : "something fails");
+    lab_note(run, "verdict: %s", failed == 0 && probability ? "all holds" : "something fails");
     return AUR_OK;
 }
 

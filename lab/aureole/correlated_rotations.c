@@ -112,7 +112,8 @@ static aur_result measure(study *s, const char *set, size_t directions, const ch
                 values[b * s->seeds + k] +=
                     blurred_square(s, image, c, &blurs[b]) / (CHANNELS * s->mean * s->mean);
         }
-        const lab_picture_place place = {view, form, .exposure = 1.5}, truth = {view, "reference", true, 1.5};
+        const lab_image_position place = {view, form, .exposure = 1.5},
+                                 truth = {view, "reference", true, 1.5};
         if (result == AUR_OK && k == 0)
             result = lab_picture(s->run, &place, image, error);
         if (result == AUR_OK && k == 0 && form == forms[0])

@@ -86,7 +86,7 @@ static aur_result add_set(lab_run *run, const char *set, aur_domain domain, size
         double value;
         if (!find_metric(aur_measure_at(m), domain, metric))
             continue;
-        result = aur_measure(metric, aur_points_look(made), &how, &value, error);
+        result = aur_measure(metric, aur_points_get_view(made), &how, &value, error);
         if (result == AUR_OK)
             lab_row(run, (const char *const[]){aur_domain_name(domain), metric, set, NULL}, 2,
                     (const double[]){(double)size, value});

@@ -49,7 +49,7 @@ static aur_result row(lab_run *run, const char *set, bool judged, aur_error *err
     const aur_result result = aur_points_generate(set, &request, &points, error);
     if (result != AUR_OK)
         return result;
-    const prefix_figures found = measure(aur_points_look(points));
+    const prefix_figures found = measure(aur_points_get_view(points));
     aur_points_destroy(points);
     lab_text(run, set);
     lab_number(run, FIRST);

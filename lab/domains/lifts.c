@@ -100,9 +100,9 @@ static aur_result find_generator(size_t count, size_t threads, double *wxyz, siz
                                  aur_error *error) {
     double least = INFINITY;
     for (size_t n = SEARCHED; n <= (count > SEARCHED ? count : SEARCHED); n *= 2) {
-        const size_t kept = *generator;
+        const size_t store = *generator;
         least = INFINITY;
-        for (size_t g = n == SEARCHED ? 1 : kept; g < n; g += n == SEARCHED ? 2 : n / 2) {
+        for (size_t g = n == SEARCHED ? 1 : store; g < n; g += n == SEARCHED ? 2 : n / 2) {
             double energy;
             fill_lattice(n, g, wxyz);
             const aur_result result = figure("energy", n, wxyz, threads, &energy, error);
@@ -132,7 +132,7 @@ static aur_result make(const lift *from, size_t count, size_t threads, double *w
     const aur_result result = aur_points_generate(from->set, &request, &points, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const view = aur_points_look(points);
+    const aur_points_view *const view = aur_points_get_view(points);
     if (from->turn != NULL)
         turn_directions(from->turn, view, wxyz);
     else

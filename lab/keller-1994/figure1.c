@@ -71,7 +71,7 @@ static aur_result render_scene(lab_run *run, size_t index, const lab_stage *stag
             result =
                 picture(run, stage, "path", width, quick ? 8 : 32, 1 + k, &images[1 + k], &means[k], error);
         if (result == AUR_OK) {
-            lab_picture_place place = {.view = name, .name = "radiosity", .exposure = 0.5};
+            lab_image_position place = {.view = name, .name = "radiosity", .exposure = 0.5};
             result = lab_picture(run, &place, images[0], error);
             place.name = "path";
             place.reference = true;

@@ -97,7 +97,7 @@ static aur_result picture(lab_run *run, double off[2], aur_error *error) {
             result = aur_image_mean(images[k], means[k], error);
         if (result == AUR_OK && k < 2)
             result =
-                lab_picture(run, &(lab_picture_place){"mirror", names[k], k == 1, 0.0}, images[k], error);
+                lab_picture(run, &(lab_image_position){"mirror", names[k], k == 1, 0.0}, images[k], error);
     }
     const double truth = 0.5 * (means[1][3] + means[2][3]);
     off[0] = 100.0 * (means[0][3] / truth - 1.0);

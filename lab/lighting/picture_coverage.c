@@ -1,6 +1,6 @@
 /* How often the intervals of pictures' errors hold, of fixed rounds and of renders that an error asked has
  * stopped, and those of measures of randomised sets. */
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole/pointset.h>
 #include <aureole/quality.h>
 #include <math.h>
@@ -26,20 +26,20 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     options.filter = "box";
     options.seed = seed;
     options.threads = lab_run_options(run)->threads;
-    aur_ask_options wish = {.size = sizeof wish};
-    aur_ask_options_init(&wish, NULL);
+    aur_adaptive_options wish = {.size = sizeof wish};
+    aur_adaptive_options_init(&wish, NULL);
     wish.error = asked;
     wish.rounds = asked > 0.0 ? 0 : 2;
-    aur_ask *ask = NULL;
+    aur_adaptive *ask = NULL;
     aur_image *image = NULL;
-    aur_ask_report report = {.size = sizeof report};
-    aur_result result = aur_ask_create(renderer, &options, &wish, &ask, error);
+    aur_adaptive_report report = {.size = sizeof report};
+    aur_result result = aur_adaptive_create(renderer, &options, &wish, &ask, error);
     if (result == AUR_OK)
-        result = aur_ask_run(ask, error);
+        result = aur_adaptive_run(ask, error);
     if (result == AUR_OK)
-        result = aur_ask_get_report(ask, &report, error);
+        result = aur_adaptive_get_report(ask, &report, error);
     if (result == AUR_OK)
-        result = aur_ask_develop(ask, false, &image, error);
+        result = aur_adaptive_develop(ask, false, &image, error);
     if (result == AUR_OK) {
         memcpy(made->values, aur_image_data(image), sizeof made->values);
         made->low = report.error_low;
@@ -48,7 +48,7 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
         made->samples = report.samples_per_pixel;
     }
     aur_image_destroy(image);
-    aur_ask_destroy(ask);
+    aur_adaptive_destroy(ask);
     return result;
 }
 

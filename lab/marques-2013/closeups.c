@@ -44,7 +44,7 @@ typedef struct study {
 static aur_result put(study *s, const char *name, const aur_image *image, aur_error *error) {
     char view[80];
     snprintf(view, sizeof view, "%s, %s", s->scene->name, s->window->name);
-    const lab_picture_place place = {view, name, image == s->references[0], s->of->stops};
+    const lab_image_position place = {view, name, image == s->references[0], s->of->stops};
     return lab_picture(s->run, &place, image, error);
 }
 
@@ -133,7 +133,7 @@ static aur_result draw_sheet(const study *s, aur_error *error) {
     }
     char name[80];
     snprintf(name, sizeof name, "sheet, %s, %s", s->scene->name, s->window->name);
-    const lab_picture_place place = {.name = name};
+    const lab_image_position place = {.name = name};
     if (result == AUR_OK)
         result = lab_picture(s->run, &place, sheet, error);
     aur_image_destroy(sheet);
@@ -203,7 +203,7 @@ static aur_result draw_whole(const study *s, aur_error *error) {
     memset(what.crop, 0, sizeof what.crop);
     what.pattern = &s->patterns[0];
     what.diffuse = what.glossy = 32;
-    const lab_picture_place place = {.name = s->scene->name, .exposure = s->of->stops};
+    const lab_image_position place = {.name = s->scene->name, .exposure = s->of->stops};
     aur_result result = marques_gather(s->run, s->stage.renderer, &what, &image, error);
     if (result == AUR_OK)
         result = lab_picture(s->run, &place, image, error);

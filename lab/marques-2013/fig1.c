@@ -45,7 +45,7 @@ static aur_result need_references(study *s, aur_error *error) {
         return AUR_OK;
     const aur_result result = marques_references(s->run, s->stage.renderer, &s->form, s->reference_directions,
                                                  s->references, error);
-    const lab_picture_place place = {"plates", "reference", true, 1.0};
+    const lab_image_position place = {"plates", "reference", true, 1.0};
     return result != AUR_OK ? result : lab_picture(s->run, &place, s->references[0], error);
 }
 
@@ -69,7 +69,7 @@ static aur_result measure(study *s, const char *set, size_t directions,
             values[k] = lab_mean_product(image, s->references[0], s->references[1]);
             values[s->seeds + k] = largest_product(image, s->references[0], s->references[1]);
         }
-        const lab_picture_place place = {"plates", set, .exposure = 1.0};
+        const lab_image_position place = {"plates", set, .exposure = 1.0};
         if (result == AUR_OK && k == 0 && directions == SHOWN)
             result = lab_picture(s->run, &place, image, error);
         aur_image_destroy(image);

@@ -68,7 +68,7 @@ static aur_result add_view(sheet *s, const marques_pattern *pattern, aur_domain 
     const aur_result result = marques_points(pattern, domain, s->count, 0, &made, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view points = *aur_points_look(made);
+    const aur_points_view points = *aur_points_get_view(made);
     view *const v = &s->views[s->view_count++];
     *v = (view){.set = pattern->set,
                 .projection = domain == AUR_DOMAIN_SQUARE ? "square" : pattern->label,
@@ -146,7 +146,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (result == AUR_OK)
         judge(&s);
     if (result == AUR_OK)
-        result = lab_picture(run, &(lab_picture_place){.name = "drawing"}, s.drawn, error);
+        result = lab_picture(run, &(lab_image_position){.name = "drawing"}, s.drawn, error);
     aur_image_destroy(s.drawn);
     return result;
 }

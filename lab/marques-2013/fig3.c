@@ -36,7 +36,7 @@ static aur_result measure(const study *s, const marques_pattern *pattern, size_t
     how.threads = lab_run_options(s->run)->threads;
     aur_result result = marques_points(pattern, s->domain, count, seed, &points, error);
     for (size_t m = 0; m < METRICS && result == AUR_OK; ++m)
-        result = aur_measure(metrics[m], aur_points_look(points), &how, &value[m], error);
+        result = aur_measure(metrics[m], aur_points_get_view(points), &how, &value[m], error);
     aur_points_destroy(points);
     return result;
 }

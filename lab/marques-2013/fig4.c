@@ -133,7 +133,7 @@ static aur_result study_component(study *s, aur_error *error) {
 
 /* One of two equal patterns lies below the other's interval in 1 of 40 cases; so many of `count`, and two
  * standard deviations. */
-static size_t by_chance(size_t count) {
+static size_t by_probability(size_t count) {
     const double mean = (double)count / 40.0;
     return (size_t)(mean + 2.0 * sqrt(mean));
 }
@@ -171,14 +171,14 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (result != AUR_OK)
         return result;
     lab_claim(
-        run, s.beaten <= by_chance(s.rivals),
+        run, s.beaten <= by_probability(s.rivals),
         "spherical Fibonacci is never outperformed: a rival is better beyond its interval in %zu of %zu, "
         "chance has up to %zu",
-        s.beaten, s.rivals, by_chance(s.rivals));
-    lab_claim(run, s.steeper <= by_chance(s.lines),
+        s.beaten, s.rivals, by_probability(s.rivals));
+    lab_claim(run, s.steeper <= by_probability(s.lines),
               "its slope is as good as or better than the others': %zu of %zu fall faster beyond the "
               "intervals, chance has up to %zu",
-              s.steeper, s.lines, by_chance(s.lines));
+              s.steeper, s.lines, by_probability(s.lines));
     return AUR_OK;
 }
 

@@ -63,7 +63,7 @@ static aur_result need_reference(gather_study *study, const char *component, aur
                                                study->reference_directions, 0, &study->reference, error);
     if (result != AUR_OK)
         return result;
-    const lab_picture_place place = {
+    const lab_image_position place = {
         .view = component, .name = "reference", .reference = true, .exposure = 1.0};
     return lab_picture(study->run, &place, study->reference, error);
 }
@@ -85,7 +85,7 @@ static aur_result measure(gather_study *study, const char *component, const char
         if (result == AUR_OK)
             mse[k] = value[3];
         if (result == AUR_OK && k == 0 && directions == 64) {
-            const lab_picture_place place = {.view = component, .name = set, .exposure = 1.0};
+            const lab_image_position place = {.view = component, .name = set, .exposure = 1.0};
             result = lab_picture(study->run, &place, image, error);
         }
         aur_image_destroy(image);
@@ -145,8 +145,8 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
         char integrator[96];
         snprintf(integrator, sizeof integrator, "finalgather:photons=%zu", study->photons);
         aur_image *pictures[2] = {NULL}, *small[2] = {NULL};
-        static const lab_picture_place places[2] = {{"whole light", "finalgather", .exposure = 0.5},
-                                                    {"whole light", "path", true, 0.5}};
+        static const lab_image_position places[2] = {{"whole light", "finalgather", .exposure = 0.5},
+                                                     {"whole light", "path", true, 0.5}};
         aur_result result = render(study, integrator, study->path_samples / 4, 1, &pictures[0], error);
         if (result == AUR_OK)
             result = render(study, "path", study->path_samples, 2, &pictures[1], error);

@@ -142,7 +142,7 @@ static double rays_needed(const table_study *study, double at_directions, double
     return (double)study->directions * pow(base / at_directions, 1.0 / slope);
 }
 
-static const char *rival_at(const table_study *study, size_t rival) {
+static const char *candidate_at(const table_study *study, size_t rival) {
     return rival < RIVALS ? rivals[rival] : lab_run_options(study->run)->set;
 }
 
@@ -150,7 +150,7 @@ static const char *rival_at(const table_study *study, size_t rival) {
 static bool wanted(const table_study *study, size_t component, size_t map, size_t rival) {
     char name[160];
     snprintf(name, sizeof name, "%s/%s/%s/%.80s", study->scene->name, components[component], maps[map],
-             rival_at(study, rival));
+             candidate_at(study, rival));
     return lab_wants(study->run, name) && !(study->quick && rival == 1);
 }
 
@@ -163,7 +163,7 @@ static bool any_wanted(const table_study *study, size_t component, size_t count)
 
 static aur_result add_rival(table_study *study, size_t component, size_t map, size_t rival, table_cell base,
                             aur_error *error) {
-    const char *const set = rival_at(study, rival);
+    const char *const set = candidate_at(study, rival);
     table_cell cell, more;
     aur_result result = measure(study, set, maps[map], study->directions, rival_half, &cell, error);
     if (result == AUR_OK)
@@ -195,7 +195,7 @@ static aur_result study_component(table_study *study, size_t component, aur_erro
         for (size_t map = 0; map < 2 && result == AUR_OK; ++map)
             for (size_t rival = 0; rival < count && result == AUR_OK; ++rival)
                 if (wanted(study, component, map, rival))
-                    result = lab_forgive(study->run, rival_at(study, rival),
+                    result = lab_forgive(study->run, candidate_at(study, rival),
                                          add_rival(study, component, map, rival, base, error), error);
     for (size_t i = 0; i < 2; ++i) {
         aur_image_destroy(study->references[i]);

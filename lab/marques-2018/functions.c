@@ -67,7 +67,7 @@ static void draw(const kernel_sum *f, report_table *table) {
 
 /* Errors of Fibonacci points with equal and with optimal weights, and their bounds. */
 static aur_result integrate(lab_run *run, const kernel_sum *f, const aur_potential *potential, size_t count,
-                            size_t *kept, aur_error *error) {
+                            size_t *store, aur_error *error) {
     double xyz[3 * MOST], weights[MOST], z[CENTRES], errors[2] = {0};
     aur_weights_report report;
     aur_result result =
@@ -89,7 +89,7 @@ static aur_result integrate(lab_run *run, const kernel_sum *f, const aur_potenti
     lab_row(run, (const char *const[]){NULL}, 6,
             (const double[]){f->s, (double)count, fabs(errors[0]), report.equal_error, fabs(errors[1]),
                              report.optimal_error});
-    *kept += fabs(errors[0]) <= report.equal_error && fabs(errors[1]) <= report.optimal_error;
+    *store += fabs(errors[0]) <= report.equal_error && fabs(errors[1]) <= report.optimal_error;
     return AUR_OK;
 }
 
@@ -97,7 +97,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     static const size_t sizes[SIZES] = {8, 32, 128, 512};
     static const char *const drawn[] = {"s", "phi", "f", NULL};
     report_table *const table = lab_table(run, "functions", drawn);
-    size_t kept = 0;
+    size_t store = 0;
     aur_result result = AUR_OK;
     for (size_t k = 0; k < SMOOTHNESSES && result == AUR_OK; ++k) {
         kernel_sum f;
@@ -108,13 +108,13 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (result == AUR_OK)
             draw(&f, table);
         for (size_t n = 0; n < SIZES && result == AUR_OK; ++n)
-            result = integrate(run, &f, potential, sizes[n], &kept, error);
+            result = integrate(run, &f, potential, sizes[n], &store, error);
         aur_potential_destroy(potential);
     }
-    lab_claim(run, kept == SMOOTHNESSES * SIZES,
+    lab_claim(run, store == SMOOTHNESSES * SIZES,
               "eq. 7: the errors with equal and with optimal weights are below their worst-case errors, in "
               "%zu of %d cases",
-              kept, SMOOTHNESSES * SIZES);
+              store, SMOOTHNESSES * SIZES);
     return result;
 }
 

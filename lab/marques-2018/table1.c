@@ -107,8 +107,8 @@ static aur_result measure_one(picture_study *study, const char *set, way w, size
     if (result == AUR_OK && scramble == 0) {
         char view[160];
         snprintf(view, sizeof view, "%s, %.80s", study->subject->name, set);
-        const lab_picture_place place = {.view = view, .name = ways[w].name, .exposure = 1.0};
-        const lab_picture_place truth = {view, "reference", true, 1.0};
+        const lab_image_position place = {.view = view, .name = ways[w].name, .exposure = 1.0};
+        const lab_image_position truth = {view, "reference", true, 1.0};
         result = lab_picture(study->run, &place, image, error);
         if (result == AUR_OK && w == OSWA)
             result = lab_picture(study->run, &truth, study->gather.reference, error);

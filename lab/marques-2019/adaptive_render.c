@@ -154,7 +154,7 @@ static aur_result draw_map(const adaptive_study *study, const adaptive_way *way,
     }
     char view[64];
     snprintf(view, sizeof view, "sampling map, %s", study->lobe->name);
-    result = lab_picture(study->run, &(lab_picture_place){.view = view, .name = way->criterion}, map, error);
+    result = lab_picture(study->run, &(lab_image_position){.view = view, .name = way->criterion}, map, error);
     aur_image_destroy(map);
     return result;
 }
@@ -165,7 +165,7 @@ static aur_result draw_one(const adaptive_study *study, const adaptive_way *way,
     aur_result result = adaptive_render(study, way, 1, true, &image, error);
     if (result == AUR_OK && way->criterion != NULL)
         result = draw_map(study, way, image, error);
-    const lab_picture_place place = {
+    const lab_image_position place = {
         .view = study->lobe->name, .name = name, .reference = reference, .exposure = 1.0};
     if (result == AUR_OK)
         result = lab_picture(study->run, &place, image, error);

@@ -6,7 +6,7 @@
 #include "program/lab/lab.h"
 #include "program/lab/points.h"
 
-enum { SIZES = 7, BASE = 64, FIRST_RIVAL = 3, SETS = 6 };
+enum { SIZES = 7, BASE = 64, FIRST_CANDIDATE = 3, SETS = 6 };
 
 static const char *const sets[SETS] = {"spherical-fibonacci",
                                        "esfg:base=64,levels=3,first-shift=paper",
@@ -70,10 +70,10 @@ static void judge(lab_run *run, size_t grid, size_t count, double scd[SETS][SIZE
             doubled = fmax(doubled, over);
             line = fmax(line, 100.0 * (own[k] / sqrt(own[k - 1] * own[k + 1]) - 1.0));
         }
-        for (size_t r = FIRST_RIVAL; r < SETS; ++r, ++compared)
+        for (size_t r = FIRST_CANDIDATE; r < SETS; ++r, ++compared)
             below += own[k] < scd[r][k];
     }
-    for (size_t r = FIRST_RIVAL; r < SETS; ++r)
+    for (size_t r = FIRST_CANDIDATE; r < SETS; ++r)
         steeper = steeper && slope_of(count, own).value < slope_of(count, scd[r]).value;
     const double slope = slope_of(count, own).value;
     lab_note(run, "%s:", sets[grid]);
@@ -101,7 +101,7 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (result == AUR_OK)
             add_rows(run, slopes, sets[s], count, scd[s], scd[0]);
     }
-    for (size_t g = 1; g < FIRST_RIVAL && result == AUR_OK; ++g)
+    for (size_t g = 1; g < FIRST_CANDIDATE && result == AUR_OK; ++g)
         judge(run, g, count, scd);
     if (result == AUR_OK)
         lab_note(run, "Faure's sequence in base 2 %s Sobol's in the plane",

@@ -77,17 +77,17 @@ static aur_result show(lab_run *run, const shown *grid, const aur_points_view *p
         result = lab_canvas(SIDE, SIDE, &on.sphere, error);
     if (result == AUR_OK) {
         draw(&on, grid, points);
-        result = lab_picture(run, &(lab_picture_place){.view = "sphere", .name = name}, on.sphere, error);
+        result = lab_picture(run, &(lab_image_position){.view = "sphere", .name = name}, on.sphere, error);
     }
     if (result == AUR_OK)
-        result = lab_picture(run, &(lab_picture_place){.view = "plane", .name = name}, on.plane, error);
+        result = lab_picture(run, &(lab_image_position){.view = "plane", .name = name}, on.plane, error);
     aur_image_destroy(on.plane);
     aur_image_destroy(on.sphere);
     return result;
 }
 
 /* How many of the first points of a set are those that it has at another size, to the bit. */
-static size_t kept(const aur_points_view *points, const aur_points_view *smaller) {
+static size_t store(const aur_points_view *points, const aur_points_view *smaller) {
     size_t same = 0;
     for (size_t i = 0; i < smaller->count && i < points->count; ++i)
         same += memcmp(points->coordinates + points->stride * i, smaller->coordinates + smaller->stride * i,
@@ -143,11 +143,12 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (result != AUR_OK)
             break;
         const bool extended = g > 0 && grids[g].set == grids[g - 1].set;
-        const size_t same = extended ? kept(aur_points_look(made[g]), aur_points_look(made[g - 1])) : 0;
+        const size_t same =
+            extended ? store(aur_points_get_view(made[g]), aur_points_get_view(made[g - 1])) : 0;
         all_kept = all_kept && (!extended || same == grids[g - 1].size);
-        result = add_row(run, &grids[g], aur_points_look(made[g]), same, &uneven[g], error);
+        result = add_row(run, &grids[g], aur_points_get_view(made[g]), same, &uneven[g], error);
         if (result == AUR_OK)
-            result = show(run, &grids[g], aur_points_look(made[g]), table, error);
+            result = show(run, &grids[g], aur_points_get_view(made[g]), table, error);
     }
     if (result == AUR_OK)
         judge(run, uneven, all_kept);
@@ -158,7 +159,7 @@ static aur_result run(lab_run *run, aur_error *error) {
         result = lab_points_make(
             &(lab_points){.set = added, .domain = AUR_DOMAIN_SPHERE, .size = mine[g].size}, &points, error);
         if (result == AUR_OK)
-            result = add_row(run, &mine[g], aur_points_look(points), 0, &unused, error);
+            result = add_row(run, &mine[g], aur_points_get_view(points), 0, &unused, error);
         aur_points_destroy(points);
         result = lab_forgive(run, added, result, error);
     }

@@ -15,7 +15,7 @@ static aur_result to_plane(const char *set, size_t size, double **plane, aur_err
     *plane = NULL;
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const points = aur_points_look(made);
+    const aur_points_view *const points = aur_points_get_view(made);
     *plane = malloc(2 * size * sizeof **plane);
     for (size_t i = 0; i < size && *plane != NULL; ++i)
         aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, points->coordinates + points->stride * i,
@@ -148,7 +148,7 @@ static aur_result check_cells(lab_run *run, aur_error *error) {
     aur_result result = lab_points_make(&grid, &made, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const points = aur_points_look(made);
+    const aur_points_view *const points = aur_points_get_view(made);
     result = aur_measure_series("voronoi", points, NULL, &cells, error);
     for (size_t i = 0; result == AUR_OK && i < points->count; ++i) {
         const double *const cell = aur_series_values(cells) + i * aur_series_column_count(cells);

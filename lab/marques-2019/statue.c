@@ -95,7 +95,7 @@ static aur_result draw(const statue_study *study, const char *set, size_t diffus
                        bool reference, aur_error *error) {
     aur_image *image = NULL;
     aur_result result = render(study, set, diffuse, glossy, 1, true, &image, error);
-    const lab_picture_place place = {
+    const lab_image_position place = {
         .view = "fig. 10", .name = reference ? "reference" : set, .reference = reference};
     if (result == AUR_OK)
         result = lab_picture(study->run, &place, image, error);

@@ -45,7 +45,7 @@ static aur_result show(lab_run *run, report_table *table, const char *figure, co
     if (result != AUR_OK)
         return result;
     result = lab_canvas(SIDE, SIDE, &image, error);
-    const aur_points_view *const points = aur_points_look(made);
+    const aur_points_view *const points = aur_points_get_view(made);
     const char *const coordinates = polar ? "polar" : "Cartesian";
     for (size_t i = 0; i < points->count && result == AUR_OK; ++i) {
         const double *const x = points->coordinates + points->stride * i;
@@ -56,7 +56,7 @@ static aur_result show(lab_run *run, report_table *table, const char *figure, co
     char view[64];
     snprintf(view, sizeof view, "fig. %s, %s", figure, coordinates);
     if (result == AUR_OK)
-        result = lab_picture(run, &(lab_picture_place){.view = view, .name = set}, image, error);
+        result = lab_picture(run, &(lab_image_position){.view = view, .name = set}, image, error);
     aur_image_destroy(image);
     aur_points_destroy(made);
     return result;

@@ -43,7 +43,7 @@ def directions_options(
 
 def look(made: Any) -> tuple[Array, Optional[Array], str]:
     """The library's points as they lie there, their weights or None, and their domain."""
-    view = lib.aur_points_look(made)
+    view = lib.aur_points_get_view(made)
     stride = 8 * (view.stride or view.dimension)
     domain = core.text(lib.aur_domain_name(view.domain)) or ""
     points = kept(core, made, view.coordinates, (view.count, view.dimension), strides=(stride, 8), domain=domain)
@@ -139,8 +139,8 @@ def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) ->
     made = ffi.new("aur_points **")
     if domain is None:
         core.call(lib.aur_points_read, encode(path), ffi.NULL, made)
-        if lib.aur_points_look(made[0]).guessed:
-            _warn(core.text(lib.aur_domain_name(lib.aur_points_look(made[0]).domain)) or "", os.fspath(path))
+        if lib.aur_points_get_view(made[0]).guessed:
+            _warn(core.text(lib.aur_domain_name(lib.aur_points_get_view(made[0]).domain)) or "", os.fspath(path))
     else:
         core.call(lib.aur_points_read, encode(path), ffi.new("aur_domain *", core.value("domain", domain)), made)
     return look(core.own("points", made))

@@ -214,8 +214,8 @@ def render(
         else:
             wish = library.options("ask_options", error=error)
             ask = library.make("ask", renderer, options, wish, keep=(renderer, call))
-            library.call(library.lib.aur_ask_run, ask)
-            library.call(library.lib.aur_ask_develop, ask, False, image)
+            library.call(library.lib.aur_adaptive_run, ask)
+            library.call(library.lib.aur_adaptive_develop, ask, False, image)
     array, names = _picture(library.own("image", image))
     return _select(array, names, channels or ("R", "G", "B"))
 

@@ -2,7 +2,7 @@
 #include <aureole-lighting/daylight.h>
 #include <aureole-lighting/irradiance.h>
 #include <aureole-lighting/view_factors.h>
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole-render/film.h>
 #include <aureole-render/gather.h>
 #include <aureole-render/image.h>

@@ -44,7 +44,7 @@ C
 cat >consumer/CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.22)
 project(consumer LANGUAGES C)
-find_package(aureole 0.1 REQUIRED)
+find_package(aureole 0.2 REQUIRED)
 add_executable(consumer consumer.c)
 target_link_libraries(consumer PRIVATE Aureole::lighting)
 CMAKE
@@ -59,7 +59,7 @@ finds() {
   shift
   rm -rf finder
   mkdir finder
-  printf 'cmake_minimum_required(VERSION 3.22)\nproject(finder LANGUAGES C)\nfind_package(Threads)\nfind_package(aureole 0.1 REQUIRED COMPONENTS %s)\n' \
+  printf 'cmake_minimum_required(VERSION 3.22)\nproject(finder LANGUAGES C)\nfind_package(Threads)\nfind_package(aureole 0.2 REQUIRED COMPONENTS %s)\n' \
     "$*" >finder/CMakeLists.txt
   cmake -S finder -B finder/build -G Ninja -DCMAKE_PREFIX_PATH="$folder" >finder/log 2>&1
 }

@@ -43,7 +43,7 @@ static aur_facets *load_street(const double offset[3], bool both_sides) {
     return mesh_load(&file, &options);
 }
 
-static aur_view_factors_options wish_of(uint64_t seed, bool rays_only) {
+static aur_view_factors_options target_of(uint64_t seed, bool rays_only) {
     aur_view_factors_options wish = {.size = sizeof wish};
     aur_view_factors_options_init(&wish, NULL);
     wish.rays = 256;
@@ -86,7 +86,7 @@ static void compare(const sample *a, const sample *b, double rounding) {
 }
 
 static void add_factors(sample *s, const aur_facets *facets, uint64_t seed, bool rays_only, double *exact) {
-    const aur_view_factors_options wish = wish_of(seed, rays_only);
+    const aur_view_factors_options wish = target_of(seed, rays_only);
     aur_view_factors_matrix m;
     aur_view_factors *const factors = factors_of(facets, &wish, &m);
     check_physics(&m);
@@ -153,7 +153,7 @@ static void test_street(void **state) {
 
 static void add_radiosities(sample *s, const aur_facets *facets, uint64_t seed, bool matrix, bool sun) {
     const size_t rows = aur_facets_rows(facets);
-    const aur_view_factors_options wish = wish_of(seed, false);
+    const aur_view_factors_options wish = target_of(seed, false);
     aur_facets_light light = {.size = sizeof light};
     aur_facets_light_init(&light, NULL);
     light.reflectance = 0.3;
@@ -201,14 +201,14 @@ static void test_coverage(void **state) {
     (void)state;
     const double *const offset = offsets[2];
     aur_facets *const facets = load_room(offset, true);
-    aur_view_factors_options many = wish_of(77, false);
+    aur_view_factors_options many = target_of(77, false);
     many.rays = 1 << 18;
     many.threads = 0;
     aur_view_factors_matrix truth, m;
     aur_view_factors *const reference = factors_of(facets, &many, &truth);
     size_t held = 0, all = 0;
     for (uint64_t seed = 0; seed < 60; ++seed) {
-        const aur_view_factors_options wish = wish_of(seed, true);
+        const aur_view_factors_options wish = target_of(seed, true);
         aur_view_factors *const factors = factors_of(facets, &wish, &m);
         for (size_t i = 0; i < m.rows; ++i)
             for (size_t k = 0; k < i; ++k) {
@@ -257,7 +257,7 @@ static void test_sky_coverage(void **state) {
     for (size_t c = 0; c < 2; ++c) {
         size_t held = 0;
         for (uint64_t seed = 0; seed < RUNS; ++seed) {
-            aur_view_factors_options wish = wish_of(seed, true);
+            aur_view_factors_options wish = target_of(seed, true);
             wish.confidence = confidences[c];
             aur_view_factors_matrix m;
             aur_view_factors *const factors = factors_of(facets, &wish, &m);
@@ -296,7 +296,7 @@ static void test_small_facets(void **state) {
             aur_facets_options options = {.size = sizeof options};
             aur_facets_options_init(&options, NULL);
             aur_facets *const facets = mesh_load(&file, &options);
-            const aur_view_factors_options wish = wish_of(1, false);
+            const aur_view_factors_options wish = target_of(1, false);
             aur_view_factors_matrix m;
             aur_view_factors *const factors = factors_of(facets, &wish, &m);
             const double known = 64.0 * 0x1p-53 * (o[0] + o[1] + o[2]) / size;
@@ -325,7 +325,7 @@ static void test_far_speck(void **state) {
         aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
-        const aur_view_factors_options wish = wish_of(3, false);
+        const aur_view_factors_options wish = target_of(3, false);
         aur_view_factors_matrix m;
         aur_view_factors *const factors = factors_of(facets, &wish, &m);
         found[far] = factor_at(&m, 5, 8, NULL);
@@ -349,7 +349,7 @@ static void test_wide_ground(void **state) {
         aur_facets_options_init(&options, NULL);
         options.group = true;
         aur_facets *const facets = mesh_load(&file, &options);
-        aur_view_factors_options wish = wish_of(1, true);
+        aur_view_factors_options wish = target_of(1, true);
         wish.rays = 1 << 14;
         aur_view_factors_matrix m;
         aur_view_factors *const factors = factors_of(facets, &wish, &m);
@@ -369,7 +369,7 @@ static void test_tilted_square(void **state) {
         mesh_begin(&file, "tilted");
         moved_polygon(&file, &place, 4, (const double[4][3]){{-7, -6, 0}, {8, -6, 0}, {8, 9, 0}, {-7, 9, 0}});
         aur_facets *const facets = mesh_load(&file, NULL);
-        aur_view_factors_options wish = wish_of(1, true);
+        aur_view_factors_options wish = target_of(1, true);
         wish.rays = 1 << 16;
         aur_view_factors_matrix m;
         aur_view_factors *const factors = factors_of(facets, &wish, &m);

@@ -73,13 +73,13 @@ static void test_balance(void **state) {
     const aur_view_factors_description d = description_of(factors);
     const aur_parallel_options parallel = {.threads = 1};
     aur_facet_pattern pattern = {0};
-    aur_visits visits = {0};
+    aur_ray_hits visits = {0};
     aur_closed_pairs closed = {.patch_count = facets->patch_count,
                                .rows = calloc(facets->patch_count, sizeof *closed.rows)};
     aur_exchange exchange = {0};
     aur_balance balance = {0};
     assert_int_equal(aur_facet_pattern_create("sobol", 16, 9, &pattern, NULL), AUR_OK);
-    assert_int_equal(aur_visits_trace(facets, &pattern, 4, &parallel, &visits, NULL), AUR_OK);
+    assert_int_equal(aur_ray_hits_trace(facets, &pattern, 4, &parallel, &visits, NULL), AUR_OK);
     assert_int_equal(aur_exchange_assemble(facets, &visits, &closed, 0.95, &parallel, &exchange, NULL),
                      AUR_OK);
     assert_int_equal(aur_exchange_balance(&exchange, &parallel, &balance, NULL), AUR_OK);
@@ -87,7 +87,7 @@ static void test_balance(void **state) {
     assert_true(d.raw_row_error == balance.before && d.moved == balance.moved);
     aur_exchange_release(&exchange);
     aur_closed_pairs_release(&closed);
-    aur_visits_release(&visits);
+    aur_ray_hits_release(&visits);
     aur_facet_pattern_release(&pattern);
     aur_view_factors_destroy(factors);
     aur_facets_destroy(facets);

@@ -22,14 +22,14 @@ static void add_light(void *user, size_t lane, aur_vector direction, aur_vector 
         c->reflected[patch * AUR_DAYLIGHT_LANES + lane] += value;
 }
 
-void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
-                           const aur_coefficients *coefficients, aur_look *look) {
+void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
+                           const aur_coefficients *coefficients, aur_sensor_sums *look) {
     const size_t count = coefficients->patches->count * AUR_DAYLIGHT_LANES;
     memset(coefficients->all, 0, count * sizeof *coefficients->all);
     memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
     group->sensor.from_sky = add_light;
     group->sensor.from_sky_user = (void *)(uintptr_t)coefficients;
-    aur_sensor_look(group, rule, place, NULL, 0, look);
+    aur_sensor_trace(group, rule, place, NULL, 0, look);
     const double scale = AUR_PI / (double)rule->count;
     for (size_t i = 0; i < count; ++i) {
         coefficients->all[i] *= scale;
@@ -38,7 +38,7 @@ void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, c
 }
 
 /* Sixteen rays to the disk of the sun: uniform by solid angle. */
-static void set_rays(aur_packet *packet, const aur_sensor_place *place, const double center[3],
+static void set_rays(aur_packet *packet, const aur_sensor_point *place, const double center[3],
                      uint64_t hash) {
     static const double RISE = 1.0816e-5; /* 1 - cosine of .2665 degrees */
     double x[3], y[3];
@@ -65,7 +65,7 @@ static double passed(const aur_path_group *group, size_t lane, const aur_coeffic
     return aur_dot3(coefficients->luminance, left);
 }
 
-void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const aur_coefficients *coefficients,
+void aur_sun_seen(aur_path_group *group, const aur_sensor_point *place, const aur_coefficients *coefficients,
                   const aur_lit_hours *lit, double *seen) {
     const aur_sun_position *const frame = &coefficients->sky->frame;
     double normal[3];

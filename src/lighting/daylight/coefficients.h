@@ -5,7 +5,7 @@
 
 #include "lighting/daylight/hours.h"
 #include "lighting/daylight/product.h"
-#include "lighting/irradiance/look.h"
+#include "lighting/irradiance/sensor_trace.h"
 #include "render/scene/lights/sky_model.h"
 
 /* The radiance of the ground in the scene that is traced: what it sends is found as well as the sky's. */
@@ -21,12 +21,12 @@ typedef struct aur_coefficients {
 } aur_coefficients;
 
 /* Fills all[] and reflected[]. */
-void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
-                           const aur_coefficients *coefficients, aur_look *look);
+void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
+                           const aur_coefficients *coefficients, aur_sensor_sums *look);
 
 /* seen[lit->count][16]: the illuminance straight from the sun of each hour, by a point of its disk for each
  * randomisation. */
-void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const aur_coefficients *coefficients,
+void aur_sun_seen(aur_path_group *group, const aur_sensor_point *place, const aur_coefficients *coefficients,
                   const aur_lit_hours *lit, double *seen);
 
 /* What a year of illuminances at a sensor says of it. */

@@ -151,10 +151,10 @@ static void keep_series(const work *w, size_t sensor, const double *all) {
 
 static void estimate_sensor(const work *w, aur_path_group *group, const room *r, size_t sensor) {
     static const aur_closed_lights none = {0};
-    aur_sensor_place place;
-    aur_look look;
+    aur_sensor_point place;
+    aur_sensor_sums look;
     double overcast[LANES] = {0.0};
-    aur_sensor_place_create(w->sky.scene, &none, w->sensors->positions + 3 * sensor,
+    aur_sensor_point_create(w->sky.scene, &none, w->sensors->positions + 3 * sensor,
                             w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
     aur_coefficients_find(group, &w->rule, &place, &r->coefficients, &look);
     aur_sun_seen(group, &place, &r->coefficients, &w->lit, r->sun);

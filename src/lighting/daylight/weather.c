@@ -348,6 +348,6 @@ void aur_weather_destroy(aur_weather *weather) {
     free(weather);
 }
 
-const aur_weather_view *aur_weather_look(const aur_weather *weather) {
+const aur_weather_view *aur_weather_get_view(const aur_weather *weather) {
     return &weather->view;
 }

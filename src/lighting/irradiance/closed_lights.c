@@ -1,4 +1,4 @@
-#include "lighting/irradiance/look.h"
+#include "lighting/irradiance/sensor_trace.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/irradiance/look.h"
+#include "lighting/irradiance/sensor_trace.h"
 #include "lighting/irradiance/sensors.h"
 #include "points/base/error.h"
 #include "points/base/parallel.h"
@@ -31,7 +31,7 @@ typedef struct work {
     const aur_scene *scene;
     aur_sampler *sampler;
     aur_closed_lights lights;
-    aur_known_light known;
+    aur_cached_light known;
     size_t level_count;
     aur_sensor_rule rules[LEVELS]; /* of the levels, each with more directions than the one before */
     aur_irradiance *results;
@@ -105,12 +105,13 @@ static aur_result make_rules(work *w, aur_error *error) {
 enum { CHANNELS = AUR_IRRADIANCE_CHANNELS, VALUES = AUR_IRRADIANCE_PARTS * CHANNELS };
 
 /* Parts and channels of each randomisation. */
-static void find_values(const work *w, const aur_look *look, double values[REPLICATES][VALUES]) {
+static void find_values(const work *w, const aur_sensor_sums *sensor_sums,
+                        double values[REPLICATES][VALUES]) {
     const double *const luminance = w->options->luminance;
     memset(values, 0, REPLICATES * sizeof values[0]);
     for (size_t r = 0; r < REPLICATES; ++r)
         for (size_t part = 1; part < AUR_IRRADIANCE_PARTS; ++part) {
-            const double *const rgb = look->sums[r][part - 1];
+            const double *const rgb = sensor_sums->sums[r][part - 1];
             const double all[CHANNELS] = {rgb[0], rgb[1], rgb[2],
                                           luminance[0] * rgb[0] + luminance[1] * rgb[1] +
                                               luminance[2] * rgb[2]};
@@ -142,20 +143,21 @@ static bool is_reached(const work *w, const aur_irradiance *found) {
 
 /* `shares` has room for all emitters. */
 static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sensor, float *shares) {
-    aur_sensor_place place;
-    aur_sensor_place_create(w->scene, &w->lights, w->sensors->positions + 3 * sensor,
-                            w->sensors->normals + 3 * sensor, w->options->seed, shares, &place);
+    aur_sensor_point surface_point;
+    aur_sensor_point_create(w->scene, &w->lights, w->sensors->positions + 3 * sensor,
+                            w->sensors->normals + 3 * sensor, w->options->seed, shares, &surface_point);
     double values[REPLICATES][VALUES], sums[REPLICATES * VALUES] = {0};
     aur_levels levels = {.replicates = REPLICATES, .values = VALUES, .sums = sums};
     const bool knows = w->known.map != NULL || w->known.solution != NULL;
     uint64_t dark = 0;
-    aur_irradiance found = {.on_surface = place.on_surface};
+    aur_irradiance found = {.on_surface = surface_point.on_surface};
     for (size_t level = 0; level < w->level_count; ++level) {
-        aur_look look;
-        aur_sensor_look(group, &w->rules[level], &place, knows ? &w->known : NULL, (uint32_t)level, &look);
-        find_values(w, &look, values);
+        aur_sensor_sums sensor_sums;
+        aur_sensor_trace(group, &w->rules[level], &surface_point, knows ? &w->known : NULL, (uint32_t)level,
+                         &sensor_sums);
+        find_values(w, &sensor_sums, values);
         aur_levels_add(&levels, w->rules[level].count, values[0]);
-        dark += look.dark;
+        dark += sensor_sums.dark;
         found.directions += w->rules[level].count * REPLICATES;
         found.dark = (double)dark / (double)found.directions;
         judge(w, &levels, &found);
@@ -213,7 +215,7 @@ static aur_result run(work *w, aur_error *error) {
     if (result == AUR_OK)
         result = aur_closed_lights_create(w->scene, &w->lights, error);
     if (result == AUR_OK)
-        result = aur_known_light_create(w->scene, o, &w->known, error);
+        result = aur_cached_light_create(w->scene, o, &w->known, error);
     if (result == AUR_OK)
         result = aur_sampler_create("sobol", w->rules[w->level_count - 1].count, NULL, &w->sampler, error);
     if (result == AUR_OK) {
@@ -258,7 +260,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     for (size_t i = 0; i < w.level_count; ++i)
         aur_sensor_rule_release(&w.rules[i]);
     aur_closed_lights_release(&w.lights);
-    aur_known_light_release(&w.known);
+    aur_cached_light_release(&w.known);
     aur_sampler_destroy(w.sampler);
     free(w.path.classes);
     return result;

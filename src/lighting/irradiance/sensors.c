@@ -55,7 +55,7 @@ void aur_sensors_destroy(aur_sensors *sensors) {
     free(sensors);
 }
 
-const aur_sensors_view *aur_sensors_look(const aur_sensors *sensors) {
+const aur_sensors_view *aur_sensors_get_view(const aur_sensors *sensors) {
     return &sensors->view;
 }
 

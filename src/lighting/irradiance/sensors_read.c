@@ -12,15 +12,15 @@
 static const size_t FILE_LIMIT = (size_t)1 << 34;
 
 static aur_result take(aur_matrix *matrix, const char *path, aur_sensors *sensors, aur_error *error) {
-    const aur_location place = {.file = path};
+    const aur_location surface_point = {.file = path};
     if (matrix->row_count == 0)
-        return aur_fail_at(error, place, AUR_ERROR_FORMAT, "there are no sensors in it");
+        return aur_fail_at(error, surface_point, AUR_ERROR_FORMAT, "there are no sensors in it");
     if (matrix->column_count != 6)
         return aur_fail_at(
             error, (aur_location){.file = path, .line = matrix->lines != NULL ? matrix->lines[0] : 0},
             AUR_ERROR_FORMAT, "a sensor is six numbers, x y z nx ny nz, not %zu", matrix->column_count);
     if (matrix->header[0] != '\0' && strcmp(matrix->header, "x,y,z,nx,ny,nz") != 0)
-        return aur_fail_at(error, place, AUR_ERROR_FORMAT,
+        return aur_fail_at(error, surface_point, AUR_ERROR_FORMAT,
                            "the columns of sensors are x,y,z,nx,ny,nz, not %s", matrix->header);
     const size_t count = matrix->row_count;
     const aur_result result = aur_sensors_allocate(path, count, sensors, error);

@@ -8,7 +8,7 @@ enum { BLOCK = 32 };
 
 typedef struct assembly {
     const aur_facets *facets;
-    const aur_visits *visits;
+    const aur_ray_hits *ray_hits;
     const aur_closed_pairs *closed;
     size_t *starts; /* of the patches of each row, in `patches` */
     uint32_t *patches;
@@ -64,8 +64,8 @@ static bool any_hit(const uint16_t *hits, size_t width) {
  * proportion to the inverse of its area, which is that of its variance. */
 static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
     const aur_facets *const facets = work->facets;
-    const aur_visits *const visits = work->visits;
-    const size_t width = visits->randomizations;
+    const aur_ray_hits *const ray_hits = work->ray_hits;
+    const size_t width = ray_hits->randomizations;
     const double area = facets->areas[aur_facet_of(facets, i)];
     const aur_closed_row *const closed = &work->closed->rows[i];
     for (size_t c = 0; c < closed->count; ++c) {
@@ -76,15 +76,15 @@ static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
         s->closed[slot] += (column == row ? 2.0 : 1.0) * closed->exchanges[c];
     }
     work->rows[row].closed_pairs += closed->count;
-    const aur_visits_row *const mine = &visits->rows[i];
-    size_t own = 0, theirs = visits->starts[i], known = 0;
-    while (own < mine->count || theirs < visits->starts[i + 1]) {
+    const aur_ray_hits_row *const mine = &ray_hits->rows[i];
+    size_t own = 0, theirs = ray_hits->starts[i], known = 0;
+    while (own < mine->count || theirs < ray_hits->starts[i + 1]) {
         const uint32_t a = own < mine->count ? mine->patches[own] : UINT32_MAX;
-        const uint32_t b = theirs < visits->starts[i + 1] ? visits->sources[theirs] : UINT32_MAX;
+        const uint32_t b = theirs < ray_hits->starts[i + 1] ? ray_hits->sources[theirs] : UINT32_MAX;
         const uint32_t k = a < b ? a : b;
         const uint16_t *const out = a == k ? &mine->hits[width * own++] : NULL;
         const uint16_t *const in =
-            b == k ? &visits->rows[k].hits[width * (size_t)visits->places[theirs++]] : NULL;
+            b == k ? &ray_hits->rows[k].hits[width * (size_t)ray_hits->places[theirs++]] : NULL;
         while (known < closed->count && closed->patches[known] < k)
             ++known;
         if ((known < closed->count && closed->patches[known] == k) || !aur_pair_stands_with(facets, i, k))
@@ -97,7 +97,7 @@ static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
             return false;
         const double other = facets->areas[aur_facet_of(facets, k)];
         const double weight =
-            (column == row ? 2.0 : 1.0) * area * other / ((area + other) * (double)visits->rays);
+            (column == row ? 2.0 : 1.0) * area * other / ((area + other) * (double)ray_hits->rays);
         for (size_t r = 0; r < width; ++r)
             s->sums[width * slot + r] +=
                 weight * ((out != NULL ? (double)out[r] : 0.0) + (in != NULL ? (double)in[r] : 0.0));
@@ -119,7 +119,7 @@ static int compare_numbers(const void *left, const void *right) {
 }
 
 static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
-    const size_t width = work->visits->randomizations;
+    const size_t width = work->ray_hits->randomizations;
     row->count = s->met_count;
     row->columns = malloc((s->met_count + 1) * sizeof *row->columns);
     row->closed = malloc(3 * (s->met_count + 1) * sizeof *row->closed);
@@ -150,14 +150,14 @@ static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
 /* What leaves a row for the sky or for backs. */
 static void add_losses(const assembly *work, size_t row, const double *counts, double *deviations,
                        double *exchange, double *half_width) {
-    const size_t width = work->visits->randomizations;
+    const size_t width = work->ray_hits->randomizations;
     for (size_t r = 0; r < width; ++r) {
         double sum = 0.0;
         for (size_t k = work->starts[row]; k < work->starts[row + 1]; ++k) {
             const size_t patch = work->patches[k];
             sum += work->facets->areas[aur_facet_of(work->facets, patch)] * counts[width * patch + r];
         }
-        deviations[r] = sum / (double)work->visits->rays;
+        deviations[r] = sum / (double)work->ray_hits->rays;
     }
     const aur_moments moments = moments_of(deviations, width);
     *exchange = moments.mean;
@@ -178,8 +178,8 @@ static aur_result assemble_block(void *context, size_t index) {
             good = keep_row(work, &s, &work->rows[row]);
         aur_exchange *const to = work->exchange;
         double *const deviations = &to->loss_deviations[to->randomizations * row];
-        add_losses(work, row, work->visits->sky, deviations, &to->sky[row], &to->sky_half_widths[row]);
-        add_losses(work, row, work->visits->back, deviations + to->randomizations * rows, &to->back[row],
+        add_losses(work, row, work->ray_hits->sky, deviations, &to->sky[row], &to->sky_half_widths[row]);
+        add_losses(work, row, work->ray_hits->back, deviations + to->randomizations * rows, &to->back[row],
                    &to->back_half_widths[row]);
     }
     free(s.slots);
@@ -226,19 +226,19 @@ static bool allocate(const aur_facets *facets, size_t randomizations, aur_exchan
     return true;
 }
 
-aur_result aur_exchange_assemble(const aur_facets *facets, const aur_visits *visits,
+aur_result aur_exchange_assemble(const aur_facets *facets, const aur_ray_hits *ray_hits,
                                  const aur_closed_pairs *closed, double confidence,
                                  const aur_parallel_options *parallel, aur_exchange *exchange,
                                  aur_error *error) {
     assembly work = {.facets = facets,
-                     .visits = visits,
+                     .ray_hits = ray_hits,
                      .closed = closed,
                      .rows = calloc(facets->row_count, sizeof *work.rows),
                      .exchange = exchange};
     aur_result result = AUR_OK;
-    if (!allocate(facets, visits->randomizations, exchange) || work.rows == NULL || !list_patches(&work))
+    if (!allocate(facets, ray_hits->randomizations, exchange) || work.rows == NULL || !list_patches(&work))
         result = aur_fail_memory(error);
-    exchange->student = aur_student_quantile(visits->randomizations - 1, 0.5 + 0.5 * confidence);
+    exchange->student = aur_student_quantile(ray_hits->randomizations - 1, 0.5 + 0.5 * confidence);
     aur_parallel_options options = *parallel;
     options.what = "putting rows together";
     if (result == AUR_OK)

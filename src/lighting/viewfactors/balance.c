@@ -8,7 +8,7 @@ enum { MOST_ROUNDS = 40 };
 static const double GOAL = 2e-15, BALANCED = 1e-12, EXACT = 1e-24;
 
 /* What the rows lack, as parts of their areas: the largest, and by area the mean square. */
-static void find_lack(aur_row_system *s, double *largest, double *mean_square) {
+static void find_deficit(aur_row_system *s, double *largest, double *mean_square) {
     const aur_exchange *const g = s->exchange;
     double squares = 0.0, area = 0.0;
     *largest = 0.0;
@@ -16,10 +16,10 @@ static void find_lack(aur_row_system *s, double *largest, double *mean_square) {
         double sum = 0.0;
         for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e)
             sum += g->values[e];
-        s->lack[a] = g->areas[a] - (sum + g->sky[a] + g->back[a]);
+        s->deficit[a] = g->areas[a] - (sum + g->sky[a] + g->back[a]);
         if (g->areas[a] == 0.0)
             continue;
-        const double part = s->lack[a] / g->areas[a];
+        const double part = s->deficit[a] / g->areas[a];
         *largest = fmax(*largest, fabs(part));
         squares += g->areas[a] * part * part;
         area += g->areas[a];
@@ -55,7 +55,7 @@ static bool apply(aur_row_system *s) {
 static aur_result balance_rows(aur_row_system *s, double *largest, aur_error *error) {
     double mean_square, before = INFINITY;
     for (size_t round = 0; round < MOST_ROUNDS; ++round) {
-        find_lack(s, largest, &mean_square);
+        find_deficit(s, largest, &mean_square);
         if (*largest <= GOAL || (mean_square > 0.25 * before && round > 1))
             return AUR_OK;
         before = mean_square;
@@ -66,7 +66,7 @@ static aur_result balance_rows(aur_row_system *s, double *largest, aur_error *er
         if (apply(s))
             before = INFINITY; /* fewer entries can move now: the next round may begin worse */
     }
-    find_lack(s, largest, &mean_square);
+    find_deficit(s, largest, &mean_square);
     return AUR_OK;
 }
 
@@ -130,7 +130,7 @@ static aur_result balance_all(aur_row_system *s, aur_balance *balance, aur_error
     if (entries > 0)
         memcpy(original, g->values, entries * sizeof *original);
     double mean_square, largest;
-    find_lack(s, &largest, &mean_square);
+    find_deficit(s, &largest, &mean_square);
     balance->before = sqrt(mean_square);
     choose_weights(s, false);
     aur_result result = balance_and_settle(s, &largest, error);
@@ -140,10 +140,10 @@ static aur_result balance_all(aur_row_system *s, aur_balance *balance, aur_error
     }
     if (result == AUR_OK)
         result = aur_exchange_find_widths(g, error);
-    find_lack(s, &largest, &mean_square);
+    find_deficit(s, &largest, &mean_square);
     balance->after = largest;
     for (size_t a = 0; a < g->rows; ++a)
-        balance->unbalanced += fabs(s->lack[a]) > BALANCED * g->areas[a];
+        balance->unbalanced += fabs(s->deficit[a]) > BALANCED * g->areas[a];
     double moved = 0.0, total = 0.0;
     for (uint64_t e = 0; e < entries; ++e) {
         moved += fabs(g->values[e] - original[e]);
@@ -166,8 +166,8 @@ aur_result aur_exchange_balance(aur_exchange *exchange, const aur_parallel_optio
     if (numbers == NULL || s.weights == NULL) {
         result = aur_fail_memory(error);
     } else {
-        double **const parts[] = {&s.diagonal,  &s.lack,  &s.multipliers, &s.residual,
-                                  &s.direction, &s.image, &s.best};
+        double **const parts[] = {&s.diagonal,  &s.deficit, &s.multipliers, &s.residual,
+                                  &s.direction, &s.image,   &s.best};
         for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
             *parts[i] = numbers + i * rows;
         s.losses = numbers + 7 * rows;

@@ -13,7 +13,7 @@ static const double EXPECTED_RAYS = 8.0;
 
 typedef struct finding {
     const aur_facets *facets;
-    const aur_visits *visits;
+    const aur_ray_hits *ray_hits;
     const aur_box_tree *tree;
     aur_closed_pairs *pairs;
     bool all;
@@ -21,7 +21,7 @@ typedef struct finding {
 
 /* How many rays of both patches should meet the other one, for an exchange of area times factor. */
 static double expected_rays(const finding *work, size_t i, size_t k, double exchange) {
-    const double rays = (double)(work->visits->rays * work->visits->randomizations);
+    const double rays = (double)(work->ray_hits->rays * work->ray_hits->randomizations);
     const double *const areas = work->facets->areas;
     return rays * exchange *
            (1.0 / areas[aur_facet_of(work->facets, i)] + 1.0 / areas[aur_facet_of(work->facets, k)]);
@@ -96,23 +96,23 @@ static bool try_pair(const finding *work, size_t i, size_t k, size_t *capacity) 
 }
 
 static bool find_row(const finding *work, size_t i) {
-    const aur_visits *const visits = work->visits;
+    const aur_ray_hits *const ray_hits = work->ray_hits;
     const size_t facet = aur_facet_of(work->facets, i);
     size_t capacity = 0;
     if (work->facets->areas[facet] == 0.0)
         return true;
     if (work->all) {
-        for (size_t k = 0; k < visits->patch_count; ++k)
+        for (size_t k = 0; k < ray_hits->patch_count; ++k)
             if (!try_pair(work, i, k, &capacity))
                 return false;
         return true;
     }
     /* Both lists ascend: what this patch has met, and those that have met it. */
-    const aur_visits_row *const row = &visits->rows[i];
-    size_t own = 0, theirs = visits->starts[i];
-    while (own < row->count || theirs < visits->starts[i + 1]) {
+    const aur_ray_hits_row *const row = &ray_hits->rows[i];
+    size_t own = 0, theirs = ray_hits->starts[i];
+    while (own < row->count || theirs < ray_hits->starts[i + 1]) {
         const uint32_t a = own < row->count ? row->patches[own] : UINT32_MAX;
-        const uint32_t b = theirs < visits->starts[i + 1] ? visits->sources[theirs] : UINT32_MAX;
+        const uint32_t b = theirs < ray_hits->starts[i + 1] ? ray_hits->sources[theirs] : UINT32_MAX;
         const uint32_t k = a < b ? a : b;
         own += a == k;
         theirs += b == k;
@@ -124,14 +124,14 @@ static bool find_row(const finding *work, size_t i) {
 
 static aur_result find_block(void *context, size_t index) {
     const finding *const work = context;
-    const size_t count = work->visits->patch_count;
+    const size_t count = work->ray_hits->patch_count;
     for (size_t i = BLOCK * index; i < count && i < BLOCK * (index + 1); ++i)
         if (!find_row(work, i))
             return AUR_ERROR_MEMORY;
     return AUR_OK;
 }
 
-aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_visits *visits,
+aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_ray_hits *ray_hits,
                                  const aur_parallel_options *parallel, aur_closed_pairs *pairs,
                                  aur_error *error) {
     const size_t count = facets->patch_count;
@@ -146,7 +146,7 @@ aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_visits *vis
     if (result == AUR_OK)
         result = aur_box_tree_create(facets->count, boxes, &tree, error);
     free(boxes);
-    finding work = {facets, visits, &tree, pairs, count <= SMALL_MESH};
+    finding work = {facets, ray_hits, &tree, pairs, count <= SMALL_MESH};
     aur_parallel_options options = *parallel;
     options.what = "integrating along edges";
     if (result == AUR_OK) {

@@ -11,27 +11,28 @@
 /* What rays from every patch arrive at, counted for each randomisation. */
 
 /* The patches that the rays of one patch arrive at. */
-typedef struct aur_visits_row {
+typedef struct aur_ray_hits_row {
     size_t count;
     uint32_t *patches; /* ascending */
     uint16_t *hits;    /* [count][randomizations] */
-} aur_visits_row;
+} aur_ray_hits_row;
 
-typedef struct aur_visits {
+typedef struct aur_ray_hits {
     size_t patch_count, randomizations;
     size_t rays; /* of one randomisation */
-    aur_visits_row *rows;
+    aur_ray_hits_row *rows;
     double *sky, *back; /* [patch_count][randomizations], in rays */
     /* The rows that a patch stands in: those of sources[starts[i]] .. sources[starts[i + 1] - 1], at
      * places[...] of theirs. */
     size_t *starts;
     uint32_t *sources, *places;
-} aur_visits;
+} aur_ray_hits;
 
 /* Errors: CANCELLED, MEMORY. */
-aur_result aur_visits_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t randomizations,
-                            const aur_parallel_options *parallel, aur_visits *visits, aur_error *error);
-void aur_visits_release(aur_visits *visits);
+aur_result aur_ray_hits_trace(const aur_facets *facets, const aur_facet_pattern *pattern,
+                              size_t randomizations, const aur_parallel_options *parallel,
+                              aur_ray_hits *ray_hits, aur_error *error);
+void aur_ray_hits_release(aur_ray_hits *ray_hits);
 
 /* Of one patch, the pairs with those that come after it in the order of rows and patches. */
 typedef struct aur_closed_row {
@@ -54,7 +55,7 @@ static inline bool aur_pair_stands_with(const aur_facets *facets, size_t i, size
 /* All pairs of small meshes, else the pairs that some ray has found and whose exchange is so large that rays
  * find them all but certainly: what is not looked at can then be counted along rays without bias. Errors:
  * CANCELLED, MEMORY. */
-aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_visits *visits,
+aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_ray_hits *ray_hits,
                                  const aur_parallel_options *parallel, aur_closed_pairs *pairs,
                                  aur_error *error);
 void aur_closed_pairs_release(aur_closed_pairs *pairs);
@@ -91,7 +92,7 @@ bool aur_hull_is_empty(const aur_hull *hull, const aur_facets *facets, const aur
  * gap between two plates: that rest goes to the other patches in front of it, in proportion to what it would
  * see of each if nothing stood between, and to the sky unless the mesh is closed. Each such factor is smaller
  * than those that the rays can find. Errors: MEMORY. */
-aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_visits *visits, aur_closed_pairs *pairs,
+aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_ray_hits *ray_hits, aur_closed_pairs *pairs,
                                  aur_error *error);
 
 /* Exchange of light between two polygons that see each other wholly, by integrals along their edges. */

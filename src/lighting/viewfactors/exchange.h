@@ -25,7 +25,7 @@ typedef struct aur_exchange {
 } aur_exchange;
 
 /* Puts closed forms and counted rays together. Errors: CANCELLED, MEMORY. */
-aur_result aur_exchange_assemble(const aur_facets *facets, const aur_visits *visits,
+aur_result aur_exchange_assemble(const aur_facets *facets, const aur_ray_hits *ray_hits,
                                  const aur_closed_pairs *closed, double confidence,
                                  const aur_parallel_options *parallel, aur_exchange *exchange,
                                  aur_error *error);

@@ -14,22 +14,22 @@ static bool begin(const aur_exchange *g, aur_upper_walk *walk) {
 
 /* lacks[randomizations][rows]: what rows lack in each randomisation more than in the mean. What has been cut
  * at 0 is 0 in all. */
-static bool find_lacks(const aur_row_system *s, double *lacks) {
+static bool find_deficits(const aur_row_system *s, double *deficits) {
     const aur_exchange *const g = s->exchange;
     const size_t width = g->randomizations, rows = g->rows;
-    memset(lacks, 0, width * rows * sizeof *lacks);
+    memset(deficits, 0, width * rows * sizeof *deficits);
     aur_upper_walk walk;
     if (!begin(g, &walk))
         return false;
     for (const float *from = g->deviations; aur_upper_walk_advance(&walk); from += width)
         for (size_t r = 0; r < width && s->weights[walk.entry] > 0.0; ++r) {
-            lacks[rows * r + walk.row] -= (double)from[r];
+            deficits[rows * r + walk.row] -= (double)from[r];
             if (walk.row != walk.column)
-                lacks[rows * r + walk.column] -= (double)from[r];
+                deficits[rows * r + walk.column] -= (double)from[r];
         }
     for (size_t a = 0; a < 2 * rows; ++a)
         for (size_t r = 0; r < width && s->losses[a] > 0.0; ++r)
-            lacks[rows * r + a % rows] -= g->loss_deviations[width * a + r];
+            deficits[rows * r + a % rows] -= g->loss_deviations[width * a + r];
     return true;
 }
 
@@ -54,10 +54,10 @@ static bool apply(const aur_row_system *s, const double *multipliers) {
 aur_result aur_row_system_settle(aur_row_system *s, aur_error *error) {
     const size_t width = s->exchange->randomizations, rows = s->exchange->rows;
     double *const numbers = malloc((width * rows + 1) * sizeof *numbers); /* lacks, then multipliers */
-    aur_result result = numbers != NULL && find_lacks(s, numbers) ? AUR_OK : aur_fail_memory(error);
+    aur_result result = numbers != NULL && find_deficits(s, numbers) ? AUR_OK : aur_fail_memory(error);
     aur_row_system_prepare(s);
     for (size_t r = 0; r < width && result == AUR_OK; ++r) {
-        memcpy(s->lack, &numbers[rows * r], rows * sizeof *s->lack);
+        memcpy(s->deficit, &numbers[rows * r], rows * sizeof *s->deficit);
         result = aur_row_system_solve(s, GOOD_ENOUGH, error);
         memcpy(&numbers[rows * r], s->best, rows * sizeof *s->best);
     }

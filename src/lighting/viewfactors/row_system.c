@@ -63,7 +63,7 @@ aur_result aur_row_system_solve(aur_row_system *s, double reduction, aur_error *
     memset(s->multipliers, 0, rows * sizeof *s->multipliers);
     memset(s->best, 0, rows * sizeof *s->best);
     for (size_t a = 0; a < rows; ++a) {
-        s->residual[a] = s->diagonal[a] > 0.0 ? s->lack[a] : 0.0;
+        s->residual[a] = s->diagonal[a] > 0.0 ? s->deficit[a] : 0.0;
         s->direction[a] = s->diagonal[a] > 0.0 ? s->residual[a] / s->diagonal[a] : 0.0;
     }
     double square = scaled_dot(s, s->residual, s->residual), least = square;

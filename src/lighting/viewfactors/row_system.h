@@ -16,7 +16,7 @@ typedef struct aur_row_system {
     double *weights;  /* of the entries; 0 for what may not move */
     double *diagonal; /* of the matrix */
     double *losses;   /* weights of sky and back: [2][rows] */
-    double *lack, *multipliers;
+    double *deficit, *multipliers;
     double *residual, *direction, *image, *best;
 } aur_row_system;
 

@@ -10,7 +10,7 @@ static const double SMALLEST_REST = 1e-11;
 
 typedef struct filling {
     const aur_facets *facets;
-    aur_visits *visits;
+    aur_ray_hits *ray_hits;
     aur_closed_pairs *pairs;
     double
         *exchanges; /* of patches: what closed forms have; then what the candidates of one patch could have */
@@ -33,12 +33,12 @@ static bool is_closed(const filling *work, size_t i, size_t k) {
 
 /* The rays of the patch that arrived where no closed form says, the sky and backs included. */
 static double count_sampled(const filling *work, size_t i) {
-    const aur_visits *const visits = work->visits;
-    const aur_visits_row *const row = &visits->rows[i];
-    const size_t width = visits->randomizations;
+    const aur_ray_hits *const ray_hits = work->ray_hits;
+    const aur_ray_hits_row *const row = &ray_hits->rows[i];
+    const size_t width = ray_hits->randomizations;
     double sum = 0.0;
     for (size_t r = 0; r < width; ++r)
-        sum += visits->sky[width * i + r] + visits->back[width * i + r];
+        sum += ray_hits->sky[width * i + r] + ray_hits->back[width * i + r];
     for (size_t k = 0; k < row->count; ++k)
         for (size_t r = 0; r < width && !is_closed(work, i, row->patches[k]); ++r)
             sum += (double)row->hits[width * k + r];
@@ -47,13 +47,13 @@ static double count_sampled(const filling *work, size_t i) {
 
 /* Whether rays of others arrived at the patch without a closed form. */
 static bool is_met(const filling *work, size_t i) {
-    const aur_visits *const visits = work->visits;
-    const size_t width = visits->randomizations;
-    for (size_t k = visits->starts[i]; k < visits->starts[i + 1]; ++k) {
+    const aur_ray_hits *const ray_hits = work->ray_hits;
+    const size_t width = ray_hits->randomizations;
+    for (size_t k = ray_hits->starts[i]; k < ray_hits->starts[i + 1]; ++k) {
         const uint16_t *const hits =
-            &visits->rows[visits->sources[k]].hits[width * (size_t)visits->places[k]];
+            &ray_hits->rows[ray_hits->sources[k]].hits[width * (size_t)ray_hits->places[k]];
         for (size_t r = 0; r < width; ++r)
-            if (hits[r] > 0 && !is_closed(work, i, visits->sources[k]))
+            if (hits[r] > 0 && !is_closed(work, i, ray_hits->sources[k]))
                 return true;
     }
     return false;
@@ -110,21 +110,21 @@ static bool fill_patch(const filling *work, size_t i, double rest) {
             return false;
         work->exchanges[k] += exchange; /* which the other one has now, too */
     }
-    for (size_t r = 0; r < work->visits->randomizations; ++r)
-        work->visits->sky[work->visits->randomizations * i + r] =
-            (double)work->visits->rays * rest * sky / (sum + sky) / area;
+    for (size_t r = 0; r < work->ray_hits->randomizations; ++r)
+        work->ray_hits->sky[work->ray_hits->randomizations * i + r] =
+            (double)work->ray_hits->rays * rest * sky / (sum + sky) / area;
     return true;
 }
 
-aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_visits *visits, aur_closed_pairs *pairs,
+aur_result aur_unseen_pairs_fill(const aur_facets *facets, aur_ray_hits *ray_hits, aur_closed_pairs *pairs,
                                  aur_error *error) {
     const size_t count = facets->patch_count;
     double *const numbers = calloc(2 * count, sizeof *numbers);
     if (numbers == NULL)
         return aur_fail_memory(error);
-    filling work = {facets, visits, pairs, numbers, numbers + count, facets->open};
-    for (size_t i = 0; i < count * visits->randomizations; ++i)
-        work.open |= visits->sky[i] > 0.0;
+    filling work = {facets, ray_hits, pairs, numbers, numbers + count, facets->open};
+    for (size_t i = 0; i < count * ray_hits->randomizations; ++i)
+        work.open |= ray_hits->sky[i] > 0.0;
     for (size_t i = 0; i < count; ++i)
         for (size_t k = 0; k < pairs->rows[i].count; ++k) {
             work.exchanges[i] += pairs->rows[i].exchanges[k];

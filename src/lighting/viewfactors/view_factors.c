@@ -132,11 +132,12 @@ static void warn(const aur_facets *facets, const aur_view_factors *made, const a
 /* Replaces what rays say of the sky by what half planes do, which find it better in less time. A mesh that no
  * ray has left is closed, but for the gaps by which rounding leaves its facets. */
 static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_options *options,
-                              const aur_parallel_options *parallel, aur_visits *visits, aur_error *error) {
-    const size_t count = visits->randomizations, numbers = visits->patch_count * count;
+                              const aur_parallel_options *parallel, aur_ray_hits *ray_hits,
+                              aur_error *error) {
+    const size_t count = ray_hits->randomizations, numbers = ray_hits->patch_count * count;
     bool open = false;
     for (size_t i = 0; i < numbers; ++i)
-        open |= visits->sky[i] > 0.0;
+        open |= ray_hits->sky[i] > 0.0;
     if (!open)
         return AUR_OK;
     aur_sky_slices *slices;
@@ -144,9 +145,9 @@ static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_o
         aur_sky_slices_create(facets, options->set, (options->half_planes + count - 1) / count, count,
                               options->seed, &slices, error);
     if (result == AUR_OK)
-        result = aur_sky_slices_measure(slices, parallel, visits->sky, error);
+        result = aur_sky_slices_measure(slices, parallel, ray_hits->sky, error);
     for (size_t i = 0; i < numbers && result == AUR_OK; ++i)
-        visits->sky[i] *= (double)visits->rays;
+        ray_hits->sky[i] *= (double)ray_hits->rays;
     aur_sky_slices_destroy(slices);
     return result;
 }
@@ -155,7 +156,7 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
                           aur_view_factors *made, aur_error *error) {
     const aur_parallel_options parallel = {.threads = options->threads, .progress = options->progress};
     aur_facet_pattern pattern = {0};
-    aur_visits visits = {0};
+    aur_ray_hits ray_hits = {0};
     aur_closed_pairs closed = {.patch_count = facets->patch_count,
                                .rows = calloc(facets->patch_count, sizeof *closed.rows)};
     aur_exchange exchange = {0};
@@ -166,20 +167,20 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
         result = aur_facet_pattern_create(options->set, options->rays / options->randomizations,
                                           options->seed, &pattern, error);
     if (result == AUR_OK)
-        result = aur_visits_trace(facets, &pattern, options->randomizations, &parallel, &visits, error);
+        result = aur_ray_hits_trace(facets, &pattern, options->randomizations, &parallel, &ray_hits, error);
     if (result == AUR_OK && !options->rays_only)
-        result = measure_sky(facets, options, &parallel, &visits, error);
+        result = measure_sky(facets, options, &parallel, &ray_hits, error);
     if (result == AUR_OK && !options->rays_only) {
         aur_closed_pairs_release(&closed);
-        result = aur_closed_pairs_find(facets, &visits, &parallel, &closed, error);
+        result = aur_closed_pairs_find(facets, &ray_hits, &parallel, &closed, error);
         if (result == AUR_OK)
-            result = aur_unseen_pairs_fill(facets, &visits, &closed, error);
+            result = aur_unseen_pairs_fill(facets, &ray_hits, &closed, error);
     }
     if (result == AUR_OK)
-        result =
-            aur_exchange_assemble(facets, &visits, &closed, options->confidence, &parallel, &exchange, error);
-    const size_t rays = visits.rays * visits.randomizations;
-    aur_visits_release(&visits); /* the most memory, and what follows takes as much */
+        result = aur_exchange_assemble(facets, &ray_hits, &closed, options->confidence, &parallel, &exchange,
+                                       error);
+    const size_t rays = ray_hits.rays * ray_hits.randomizations;
+    aur_ray_hits_release(&ray_hits); /* the most memory, and what follows takes as much */
     aur_closed_pairs_release(&closed);
     if (result == AUR_OK)
         result = aur_exchange_balance(&exchange, &parallel, &balance, error);

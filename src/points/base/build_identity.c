@@ -35,7 +35,7 @@ static bool find_identity(const char *notes, size_t size, size_t alignment, uint
 
 typedef struct identity {
     uint64_t sum;
-    bool of_carrier, failed;
+    bool of_transport, failed;
 } identity;
 
 /* Summed, so that the order in which libraries were loaded does not matter. They come in that order, and what
@@ -45,8 +45,8 @@ typedef struct identity {
 static int add_object(struct dl_phdr_info *object, size_t size, void *context) {
     identity *const all = context;
     if (strstr(object->dlpi_name, "/aureole-") != NULL)
-        all->of_carrier = strstr(object->dlpi_name, "/" AUR_CARRIER_MODULE) != NULL;
-    if (all->of_carrier || strstr(object->dlpi_name, "/libtbbmalloc") != NULL)
+        all->of_transport = strstr(object->dlpi_name, "/" AUR_TRANSPORT_MODULE) != NULL;
+    if (all->of_transport || strstr(object->dlpi_name, "/libtbbmalloc") != NULL)
         return 0;
     uint64_t hash = 0;
     bool found = strncmp(object->dlpi_name, "linux-vdso", 10) == 0; /* the kernel's: no file */

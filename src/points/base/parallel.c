@@ -304,7 +304,7 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     pthread_t threads[MOST_THREADS];
     const size_t started = others > 0 ? start_threads(&work, others, threads) : 0;
     if (work.loop != NULL)
-        aur_shared_loop_talk(work.loop, started == 0 ? do_item : NULL);
+        aur_shared_loop_exchange_messages(work.loop, started == 0 ? do_item : NULL);
     else if (ranks == NULL)
         do_items(&work);
     for (size_t i = 0; i < started; ++i)

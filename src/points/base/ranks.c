@@ -24,7 +24,7 @@ aur_ranks *aur_ranks_set_aside(void) {
 }
 
 static bool leads(void *user) {
-    return ((const aur_ranks *)user)->carrier.rank == 0;
+    return ((const aur_ranks *)user)->transport.rank == 0;
 }
 
 static aur_result agree(void *user, size_t size, void *data, aur_error *error) {
@@ -44,11 +44,11 @@ void aur_ranks_put_back(aur_ranks *ranks) {
 }
 
 size_t aur_ranks_rank(void) {
-    return here != NULL ? here->carrier.rank : 0;
+    return here != NULL ? here->transport.rank : 0;
 }
 
 size_t aur_ranks_count(void) {
-    return here != NULL ? here->carrier.count : 1;
+    return here != NULL ? here->transport.count : 1;
 }
 
 /* --- time */
@@ -65,12 +65,12 @@ double aur_ranks_seconds(clockid_t clock) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-double aur_ranks_talk_begin(void) {
+double aur_ranks_messages_begin(void) {
     return aur_ranks_seconds(CLOCK_THREAD_CPUTIME_ID);
 }
 
-void aur_ranks_talk_end(aur_ranks *ranks, double start) {
-    ranks->talk_seconds += aur_ranks_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+void aur_ranks_messages_end(aur_ranks *ranks, double start) {
+    ranks->message_seconds += aur_ranks_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
 }
 
 /* --- messages */
@@ -109,14 +109,14 @@ typedef struct header {
 
 void aur_ranks_send(aur_ranks *ranks, size_t to, aur_message_kind kind, uint64_t a, uint64_t b, size_t size,
                     const void *data) {
-    const header head = {kind, (uint32_t)ranks->carrier.rank, ranks->step, a, b};
+    const header head = {kind, (uint32_t)ranks->transport.rank, ranks->step, a, b};
     aur_bytes bytes = {0};
     aur_bytes_put(&bytes, sizeof head, &head);
     aur_bytes_put(&bytes, size, data);
     if (bytes.failed || bytes.size > INT32_MAX)
         aur_ranks_fail(ranks, "out of memory for a message of %zu bytes", size);
     else
-        ranks->carrier.send(ranks->carrier.state, to, bytes.size, bytes.data);
+        ranks->transport.send(ranks->transport.state, to, bytes.size, bytes.data);
     ranks->sent += bytes.size;
     aur_bytes_release(&bytes);
 }
@@ -124,7 +124,7 @@ void aur_ranks_send(aur_ranks *ranks, size_t to, aur_message_kind kind, uint64_t
 bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) {
     *message = (aur_message){0};
     size_t size = 0;
-    if (!ranks->carrier.poll(ranks->carrier.state, &from, &size))
+    if (!ranks->transport.poll(ranks->transport.state, &from, &size))
         return false;
     unsigned char *const data = malloc(size + 1);
     if (data == NULL) {
@@ -132,7 +132,7 @@ bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) 
         return false;
     }
     header head = {0};
-    ranks->carrier.receive(ranks->carrier.state, from, size, data);
+    ranks->transport.receive(ranks->transport.state, from, size, data);
     ranks->received += size;
     if (size >= sizeof head) {
         memcpy(&head, data, sizeof head);
@@ -160,7 +160,7 @@ static bool accept(aur_ranks *ranks, aur_message *message) {
     else if (message->step != ranks->step && !(asks && message->step < ranks->step))
         aur_ranks_fail(ranks,
                        "rank %u does something else than rank %zu: were all started with the same words?",
-                       (unsigned)message->from, ranks->carrier.rank);
+                       (unsigned)message->from, ranks->transport.rank);
     /* Who asked while the work came to its end has no answer. */
     if (!aur_ranks_have_failed(ranks) && message->step == ranks->step)
         return true;
@@ -195,14 +195,14 @@ static void listen_to_root(aur_ranks *ranks) {
                                  sizeof *ranks->kept)) {
         ranks->kept[ranks->kept_count++] = message;
     } else {
-        aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->carrier.rank);
+        aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->transport.rank);
         free(message.data);
     }
 }
 
 /* Waits for a message of one rank. */
 static bool wait_for(aur_ranks *ranks, size_t from, aur_message_kind kind, aur_message *message) {
-    const bool aside = from != 0 && ranks->carrier.rank != 0;
+    const bool aside = from != 0 && ranks->transport.rank != 0;
     long pause = 0;
     for (;;) {
         const bool there = aside ? aur_ranks_receive_any(ranks, from, message) && accept(ranks, message)
@@ -218,7 +218,7 @@ static bool wait_for(aur_ranks *ranks, size_t from, aur_message_kind kind, aur_m
     if (message->kind == kind)
         return true;
     aur_ranks_fail(ranks, "rank %zu does something else than rank %zu: were all started with the same words?",
-                   from, ranks->carrier.rank);
+                   from, ranks->transport.rank);
     free(message->data);
     return false;
 }
@@ -227,7 +227,7 @@ static bool wait_for(aur_ranks *ranks, size_t from, aur_message_kind kind, aur_m
 
 /* Ranks form a binomial tree: the parent's number lacks the lowest bit. */
 static void send_on(aur_ranks *ranks, bool last, size_t size, const void *data) {
-    const size_t rank = ranks->carrier.rank, count = ranks->carrier.count;
+    const size_t rank = ranks->transport.rank, count = ranks->transport.count;
     for (size_t bit = 1; rank + bit < count && (rank & bit) == 0; bit *= 2)
         aur_ranks_send(ranks, rank + bit, AUR_MESSAGE_PIECE, last, 0, size, data);
 }
@@ -240,7 +240,7 @@ bool aur_ranks_spread(aur_ranks *ranks, bool last, size_t size, const void *data
 }
 
 bool aur_ranks_take(aur_ranks *ranks, aur_message *piece) {
-    const size_t rank = ranks->carrier.rank;
+    const size_t rank = ranks->transport.rank;
     if (aur_ranks_have_failed(ranks) || !wait_for(ranks, rank & (rank - 1), AUR_MESSAGE_PIECE, piece))
         return false;
     send_on(ranks, piece->a != 0, piece->size, piece->data);
@@ -269,19 +269,19 @@ static bool take_all(aur_ranks *ranks, aur_bytes *bytes) {
         free(piece.data);
     }
     if (bytes->failed)
-        aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->carrier.rank);
+        aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->transport.rank);
     else
         --bytes->size;
     return !bytes->failed;
 }
 
 aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_error *error) {
-    const double start = aur_ranks_talk_begin();
+    const double start = aur_ranks_messages_begin();
     aur_ranks_begin(ranks);
     aur_bytes bytes = {0};
-    const bool root = ranks->carrier.rank == 0;
+    const bool root = ranks->transport.rank == 0;
     const bool good = root ? spread_all(ranks, *size, *data) : take_all(ranks, &bytes);
-    aur_ranks_talk_end(ranks, start);
+    aur_ranks_messages_end(ranks, start);
     if (!good) {
         aur_bytes_release(&bytes);
         return aur_ranks_failure(ranks, error);
@@ -298,12 +298,12 @@ void aur_ranks_agree(size_t size, void *data) {
         return;
     char *own = data;
     size_t own_size = size;
-    if (aur_ranks_broadcast(here, &own, &own_size, NULL) != AUR_OK || here->carrier.rank == 0)
+    if (aur_ranks_broadcast(here, &own, &own_size, NULL) != AUR_OK || here->transport.rank == 0)
         return;
     if (own_size == size)
         memcpy(data, own, size);
     else
-        aur_ranks_fail(here, "rank 0 does something else than rank %zu", here->carrier.rank);
+        aur_ranks_fail(here, "rank 0 does something else than rank %zu", here->transport.rank);
     free(own);
 }
 
@@ -322,10 +322,10 @@ static bool take_parts(aur_ranks *ranks, size_t from, aur_bytes *bytes) {
 
 aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur_ranks_add add, void *context,
                             aur_error *error) {
-    const double start = aur_ranks_talk_begin();
+    const double start = aur_ranks_messages_begin();
     aur_result result = AUR_OK;
     aur_ranks_begin(ranks);
-    if (ranks->carrier.rank != 0) {
+    if (ranks->transport.rank != 0) {
         size_t done = 0;
         do {
             const size_t piece = size - done < PIECE ? size - done : PIECE;
@@ -334,7 +334,7 @@ aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur
             done += piece;
         } while (done < size);
     }
-    for (size_t r = 1; ranks->carrier.rank == 0 && r < ranks->carrier.count && result == AUR_OK; ++r) {
+    for (size_t r = 1; ranks->transport.rank == 0 && r < ranks->transport.count && result == AUR_OK; ++r) {
         aur_bytes bytes = {0};
         if (take_parts(ranks, r, &bytes))
             result = add(context, r, bytes.size, bytes.data);
@@ -344,7 +344,7 @@ aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur
         if (aur_ranks_have_failed(ranks))
             result = AUR_ERROR_INTERNAL;
     }
-    aur_ranks_talk_end(ranks, start);
+    aur_ranks_messages_end(ranks, start);
     if (aur_ranks_have_failed(ranks))
         return aur_ranks_failure(ranks, error);
     return result == AUR_OK ? AUR_OK

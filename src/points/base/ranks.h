@@ -10,7 +10,7 @@
 #include "points/base/file.h"
 
 /* What carries bytes from rank to rank. All of it is called by one thread. */
-typedef struct aur_carrier {
+typedef struct aur_transport {
     size_t rank, count;
     void *state;
     /* Comes back when the bytes may be reused; at most INT_MAX of them. */
@@ -23,16 +23,16 @@ typedef struct aur_carrier {
     void (*finish)(void *state);
     /* Ends all processes of the job, this one too. */
     void (*abort)(void *state, int status);
-} aur_carrier;
+} aur_transport;
 
 #define AUR_ANY_RANK SIZE_MAX
 
-#define AUR_CARRIER_MODULE "aureole-mpi.so"
-/* What the module for a carrier shows, by the name "aur_carrier_open". Starts it, or says why not. */
-typedef aur_result (*aur_carrier_open_function)(aur_carrier *carrier, aur_error *error);
+#define AUR_TRANSPORT_MODULE "aureole-mpi.so"
+/* What the module for a carrier shows, by the name "aur_transport_open". Starts it, or says why not. */
+typedef aur_result (*aur_transport_open_function)(aur_transport *transport, aur_error *error);
 
 /* Finds and starts the carrier that this build has (carrier.c). Errors: UNSUPPORTED. */
-aur_result aur_carrier_find(aur_carrier *carrier, aur_error *error);
+aur_result aur_transport_find(aur_transport *transport, aur_error *error);
 
 typedef enum aur_message_kind {
     AUR_MESSAGE_LEAVE = 1, /* a: status; text: what was said */
@@ -54,7 +54,7 @@ typedef struct aur_message {
 } aur_message;
 
 typedef struct aur_ranks {
-    aur_carrier carrier;
+    aur_transport transport;
     uint64_t step;
     aur_error error;   /* what has failed; its result is AUR_OK while nothing has */
     size_t left;       /* ranks that have said that they leave */
@@ -62,7 +62,7 @@ typedef struct aur_ranks {
     aur_message *kept; /* of rank 0, which was ahead */
     size_t kept_count, kept_capacity;
     uint64_t sent, received;
-    double talk_seconds;
+    double message_seconds;
     aur_io io; /* rank 0 reads and writes for all */
 } aur_ranks;
 
@@ -73,7 +73,7 @@ aur_ranks *aur_ranks_here(void);
 aur_ranks *aur_ranks_set_aside(void);
 void aur_ranks_put_back(aur_ranks *ranks);
 /* aur_ranks_join with a carrier of the caller's. */
-aur_result aur_ranks_join_by(const aur_carrier *carrier, aur_error *error);
+aur_result aur_ranks_join_by(const aur_transport *transport, aur_error *error);
 
 /* Sends a message with the present step. */
 void aur_ranks_send(aur_ranks *ranks, size_t to, aur_message_kind kind, uint64_t a, uint64_t b, size_t size,
@@ -113,5 +113,5 @@ void aur_ranks_share_seconds(double *wall, double *cpu);
 void aur_ranks_pause(long *pause);
 double aur_ranks_seconds(clockid_t clock);
 /* Counts the thread's processor time since `start` as talk. */
-double aur_ranks_talk_begin(void);
-void aur_ranks_talk_end(aur_ranks *ranks, double start);
+double aur_ranks_messages_begin(void);
+void aur_ranks_messages_end(aur_ranks *ranks, double start);

@@ -91,36 +91,36 @@ static aur_result greet(aur_ranks *ranks, aur_error *error) {
     return aur_fail(error, AUR_ERROR_UNSUPPORTED, "%s", w.refused);
 }
 
-aur_result aur_ranks_join_by(const aur_carrier *carrier, aur_error *error) {
+aur_result aur_ranks_join_by(const aur_transport *transport, aur_error *error) {
     aur_ranks *const ranks = calloc(1, sizeof *ranks);
     if (ranks == NULL)
         return aur_fail_memory(error);
-    ranks->carrier = *carrier;
+    ranks->transport = *transport;
     aur_ranks_put_back(ranks);
     return greet(ranks, error);
 }
 
 aur_result aur_ranks_join(aur_error *error) {
-    aur_carrier carrier;
+    aur_transport transport;
     const size_t started = aur_ranks_started();
     if (aur_ranks_here() != NULL || started < 2)
         return AUR_OK;
-    const aur_result result = aur_carrier_find(&carrier, error);
+    const aur_result result = aur_transport_find(&transport, error);
     if (result != AUR_OK)
         return result;
-    if (carrier.count != started)
+    if (transport.count != started)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "started with %zu ranks by a launcher that this MPI does not know: it sees %zu",
-                        started, carrier.count);
-    return aur_ranks_join_by(&carrier, error);
+                        started, transport.count);
+    return aur_ranks_join_by(&transport, error);
 }
 
 /* Takes what still comes, so that nobody waits to send it, until every rank has left. */
 static int see_off(aur_ranks *ranks, int status, aur_error *error) {
-    const bool root = ranks->carrier.rank == 0;
+    const bool root = ranks->transport.rank == 0;
     bool over = false;
     long pause = 0;
-    while (!over && !(root && ranks->left == ranks->carrier.count - 1)) {
+    while (!over && !(root && ranks->left == ranks->transport.count - 1)) {
         aur_message message;
         if (!aur_ranks_receive_any(ranks, AUR_ANY_RANK, &message)) {
             aur_ranks_pause(&pause);
@@ -136,7 +136,7 @@ static int see_off(aur_ranks *ranks, int status, aur_error *error) {
         }
         free(message.data);
     }
-    for (size_t to = 1; root && to < ranks->carrier.count; ++to)
+    for (size_t to = 1; root && to < ranks->transport.count; ++to)
         aur_ranks_send(ranks, to, AUR_MESSAGE_BYE, 0, 0, 0, NULL);
     return status;
 }
@@ -146,17 +146,17 @@ int aur_ranks_leave(int status, const char *said, aur_error *error) {
     if (ranks == NULL)
         return status;
     if (ranks->lost)
-        ranks->carrier.abort(ranks->carrier.state, status);
+        ranks->transport.abort(ranks->transport.state, status);
     /* Who waits for rank 0 sees by the step whether all was done; where not, nobody may wait for this rank.
      */
-    const size_t own = ranks->carrier.rank, count = ranks->carrier.count;
+    const size_t own = ranks->transport.rank, count = ranks->transport.count;
     const bool failed = aur_ranks_have_failed(ranks);
     aur_ranks_begin(ranks);
     for (size_t to = 0; to < count; ++to)
         if (to != own && (own == 0 || to == 0 || failed))
             aur_ranks_send(ranks, to, AUR_MESSAGE_LEAVE, (uint64_t)status, 0, strlen(said), said);
     status = see_off(ranks, status, error);
-    ranks->carrier.finish(ranks->carrier.state);
+    ranks->transport.finish(ranks->transport.state);
     for (size_t i = 0; i < ranks->kept_count; ++i)
         free(ranks->kept[i].data);
     free(ranks->kept);
@@ -179,7 +179,7 @@ void aur_ranks_describe(aur_rank_description *descriptions) {
     if (ranks != NULL) {
         own.sent = ranks->sent;
         own.received = ranks->received;
-        own.talk_seconds = ranks->talk_seconds;
+        own.message_seconds = ranks->message_seconds;
     }
     if (aur_ranks_rank() == 0)
         descriptions[0] = own;

@@ -19,7 +19,7 @@ struct aur_shared_loop {
     bool is_root;
     size_t rank_count;
     pthread_mutex_t lock; /* guards what follows, but for what the talking thread has for itself */
-    pthread_cond_t wake_threads, wake_talk;
+    pthread_cond_t wake_threads, wake_messages;
     size_t next, end;     /* items that this rank may begin; of rank 0: that nobody has */
     size_t running, idle; /* threads */
     bool alone;           /* there are no threads: the one that talks does items itself */
@@ -60,14 +60,14 @@ aur_shared_loop *aur_shared_loop_create(aur_ranks *ranks, const aur_shared_loop_
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
     pthread_mutex_init(&loop->lock, NULL);
     pthread_cond_init(&loop->wake_threads, &monotonic);
-    pthread_cond_init(&loop->wake_talk, &monotonic);
+    pthread_cond_init(&loop->wake_messages, &monotonic);
     pthread_condattr_destroy(&monotonic);
     aur_ranks_begin(ranks);
     return loop;
 }
 
 static void destroy(aur_shared_loop *loop) {
-    pthread_cond_destroy(&loop->wake_talk);
+    pthread_cond_destroy(&loop->wake_messages);
     pthread_cond_destroy(&loop->wake_threads);
     pthread_mutex_destroy(&loop->lock);
     aur_bytes_release(&loop->results);
@@ -166,7 +166,7 @@ bool aur_shared_loop_take(aur_shared_loop *loop, size_t *index) {
     ++loop->idle;
     const bool waits = !loop->is_root && !loop->alone;
     while (waits && loop->next == loop->end && !loop->over && !atomic_load(loop->options.stop)) {
-        pthread_cond_signal(&loop->wake_talk);
+        pthread_cond_signal(&loop->wake_messages);
         pthread_cond_wait(&loop->wake_threads, &loop->lock);
     }
     const bool there = loop->next < loop->end && !loop->over && !atomic_load(loop->options.stop);
@@ -186,7 +186,7 @@ void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result
         put_entry(loop, index, result, &loop->results);
     loop->known[index] = has_found(result);
     if (loop->running == 0)
-        pthread_cond_signal(&loop->wake_talk);
+        pthread_cond_signal(&loop->wake_messages);
     pthread_mutex_unlock(&loop->lock);
 }
 
@@ -254,11 +254,11 @@ static void wait_a_little(aur_shared_loop *loop, long *pause) {
         ++until.tv_sec;
     }
     pthread_mutex_lock(&loop->lock);
-    pthread_cond_timedwait(&loop->wake_talk, &loop->lock, &until);
+    pthread_cond_timedwait(&loop->wake_messages, &loop->lock, &until);
     pthread_mutex_unlock(&loop->lock);
 }
 
-static void talk_as_root(aur_shared_loop *loop, bool (*one)(void *work)) {
+static void messages_as_root(aur_shared_loop *loop, bool (*one)(void *work)) {
     /* What a stopped rank has in hand ends within some milliseconds; one that was killed never answers. */
     static const double patience = 0.5;
     double stopped = 0.0;
@@ -331,7 +331,7 @@ static bool hear_root(aur_shared_loop *loop, const aur_message *message) {
     }
 }
 
-static void talk_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
+static void messages_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
     long pause = 0;
     bool goes_on = true;
     while (goes_on && !aur_ranks_have_failed(loop->ranks)) {
@@ -357,14 +357,14 @@ static void talk_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
     }
 }
 
-void aur_shared_loop_talk(aur_shared_loop *loop, bool (*one)(void *work)) {
-    const double start = aur_ranks_talk_begin();
+void aur_shared_loop_exchange_messages(aur_shared_loop *loop, bool (*one)(void *work)) {
+    const double start = aur_ranks_messages_begin();
     if (one != NULL) /* no other thread is there to read it */
         loop->alone = true;
     if (loop->is_root)
-        talk_as_root(loop, one);
+        messages_as_root(loop, one);
     else
-        talk_to_root(loop, one);
+        messages_to_root(loop, one);
     if (aur_ranks_have_failed(loop->ranks))
         atomic_store(loop->options.stop, true);
     pthread_mutex_lock(&loop->lock);
@@ -372,7 +372,7 @@ void aur_shared_loop_talk(aur_shared_loop *loop, bool (*one)(void *work)) {
     pthread_cond_broadcast(&loop->wake_threads);
     pthread_mutex_unlock(&loop->lock);
     if (one == NULL)
-        aur_ranks_talk_end(loop->ranks, start);
+        aur_ranks_messages_end(loop->ranks, start);
 }
 
 /* Rank 0: all that was found, in the order of items. */
@@ -406,7 +406,7 @@ static void take_results(aur_shared_loop *loop) {
 
 uint64_t aur_shared_loop_end(aur_shared_loop *loop) {
     aur_ranks *const ranks = loop->ranks;
-    const double start = aur_ranks_talk_begin();
+    const double start = aur_ranks_messages_begin();
     if (loop->is_root && !aur_ranks_have_failed(ranks)) {
         const int64_t result = loop->options.outcome(loop->options.work);
         for (size_t r = 1; r < loop->rank_count; ++r)
@@ -415,7 +415,7 @@ uint64_t aur_shared_loop_end(aur_shared_loop *loop) {
     } else if (!loop->is_root) {
         take_results(loop);
     }
-    aur_ranks_talk_end(ranks, start);
+    aur_ranks_messages_end(ranks, start);
     const uint64_t rays = loop->foreign_rays;
     destroy(loop);
     return rays;

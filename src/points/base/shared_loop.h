@@ -39,7 +39,7 @@ void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result
 
 /* Talks until all items are done or given up. `one` does one item itself where there are no threads, and
  * returns whether there was one; NULL where there are threads. */
-void aur_shared_loop_talk(aur_shared_loop *loop, bool (*one)(void *work));
+void aur_shared_loop_exchange_messages(aur_shared_loop *loop, bool (*one)(void *work));
 /* To be called when no thread takes items any more: hands out what was found. Ends the loop; whether all went
  * well is known by aur_ranks_have_failed. Returns the rays of other ranks' items. */
 uint64_t aur_shared_loop_end(aur_shared_loop *loop);

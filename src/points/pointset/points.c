@@ -37,7 +37,7 @@ void aur_points_destroy(aur_points *points) {
     free(points);
 }
 
-const aur_points_view *aur_points_look(const aur_points *points) {
+const aur_points_view *aur_points_get_view(const aur_points *points) {
     return &points->view;
 }
 

@@ -28,9 +28,9 @@ static partial after_last(partial word, const char *characters) {
     return word;
 }
 
-static void offer_verbs(const partial *word, const cli_verb *const *verbs) {
-    for (; *verbs != NULL; ++verbs)
-        offer_name(word, (*verbs)->name, (*verbs)->summary);
+static void offer_commands(const partial *word, const cli_command *const *commands) {
+    for (; *commands != NULL; ++commands)
+        offer_name(word, (*commands)->name, (*commands)->summary);
 }
 
 /* The keys of a row, or what one of them may be. */
@@ -92,9 +92,9 @@ static void offer_values(partial word, const cli_option *option) {
         offer_content(&word, option->content);
 }
 
-static void offer_options(const partial *word, const cli_verb *verb) {
+static void offer_options(const partial *word, const cli_command *command) {
     const cli_option *option;
-    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+    for (size_t i = 0; (option = cli_option_at(command, i, NULL)) != NULL; ++i) {
         char text[64];
         snprintf(text, sizeof text, "%s%s", option->key.name[1] != '\0' ? "--" : "-", option->key.name);
         offer_name(word, text, option->key.help);
@@ -102,9 +102,9 @@ static void offer_options(const partial *word, const cli_verb *verb) {
     offer_name(word, "--help", "what the options are");
 }
 
-static void offer_operands(const partial *word, const cli_verb *const *verbs, const cli_verb *verb,
-                           size_t count, const char *before) {
-    const cli_operand *operand = verb->operands;
+static void offer_operands(const partial *word, const cli_command *const *commands,
+                           const cli_command *command, size_t count, const char *before) {
+    const cli_operand *operand = command->operands;
     for (size_t i = 0; i < count && operand->word != NULL; ++i)
         operand += !operand->repeated;
     const char *const content = operand->word != NULL && operand->content != NULL ? operand->content : "";
@@ -112,7 +112,7 @@ static void offer_operands(const partial *word, const cli_verb *const *verbs, co
         offer_name(word, operand->name(i), operand->help);
     const bool topic = strcmp(content, "topic") == 0, row = strcmp(content, "row") == 0;
     if (topic || strcmp(content, "verb") == 0 || (row && strcmp(before, "verb") == 0))
-        offer_verbs(word, verbs);
+        offer_commands(word, commands);
     for (size_t i = 0; topic && cli_table_at(i) != NULL; ++i)
         offer_name(word, cli_table_at(i)->kind, cli_table_at(i)->summary);
     offer_content(word, row ? before : content);
@@ -120,10 +120,10 @@ static void offer_operands(const partial *word, const cli_verb *const *verbs, co
 
 /* The option that an argument such as "--seed", "-n" or "-qn" names at its end, or NULL; its value follows
  * unless it is a flag. */
-static const cli_option *option_of(const cli_verb *verb, const char *text, size_t length) {
+static const cli_option *option_of(const cli_command *command, const char *text, size_t length) {
     const bool is_long = text[0] == '-' && text[1] == '-';
     const cli_option *option;
-    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+    for (size_t i = 0; (option = cli_option_at(command, i, NULL)) != NULL; ++i) {
         const char *const name = option->key.name;
         const char letter = name[1] == '\0' ? name[0] : option->letter;
         if (is_long ? strlen(name) == length - 2 && strncmp(name, text + 2, length - 2) == 0
@@ -133,28 +133,28 @@ static const cli_option *option_of(const cli_verb *verb, const char *text, size_
     return NULL;
 }
 
-void cli_complete(const cli_verb *const *verbs, size_t count, char **words) {
+void cli_complete(const cli_command *const *commands, size_t count, char **words) {
     if (count == 0)
         return;
     const partial word = {.typed = words[count - 1]};
     if (count == 1) {
-        offer_verbs(&word, verbs);
+        offer_commands(&word, commands);
         offer_name(&word, "--help", "the verbs");
         offer_name(&word, "--version", "the version of the library");
         return;
     }
-    const cli_verb *const *found = verbs;
+    const cli_command *const *found = commands;
     while (*found != NULL && strcmp((*found)->name, words[0]) != 0)
         ++found;
-    const cli_verb *const verb = *found;
-    if (verb == NULL)
+    const cli_command *const command = *found;
+    if (command == NULL)
         return;
     const char *before = ""; /* the operand before */
     size_t operands = 0;
     bool ended = false; /* by "--" */
     for (size_t i = 1; i + 1 < count; ++i) {
         const bool dashed = !ended && words[i][0] == '-' && words[i][1] != '\0';
-        const cli_option *const option = dashed ? option_of(verb, words[i], strlen(words[i])) : NULL;
+        const cli_option *const option = dashed ? option_of(command, words[i], strlen(words[i])) : NULL;
         ended = ended || strcmp(words[i], "--") == 0;
         const bool follows = option != NULL && option->value != NULL && !option->value_is_optional;
         if (follows && ++i + 1 == count) {
@@ -168,11 +168,11 @@ void cli_complete(const cli_verb *const *verbs, size_t count, char **words) {
     }
     const size_t length = strcspn(word.typed, "=");
     const cli_option *const option =
-        !ended && word.typed[length] == '=' ? option_of(verb, word.typed, length) : NULL;
+        !ended && word.typed[length] == '=' ? option_of(command, word.typed, length) : NULL;
     if (option != NULL && word.typed[1] == '-')
         offer_values((partial){word.typed, length + 1}, option);
     else if (!ended && word.typed[0] == '-')
-        offer_options(&word, verb);
+        offer_options(&word, command);
     else
-        offer_operands(&word, verbs, verb, operands, before);
+        offer_operands(&word, commands, command, operands, before);
 }

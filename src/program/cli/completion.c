@@ -103,7 +103,7 @@ static const char *shell_name(unsigned index) {
 static int run(const cli_call *call) {
     const char *const shell = call->operands[0];
     if (strcmp(shell, "words") == 0) {
-        cli_complete(call->verbs, call->operand_count - 1, call->operands + 1);
+        cli_complete(call->commands, call->operand_count - 1, call->operands + 1);
         return CLI_SUCCESS;
     }
     for (size_t i = 0; i < SHELL_COUNT && call->operand_count == 1; ++i) {
@@ -112,10 +112,10 @@ static int run(const cli_call *call) {
             return CLI_SUCCESS;
         }
     }
-    return cli_bad_usage("completion: %s: try 'aureole help completion'", call->verb->too_few);
+    return cli_bad_usage("completion: %s: try 'aureole help completion'", call->command->too_few);
 }
 
-const cli_verb cli_verb_completion = {
+const cli_command cli_command_completion = {
     .name = "completion",
     .summary = "a script that makes a shell complete verbs, options, names and keys",
     .notes =

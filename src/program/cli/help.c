@@ -16,24 +16,24 @@ static void print_option(const cli_option *option) {
     cli_print_entry(what, OPTION_COLUMN, help);
 }
 
-int cli_print_verb_help(const cli_verb *verb) {
-    printf("aureole %s", verb->name);
-    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
+int cli_print_command_help(const cli_command *command) {
+    printf("aureole %s", command->name);
+    for (const cli_operand *operand = command->operands; operand->word != NULL; ++operand)
         printf(" %s%s%s%s", operand->optional ? "[" : "", operand->word, operand->repeated ? "..." : "",
                operand->optional ? "]" : "");
-    puts(cli_option_at(verb, 0, NULL) != NULL ? " [OPTION...]\n" : "\n");
-    cli_print_paragraph(0, 0, verb->summary);
+    puts(cli_option_at(command, 0, NULL) != NULL ? " [OPTION...]\n" : "\n");
+    cli_print_paragraph(0, 0, command->summary);
     putchar('\n');
-    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
+    for (const cli_operand *operand = command->operands; operand->word != NULL; ++operand)
         cli_print_entry(operand->word, OPTION_COLUMN, operand->help);
-    if (verb->operands[0].word != NULL)
+    if (command->operands[0].word != NULL)
         putchar('\n');
     const cli_option *option;
-    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i)
+    for (size_t i = 0; (option = cli_option_at(command, i, NULL)) != NULL; ++i)
         print_option(option);
-    if (verb->notes != NULL) {
+    if (command->notes != NULL) {
         putchar('\n');
-        cli_print_paragraph(0, 0, verb->notes);
+        cli_print_paragraph(0, 0, command->notes);
     }
     return CLI_SUCCESS;
 }
@@ -103,10 +103,10 @@ static int print_kind(const aur_table *kind, report_format format) {
 }
 
 /* The options of a verb as a table, for programs. */
-static int print_options(const cli_verb *verb, report_format format) {
+static int print_options(const cli_command *command, report_format format) {
     report_table *const table = report_create(KEY_COLUMNS, key_columns);
     const cli_option *option;
-    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+    for (size_t i = 0; (option = cli_option_at(command, i, NULL)) != NULL; ++i) {
         char what[CLI_WORDS_CAPACITY], values[CLI_WORDS_CAPACITY];
         const bool choice = option->name != NULL || option->key.type == AUR_KEY_CHOICE;
         cli_write_option(option, false, what);
@@ -120,19 +120,19 @@ static int print_options(const cli_verb *verb, report_format format) {
     return cli_finish(table, format);
 }
 
-static int print_verbs(const cli_verb *const *verbs, report_format format) {
+static int print_commands(const cli_command *const *commands, report_format format) {
     report_table *const table = report_create(2, (const char *const[]){"name", "summary"});
-    for (; *verbs != NULL; ++verbs) {
-        report_text(table, (*verbs)->name);
-        report_text(table, (*verbs)->summary);
+    for (; *commands != NULL; ++commands) {
+        report_text(table, (*commands)->name);
+        report_text(table, (*commands)->summary);
     }
     return cli_finish_listing(table, format);
 }
 
-static int print_overview(const cli_verb *const *verbs) {
+static int print_overview(const cli_command *const *commands) {
     printf("aureole: quasi-Monte Carlo points, weights and light transport\n\n");
-    for (; *verbs != NULL; ++verbs)
-        cli_print_entry((*verbs)->name, NAME_COLUMN, (*verbs)->summary);
+    for (; *commands != NULL; ++commands)
+        cli_print_entry((*commands)->name, NAME_COLUMN, (*commands)->summary);
     cli_print_paragraph(
         0, 0,
         "\n'aureole help VERB' shows a verb's options; 'aureole --version' the version. 'aureole "
@@ -176,12 +176,14 @@ int cli_print_thing(const char *kind, const char *name, report_format format) {
     return help_on_row(cli_find_table(kind), name, format);
 }
 
-static int help_on_verb(const cli_verb *const *verbs, const char *name, report_format format, bool or_kind) {
+static int help_on_command(const cli_command *const *commands, const char *name, report_format format,
+                           bool or_kind) {
     name_list list = {0};
-    for (; *verbs != NULL; ++verbs) {
-        add_name(&list, (*verbs)->name);
-        if (strcmp((*verbs)->name, name) == 0)
-            return format == REPORT_TABLE ? cli_print_verb_help(*verbs) : print_options(*verbs, format);
+    for (; *commands != NULL; ++commands) {
+        add_name(&list, (*commands)->name);
+        if (strcmp((*commands)->name, name) == 0)
+            return format == REPORT_TABLE ? cli_print_command_help(*commands)
+                                          : print_options(*commands, format);
     }
     for (size_t i = 0; or_kind && cli_table_at(i) != NULL; ++i)
         add_name(&list, cli_table_at(i)->kind);
@@ -191,27 +193,27 @@ static int help_on_verb(const cli_verb *const *verbs, const char *name, report_f
 static int run(const cli_call *call) {
     const report_format format = ((const cli_common *)call->options)->format;
     if (call->operand_count == 0)
-        return print_overview(call->verbs);
+        return print_overview(call->commands);
     const char *const topic = call->operands[0];
     const char *const name = call->operand_count > 1 ? call->operands[1] : NULL;
     if (strcmp(topic, "verb") == 0)
-        return name != NULL ? help_on_verb(call->verbs, name, format, false)
-                            : print_verbs(call->verbs, format);
+        return name != NULL ? help_on_command(call->commands, name, format, false)
+                            : print_commands(call->commands, format);
     const aur_table *const kind = cli_find_table(topic);
     if (kind == NULL && name != NULL)
-        return cli_bad_usage("help: %s: 'aureole help' lists them", call->verb->too_many);
+        return cli_bad_usage("help: %s: 'aureole help' lists them", call->command->too_many);
     if (name != NULL)
         return help_on_row(kind, name, format);
     /* A kind may be called as a verb is: then formats for programs are of the kind. */
-    bool verb_too = false;
-    for (size_t i = 0; call->verbs[i] != NULL; ++i)
-        verb_too = verb_too || strcmp(call->verbs[i]->name, topic) == 0;
-    if (kind != NULL && (!verb_too || format != REPORT_TABLE))
+    bool command_too = false;
+    for (size_t i = 0; call->commands[i] != NULL; ++i)
+        command_too = command_too || strcmp(call->commands[i]->name, topic) == 0;
+    if (kind != NULL && (!command_too || format != REPORT_TABLE))
         return print_kind(kind, format);
-    return help_on_verb(call->verbs, topic, format, true);
+    return help_on_command(call->commands, topic, format, true);
 }
 
-const cli_verb cli_verb_help = {
+const cli_command cli_command_help = {
     .name = "help",
     .summary = "show the verbs, the options of one, or the keys of a thing",
     .too_many = "one verb, or a kind and a name",

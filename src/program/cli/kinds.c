@@ -44,14 +44,14 @@ static void forgive(const char *content, char *text) {
 }
 
 void cli_forgive_names(cli_call *call) {
-    const cli_operand *operand = call->verb->operands;
+    const cli_operand *operand = call->command->operands;
     for (size_t i = 0; i < call->operand_count && operand->word != NULL; ++i) {
         if (operand->content != NULL)
             forgive(operand->content, call->operands[i]);
         operand += !operand->repeated;
     }
     const cli_option *option;
-    for (size_t i = 0; (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+    for (size_t i = 0; (option = cli_option_at(call->command, i, NULL)) != NULL; ++i)
         if (option->content != NULL && !option->list && call->texts[i] != NULL)
             forgive(option->content, (char *)call->texts[i]);
 }

@@ -29,7 +29,7 @@ int cli_finish_listing(report_table *table, report_format format);
 
 /* Prints what the last of `count` words may become, one a line with a tab and its help after it; ":file" and
  * ":folder" stand for names of files and folders. The first word is the verb. */
-void cli_complete(const cli_verb *const *verbs, size_t count, char **words);
+void cli_complete(const cli_command *const *commands, size_t count, char **words);
 
 /* The tables of what there is to choose from, for help and completion. */
 
@@ -47,11 +47,11 @@ void cli_forgive_names(cli_call *call);
 /* What `aureole help KIND NAME` prints, of a kind that there is; returns the exit status. */
 int cli_print_thing(const char *kind, const char *name, report_format format);
 /* What `aureole help VERB` prints; returns CLI_SUCCESS. */
-int cli_print_verb_help(const cli_verb *verb);
+int cli_print_command_help(const cli_command *command);
 
 /* The program as one of several processes that do one job. */
 
 /* Runs the verb as `run` does, together with the other processes that a launcher has started, if there are
  * any: rank 0 speaks and writes for all. Returns the exit status. */
-int cli_run_ranks(const cli_verb *verb, int argc, char **argv,
-                  int (*run)(const cli_verb *verb, int argc, char **argv));
+int cli_run_ranks(const cli_command *command, int argc, char **argv,
+                  int (*run)(const cli_command *command, int argc, char **argv));

@@ -1,5 +1,5 @@
 /* aureole: finds the verb, reads its options and runs it. Adding a verb is one file, which defines
- * cli_verb_<name>, and one line here. */
+ * cli_command_<name>, and one line here. */
 #include <aureole/text.h>
 #include <signal.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 #include "program/cli/listing.h"
 
-#define VERBS(ROW)                                                                                           \
+#define COMMANDS(ROW)                                                                                        \
     ROW(sets)                                                                                                \
     ROW(points)                                                                                              \
     ROW(measure)                                                                                             \
@@ -28,24 +28,24 @@
     ROW(manual)                                                                                              \
     ROW(help)
 
-#define DECLARE(name) extern const cli_verb cli_verb_##name;
-VERBS(DECLARE)
+#define DECLARE(name) extern const cli_command cli_command_##name;
+COMMANDS(DECLARE)
 
-#define ADDRESS(name) &cli_verb_##name,
-static const cli_verb *const verbs[] = {VERBS(ADDRESS) NULL};
+#define ADDRESS(name) &cli_command_##name,
+static const cli_command *const commands[] = {COMMANDS(ADDRESS) NULL};
 
-static const cli_verb *find_verb(const char *name) {
-    for (size_t i = 0; verbs[i] != NULL; ++i)
-        if (strcmp(verbs[i]->name, name) == 0)
-            return verbs[i];
+static const cli_command *find_command(const char *name) {
+    for (size_t i = 0; commands[i] != NULL; ++i)
+        if (strcmp(commands[i]->name, name) == 0)
+            return commands[i];
     return NULL;
 }
 
-static int refuse_verb(const char *name) {
-    enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
+static int refuse_command(const char *name) {
+    enum { COUNT = sizeof commands / sizeof commands[0] - 1 };
     const char *names[COUNT];
     for (size_t i = 0; i < COUNT; ++i)
-        names[i] = verbs[i]->name;
+        names[i] = commands[i]->name;
     const char *const nearest = aur_nearest_name(name, COUNT, names);
     if (nearest != NULL)
         return cli_bad_usage("unknown verb '%s'; did you mean '%s'?", name, nearest);
@@ -64,21 +64,22 @@ static int finish(int status) {
 }
 
 /* argv[0] is the verb. */
-static int run(const cli_verb *verb, int argc, char **argv) {
-    if (verb->absent != NULL)
-        return cli_bad_usage("%s: needs %s, which this program was built without", verb->name, verb->absent);
+static int run(const cli_command *command, int argc, char **argv) {
+    if (command->absent != NULL)
+        return cli_bad_usage("%s: needs %s, which this program was built without", command->name,
+                             command->absent);
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
-            return cli_print_verb_help(verb);
-    cli_call call = {.verbs = verbs, .options = calloc(1, verb->size + 1)};
+            return cli_print_command_help(command);
+    cli_call call = {.commands = commands, .options = calloc(1, command->size + 1)};
     int status = CLI_BAD_INPUT;
     if (call.options == NULL)
         status = cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
-    else if (cli_read_options(verb, argc, argv, &call)) {
+    else if (cli_read_options(command, argc, argv, &call)) {
         cli_forgive_names(&call);
         status = cli_announce_outputs(&call);
         if (status == CLI_SUCCESS)
-            status = verb->run(&call);
+            status = command->run(&call);
     }
     free(call.options);
     return finish(status);
@@ -103,15 +104,15 @@ int main(int argc, char **argv) {
     char *const name = argc < 2 ? "" : argv[1];
     const bool help = strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0;
     if (argc < 2 || help) {
-        const int status = run(&cli_verb_help, 1, (char *[]){"help", NULL});
+        const int status = run(&cli_command_help, 1, (char *[]){"help", NULL});
         return help ? status : cli_bad_usage("a verb is missing: try 'aureole help'");
     }
     if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "version") == 0) {
         printf("aureole %s\n", aur_version());
         return finish(CLI_SUCCESS);
     }
-    const cli_verb *const verb = find_verb(name);
-    if (verb == NULL)
-        return refuse_verb(name);
-    return cli_run_ranks(verb, argc - 1, argv + 1, run);
+    const cli_command *const command = find_command(name);
+    if (command == NULL)
+        return refuse_command(name);
+    return cli_run_ranks(command, argc - 1, argv + 1, run);
 }

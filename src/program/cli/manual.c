@@ -88,28 +88,28 @@ static void put_exit_statuses(FILE *page) {
               "It could not be done: a file cannot be written, memory ended, or it was interrupted.");
 }
 
-static void put_verb(FILE *page, const cli_verb *verb) {
+static void put_command(FILE *page, const cli_command *command) {
     char name[64], what[CLI_WORDS_CAPACITY], help[CLI_HELP_CAPACITY];
-    aur_format(name, sizeof name, "aureole-%s", verb->name);
-    put_head(page, name, 1, verb->summary);
+    aur_format(name, sizeof name, "aureole-%s", command->name);
+    put_head(page, name, 1, command->summary);
     put_section(page, "SYNOPSIS");
-    fprintf(page, "\\fBaureole %s\\fR", verb->name);
-    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
+    fprintf(page, "\\fBaureole %s\\fR", command->name);
+    for (const cli_operand *operand = command->operands; operand->word != NULL; ++operand)
         fprintf(page, " %s\\fI%s\\fR%s%s", operand->optional ? "[" : "", operand->word,
                 operand->repeated ? "..." : "", operand->optional ? "]" : "");
-    fprintf(page, "%s\n", cli_option_at(verb, 0, NULL) != NULL ? " [\\fIOPTION\\fR...]" : "");
-    if (verb->notes != NULL) {
+    fprintf(page, "%s\n", cli_option_at(command, 0, NULL) != NULL ? " [\\fIOPTION\\fR...]" : "");
+    if (command->notes != NULL) {
         put_section(page, "DESCRIPTION");
-        put_line(page, verb->notes);
+        put_line(page, command->notes);
     }
-    if (verb->operands[0].word != NULL)
+    if (command->operands[0].word != NULL)
         put_section(page, "ARGUMENTS");
-    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
+    for (const cli_operand *operand = command->operands; operand->word != NULL; ++operand)
         put_entry(page, operand->word, operand->help);
     const cli_option *option;
-    if (cli_option_at(verb, 0, NULL) != NULL)
+    if (cli_option_at(command, 0, NULL) != NULL)
         put_section(page, "OPTIONS");
-    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+    for (size_t i = 0; (option = cli_option_at(command, i, NULL)) != NULL; ++i) {
         cli_write_option(option, false, what);
         cli_write_option_help(option, help);
         put_entry(page, what, help);
@@ -119,7 +119,7 @@ static void put_verb(FILE *page, const cli_verb *verb) {
     put_line(page, "aureole(1), aureole-scene(5), aureole-names(7)");
 }
 
-static void put_program(FILE *page, const cli_verb *const *verbs) {
+static void put_program(FILE *page, const cli_command *const *commands) {
     put_head(page, "aureole", 1, "quasi-Monte Carlo points, weights and light transport");
     put_section(page, "SYNOPSIS");
     fprintf(page, "\\fBaureole\\fR \\fIVERB\\fR [\\fIARGUMENT\\fR...] [\\fIOPTION\\fR...]\n");
@@ -128,9 +128,9 @@ static void put_program(FILE *page, const cli_verb *const *verbs) {
              "Makes, measures and weighs sample points on the square, the hemisphere and the sphere, and "
              "renders pictures with them. The same inputs and seed give the same bits, whatever the number "
              "of threads. Each verb has a page of its own: aureole-VERB(1).");
-    put_section(page, "VERBS");
-    for (size_t i = 0; verbs[i] != NULL; ++i)
-        put_entry(page, verbs[i]->name, verbs[i]->summary);
+    put_section(page, "COMMANDS");
+    for (size_t i = 0; commands[i] != NULL; ++i)
+        put_entry(page, commands[i]->name, commands[i]->summary);
     put_section(page, "ENVIRONMENT");
     put_entry(page, "AUREOLE_CACHE",
               "The folder of what takes long to make and is used again; empty for none.");
@@ -191,8 +191,8 @@ static const char scene_example[] =
     "  <emitter type=\"constant\"/>\n"
     "</scene>";
 
-static void put_scene(FILE *page, const cli_verb *const *verbs) {
-    (void)verbs;
+static void put_scene(FILE *page, const cli_command *const *commands) {
+    (void)commands;
     put_head(page, "aureole-scene", 5, "the language of scenes");
     put_section(page, "DESCRIPTION");
     put_line(page,
@@ -220,8 +220,8 @@ static void put_scene(FILE *page, const cli_verb *const *verbs) {
     put_line(page, "aureole(1), aureole-render(1), aureole-names(7)");
 }
 
-static void put_names(FILE *page, const cli_verb *const *verbs) {
-    (void)verbs;
+static void put_names(FILE *page, const cli_command *const *commands) {
+    (void)commands;
     put_head(page, "aureole-names", 7, "point sets and measures, and the keys of each");
     put_section(page, "DESCRIPTION");
     put_line(
@@ -237,7 +237,7 @@ static void put_names(FILE *page, const cli_verb *const *verbs) {
 typedef struct manual_page {
     const char *name; /* of `aureole manual NAME` */
     const char *file; /* below the folder of all pages */
-    void (*put)(FILE *page, const cli_verb *const *verbs);
+    void (*put)(FILE *page, const cli_command *const *commands);
 } manual_page;
 
 static const manual_page pages[] = {{"aureole", "man1/aureole.1", put_program},
@@ -249,18 +249,18 @@ static const char *page_name(unsigned index) {
     return index < PAGE_COUNT ? pages[index].name : NULL;
 }
 
-static int print_page(const cli_verb *const *verbs, const char *name) {
+static int print_page(const cli_command *const *commands, const char *name) {
     const char *names[CLI_NAME_LIMIT];
     size_t count = 0;
     for (; count < PAGE_COUNT; ++count) {
         names[count] = pages[count].name;
         if (strcmp(names[count], name) == 0)
-            return pages[count].put(stdout, verbs), CLI_SUCCESS;
+            return pages[count].put(stdout, commands), CLI_SUCCESS;
     }
-    for (size_t i = 0; verbs[i] != NULL && count < CLI_NAME_LIMIT; ++i) {
-        names[count++] = verbs[i]->name;
-        if (strcmp(verbs[i]->name, name) == 0)
-            return put_verb(stdout, verbs[i]), CLI_SUCCESS;
+    for (size_t i = 0; commands[i] != NULL && count < CLI_NAME_LIMIT; ++i) {
+        names[count++] = commands[i]->name;
+        if (strcmp(commands[i]->name, name) == 0)
+            return put_command(stdout, commands[i]), CLI_SUCCESS;
     }
     const char *const nearest = aur_nearest_name(name, count, names);
     if (nearest != NULL)
@@ -269,16 +269,16 @@ static int print_page(const cli_verb *const *verbs, const char *name) {
 }
 
 /* Writes one page below the folder; false where that fails, which is said. */
-static bool write_page(const cli_verb *const *verbs, const char *folder, const char *file,
-                       const manual_page *page, const cli_verb *verb) {
+static bool write_page(const cli_command *const *commands, const char *folder, const char *file,
+                       const manual_page *page, const cli_command *command) {
     char path[PATH_MAX], *text = NULL;
     size_t size = 0;
     aur_error error = {0};
     FILE *const stream = open_memstream(&text, &size);
     if (stream != NULL && page != NULL)
-        page->put(stream, verbs);
+        page->put(stream, commands);
     else if (stream != NULL)
-        put_verb(stream, verb);
+        put_command(stream, command);
     aur_result result =
         stream != NULL && fclose(stream) == 0 ? AUR_OK : aur_fail(&error, AUR_ERROR_MEMORY, "out of memory");
     aur_format(path, sizeof path, "%s/%.4s", folder, file); /* "man1" */
@@ -291,14 +291,14 @@ static bool write_page(const cli_verb *const *verbs, const char *folder, const c
     return cli_status(result, &error) == CLI_SUCCESS;
 }
 
-static int write_pages(const cli_verb *const *verbs, const char *folder) {
+static int write_pages(const cli_command *const *commands, const char *folder) {
     bool good = true;
     for (size_t i = 0; i < PAGE_COUNT && good; ++i)
-        good = write_page(verbs, folder, pages[i].file, &pages[i], NULL);
-    for (size_t i = 0; verbs[i] != NULL && good; ++i) {
+        good = write_page(commands, folder, pages[i].file, &pages[i], NULL);
+    for (size_t i = 0; commands[i] != NULL && good; ++i) {
         char file[96];
-        aur_format(file, sizeof file, "man1/aureole-%s.1", verbs[i]->name);
-        good = write_page(verbs, folder, file, NULL, verbs[i]);
+        aur_format(file, sizeof file, "man1/aureole-%s.1", commands[i]->name);
+        good = write_page(commands, folder, file, NULL, commands[i]);
     }
     return good ? CLI_SUCCESS : CLI_FAILURE;
 }
@@ -309,8 +309,8 @@ static int run(const cli_call *call) {
         return cli_bad_usage(
             "manual: expected a PAGE to print, or -o FOLDER for all pages: try 'aureole help "
             "manual'");
-    return given->folder != NULL ? write_pages(call->verbs, given->folder)
-                                 : print_page(call->verbs, call->operands[0]);
+    return given->folder != NULL ? write_pages(call->commands, given->folder)
+                                 : print_page(call->commands, call->operands[0]);
 }
 
 static const cli_option options[] = {{CLI_TEXT(manual_options, folder, "output", "FOLDER", NULL,
@@ -318,7 +318,7 @@ static const cli_option options[] = {{CLI_TEXT(manual_options, folder, "output",
                                       .letter = 'o', .content = "folder"},
                                      {.key = {0}}};
 
-const cli_verb cli_verb_manual = {
+const cli_command cli_command_manual = {
     .name = "manual",
     .summary = "the manual pages: the program, every verb, what scenes are made of, sets and measures",
     .notes =

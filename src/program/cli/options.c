@@ -58,8 +58,8 @@ const cli_option cli_model_light_option[] = {
      .key.words = (const char *const[]){"auto", "always", "none", NULL}},
     {.key = {0}}};
 
-const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset) {
-    for (const cli_group *group = verb->groups; group->options != NULL; ++group) {
+const cli_option *cli_option_at(const cli_command *command, size_t index, size_t *offset) {
+    for (const cli_group *group = command->groups; group->options != NULL; ++group) {
         for (const cli_option *option = group->options; option->key.name != NULL; ++option) {
             if (index-- != 0)
                 continue;
@@ -80,7 +80,7 @@ const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offs
 
 const char *cli_given(const cli_call *call, const char *name) {
     const cli_option *option;
-    for (size_t i = 0; (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+    for (size_t i = 0; (option = cli_option_at(call->command, i, NULL)) != NULL; ++i)
         if (strcmp(option->key.name, name) == 0)
             return call->texts[i];
     return NULL;
@@ -185,10 +185,10 @@ static bool read_option(const cli_option *option, char *text, void *field) {
 }
 
 /* Defaults are read as if they had been given; a computed one leaves the field at zero. */
-static bool put_defaults(const cli_verb *verb, char *fields) {
+static bool put_defaults(const cli_command *command, char *fields) {
     const cli_option *option;
     size_t offset;
-    for (size_t i = 0; (option = cli_option_at(verb, i, &offset)) != NULL; ++i) {
+    for (size_t i = 0; (option = cli_option_at(command, i, &offset)) != NULL; ++i) {
         const char *const text = option->key.default_text;
         if (text == NULL || option->key.computed)
             continue;
@@ -218,10 +218,11 @@ typedef struct getopt_options {
     struct option names[CLI_OPTION_LIMIT + 1];
 } getopt_options;
 
-static getopt_options list_options(const cli_verb *verb) {
+static getopt_options list_options(const cli_command *command) {
     getopt_options list = {.letters = ":"};
     size_t letters = 1, names = 0;
-    for (const cli_option *option; (option = cli_option_at(verb, list.count, NULL)) != NULL; ++list.count) {
+    for (const cli_option *option; (option = cli_option_at(command, list.count, NULL)) != NULL;
+         ++list.count) {
         const bool is_long = option->key.name[1] != '\0';
         const char letter = is_long ? option->letter : option->key.name[0];
         if (letter != '\0')
@@ -238,18 +239,18 @@ static getopt_options list_options(const cli_verb *verb) {
     return list;
 }
 
-static size_t index_of(const cli_verb *verb, int code) {
+static size_t index_of(const cli_command *command, int code) {
     if (code >= LONG_OPTION)
         return (size_t)(code - LONG_OPTION);
     size_t i = 0;
-    for (const cli_option *option; (option = cli_option_at(verb, i, NULL)) != NULL; ++i)
+    for (const cli_option *option; (option = cli_option_at(command, i, NULL)) != NULL; ++i)
         if (option->letter == code || (option->key.name[0] == code && option->key.name[1] == '\0'))
             break;
     return i;
 }
 
 /* Says what getopt does not like: `text` is the argument that it was reading. */
-static int refuse_option(const cli_verb *verb, const getopt_options *list, int code, const char *text) {
+static int refuse_option(const cli_command *command, const getopt_options *list, int code, const char *text) {
     const bool is_long = optopt == 0 || optopt >= LONG_OPTION;
     char given[AUR_ERROR_MESSAGE_CAPACITY];
     if (is_long)
@@ -257,8 +258,8 @@ static int refuse_option(const cli_verb *verb, const getopt_options *list, int c
     else
         aur_format(given, sizeof given, "-%c", optopt);
     if (code == ':' || optopt >= LONG_OPTION)
-        return cli_bad_usage("%s: option '%s' %s: try 'aureole help %s'", verb->name, given,
-                             code == ':' ? "needs a value" : "takes no value", verb->name);
+        return cli_bad_usage("%s: option '%s' %s: try 'aureole help %s'", command->name, given,
+                             code == ':' ? "needs a value" : "takes no value", command->name);
     const char *names[CLI_OPTION_LIMIT];
     char alike[AUR_ERROR_MESSAGE_CAPACITY] = "";
     size_t count = 0;
@@ -270,24 +271,25 @@ static int refuse_option(const cli_verb *verb, const getopt_options *list, int c
     }
     const char *const nearest = is_long ? aur_nearest_name(given + 2, count, names) : NULL;
     if (alike[0] != '\0')
-        return cli_bad_usage("%s: option '%s' may be %s", verb->name, given, alike);
+        return cli_bad_usage("%s: option '%s' may be %s", command->name, given, alike);
     if (nearest != NULL)
-        return cli_bad_usage("%s: unknown option '%s'; did you mean '--%s'?", verb->name, given, nearest);
-    return cli_bad_usage("%s: unknown option '%s': try 'aureole help %s'", verb->name, given, verb->name);
+        return cli_bad_usage("%s: unknown option '%s'; did you mean '--%s'?", command->name, given, nearest);
+    return cli_bad_usage("%s: unknown option '%s': try 'aureole help %s'", command->name, given,
+                         command->name);
 }
 
-static bool check_operands(const cli_verb *verb, const cli_call *call) {
+static bool check_operands(const cli_command *command, const cli_call *call) {
     size_t least = 0, most = 0;
-    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand) {
+    for (const cli_operand *operand = command->operands; operand->word != NULL; ++operand) {
         least += !operand->optional;
         most = operand->repeated ? SIZE_MAX : most + 1;
     }
     if (call->operand_count < least)
-        cli_bad_usage("%s: %s: try 'aureole help %s'", verb->name, verb->too_few, verb->name);
-    else if (call->operand_count > most && verb->too_many != NULL)
-        cli_bad_usage("%s: %s: try 'aureole help %s'", verb->name, verb->too_many, verb->name);
+        cli_bad_usage("%s: %s: try 'aureole help %s'", command->name, command->too_few, command->name);
+    else if (call->operand_count > most && command->too_many != NULL)
+        cli_bad_usage("%s: %s: try 'aureole help %s'", command->name, command->too_many, command->name);
     else if (call->operand_count > most)
-        cli_bad_usage("%s: unexpected argument '%s'", verb->name, call->operands[most]);
+        cli_bad_usage("%s: unexpected argument '%s'", command->name, call->operands[most]);
     return call->operand_count >= least && call->operand_count <= most;
 }
 
@@ -316,31 +318,32 @@ int cli_announce_outputs(const cli_call *call) {
     aur_error error = {0};
     aur_result result = AUR_OK;
     const cli_option *option;
-    for (size_t i = 0; result == AUR_OK && (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+    for (size_t i = 0; result == AUR_OK && (option = cli_option_at(call->command, i, NULL)) != NULL; ++i)
         if (option->writes && call->texts[i] != NULL)
             result = cli_announce_output(call->texts[i], &error);
     for (size_t i = 0; result == AUR_OK && i < call->operand_count; ++i)
-        if (i < sizeof call->verb->operands / sizeof *call->verb->operands && call->verb->operands[i].writes)
+        if (i < sizeof call->command->operands / sizeof *call->command->operands &&
+            call->command->operands[i].writes)
             result = cli_announce_output(call->operands[i], &error);
     return cli_status(result, &error);
 }
 
-bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *call) {
-    const getopt_options list = list_options(verb);
+bool cli_read_options(const cli_command *command, int argc, char **argv, cli_call *call) {
+    const getopt_options list = list_options(command);
     char *const fields = call->options;
-    call->verb = verb;
-    if (!put_defaults(verb, fields))
+    call->command = command;
+    if (!put_defaults(command, fields))
         return false;
     opterr = 0;
     optind = 0;
     for (int code; (code = getopt_long(argc, argv, list.letters, list.names, NULL)) != -1;) {
         if (code == '?' || code == ':') {
-            refuse_option(verb, &list, code, argv[optind - 1]);
+            refuse_option(command, &list, code, argv[optind - 1]);
             return false;
         }
-        const size_t index = index_of(verb, code);
+        const size_t index = index_of(command, code);
         size_t offset = 0;
-        const cli_option *const option = cli_option_at(verb, index, &offset);
+        const cli_option *const option = cli_option_at(command, index, &offset);
         if (spells_computed_default(option, optarg)) {
             call->texts[index] = NULL;
             memset(fields + offset, 0, option->key.size);
@@ -353,5 +356,5 @@ bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *cal
     }
     call->operand_count = (size_t)(argc - optind);
     call->operands = argv + optind;
-    return check_operands(verb, call);
+    return check_operands(command, call);
 }

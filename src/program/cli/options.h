@@ -68,8 +68,8 @@ typedef struct cli_group {
 
 typedef struct cli_call cli_call;
 
-/* One verb: its file defines `const cli_verb cli_verb_<name>`, and main.c has the table. */
-typedef struct cli_verb {
+/* One verb: its file defines `const cli_command cli_command_<name>`, and main.c has the table. */
+typedef struct cli_command {
     const char *name;
     const char *summary;              /* one line for the list */
     const char *notes;                /* what is to be said after the options; or NULL */
@@ -80,12 +80,12 @@ typedef struct cli_verb {
     int (*run)(const cli_call *call); /* returns the exit status */
     bool ranks;                       /* several processes that mpirun starts share the work */
     const char *absent; /* what it needs and this program was built without: "libaureole-render"; or NULL */
-} cli_verb;
+} cli_command;
 
 /* A command line that has been read. */
 struct cli_call {
-    const cli_verb *const *verbs; /* all of them; NULL at the end */
-    const cli_verb *verb;
+    const cli_command *const *commands; /* all of them; NULL at the end */
+    const cli_command *command;
     void *options; /* the verb's struct: zero but for defaults and what was given */
     size_t operand_count;
     char **operands;
@@ -94,11 +94,11 @@ struct cli_call {
 
 /* Option `index` of a verb, group after group, NULL beyond the last; *offset (unless NULL) is the place of
  * its field in the verb's struct. */
-const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset);
+const cli_option *cli_option_at(const cli_command *command, size_t index, size_t *offset);
 
 /* Reads argv[1..argc-1] into a call whose `options` point to zeros. Prints what is wrong and returns false.
  */
-bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *call);
+bool cli_read_options(const cli_command *command, int argc, char **argv, cli_call *call);
 /* The text that was given for an option, "" for a flag, or NULL when it was not given. */
 const char *cli_given(const cli_call *call, const char *name);
 

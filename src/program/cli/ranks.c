@@ -29,18 +29,18 @@ static void read_said(FILE *said, size_t capacity, char *text) {
     text[strcspn(text, "\n")] = '\0';
 }
 
-int cli_run_ranks(const cli_verb *verb, int argc, char **argv,
-                  int (*run)(const cli_verb *verb, int argc, char **argv)) {
+int cli_run_ranks(const cli_command *command, int argc, char **argv,
+                  int (*run)(const cli_command *command, int argc, char **argv)) {
     const size_t count = aur_ranks_started();
     if (count < 2)
-        return run(verb, argc, argv);
-    if (!verb->ranks)
-        return cli_bad_usage("%s: the work of one process, and mpirun has started %zu", verb->name, count);
+        return run(command, argc, argv);
+    if (!command->ranks)
+        return cli_bad_usage("%s: the work of one process, and mpirun has started %zu", command->name, count);
     aur_error error = {0};
     const aur_result joined = aur_ranks_join(&error);
     const bool speaks = aur_ranks_rank() == 0;
     FILE *const said = speaks ? NULL : hush();
-    int status = joined == AUR_OK ? run(verb, argc, argv) : cli_fail(&error);
+    int status = joined == AUR_OK ? run(command, argc, argv) : cli_fail(&error);
     char text[512] = "";
     error = (aur_error){0};
     read_said(said, sizeof text, text);

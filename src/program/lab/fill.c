@@ -145,11 +145,11 @@ void lab_time(lab_run *run, const char *what, double seconds) {
 /* --- what is kept */
 
 bool lab_recall(const lab_run *run, const char *key, size_t count, double *values) {
-    return lab_kept_find(run->kept, key, count, values);
+    return lab_store_find(run->store, key, count, values);
 }
 
 aur_result lab_keep(lab_run *run, const char *key, size_t count, const double *values, aur_error *error) {
-    const aur_result result = lab_kept_add(run->kept, key, count, values, lab_run_seconds(run), error);
+    const aur_result result = lab_store_add(run->store, key, count, values, lab_run_seconds(run), error);
     const aur_progress progress = run->options.progress;
     if (result == AUR_OK && progress.function != NULL &&
         progress.function(progress.user, run->experiment->name, 0, 1) != 0)

@@ -149,15 +149,15 @@ aur_result lab_render(const lab_run *run, const lab_rendering *how, aur_image **
 double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image *b);
 
 /* A picture of the report. Those of one view are seen in one viewer, and compared with its reference. */
-typedef struct lab_picture_place {
+typedef struct lab_image_position {
     const char *view; /* "diffuse"; NULL: a view of its own */
     const char *name; /* "sobol" */
     bool reference;
     double exposure; /* stops, to begin with */
-} lab_picture_place;
+} lab_image_position;
 
 /* Writes NAME-<view>-<name>.exr and, as people look at it, .png. */
-aur_result lab_picture(lab_run *run, const lab_picture_place *place, const aur_image *image,
+aur_result lab_picture(lab_run *run, const lab_image_position *place, const aur_image *image,
                        aur_error *error);
 
 /* --- figures of repeated measurements, with intervals of 95 % */

@@ -82,7 +82,7 @@ double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image 
 }
 
 /* The row of a picture; one that was made before an interruption has it already. */
-static void list_picture(lab_run *run, const lab_picture_place *place, const char *path) {
+static void list_picture(lab_run *run, const lab_image_position *place, const char *path) {
     const char *const file = strrchr(path, '/') + 1;
     for (size_t i = 0; i < report_rows(run->pictures); ++i)
         if (strcmp(report_cell(run->pictures, i, 2), file) == 0)
@@ -94,7 +94,7 @@ static void list_picture(lab_run *run, const lab_picture_place *place, const cha
     report_number(run->pictures, place->exposure, 4);
 }
 
-aur_result lab_picture(lab_run *run, const lab_picture_place *place, const aur_image *image,
+aur_result lab_picture(lab_run *run, const lab_image_position *place, const aur_image *image,
                        aur_error *error) {
     static const char *const extensions[] = {"exr", "png"};
     char path[AUR_ERROR_FILE_CAPACITY], name[256];

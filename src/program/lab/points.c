@@ -22,7 +22,7 @@ aur_result lab_figure(const lab_points *points, const char *metric, size_t threa
     aur_measure_options how = {.size = sizeof how};
     aur_measure_options_init(&how, NULL);
     how.threads = threads;
-    const aur_result measured = aur_measure(metric, aur_points_look(made), &how, value, error);
+    const aur_result measured = aur_measure(metric, aur_points_get_view(made), &how, value, error);
     aur_points_destroy(made);
     return measured;
 }

@@ -62,11 +62,11 @@ static aur_result begin(lab_run *run, aur_error *error) {
         unlink(path);
     identify(run->experiment, &run->options, identity);
     lab_run_path(run, "unfinished", "txt", path, sizeof path);
-    const aur_result result = lab_kept_open(path, identity, &run->kept, error);
+    const aur_result result = lab_store_open(path, identity, &run->store, error);
     if (result != AUR_OK)
         return result;
     lab_run_path(run, "pictures", "csv", path, sizeof path);
-    if (!lab_kept_continues(run->kept) || report_load(path, &run->pictures, NULL, NULL) != AUR_OK) {
+    if (!lab_store_continues(run->store) || report_load(path, &run->pictures, NULL, NULL) != AUR_OK) {
         run->pictures = report_create(0, NULL);
         add_columns(run->pictures, of_pictures);
         if (aur_ranks_rank() == 0)
@@ -158,12 +158,12 @@ aur_result lab_run_experiment(const lab_experiment *experiment, const lab_option
     const bool noted = finish(run.notes);
     if (outcome == AUR_OK && ready && noted)
         outcome = save_all(&run, error);
-    else if (run.kept != NULL && aur_ranks_count() == 1 && report_rows(result->table) > 0)
+    else if (run.store != NULL && aur_ranks_count() == 1 && report_rows(result->table) > 0)
         lab_run_save(&run, result->table, NULL, "unfinished: the same command goes on", false, NULL);
     const bool listed = finish(run.files);
     if (outcome == AUR_OK && !(ready && noted && listed))
         outcome = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    lab_kept_close(run.kept);
+    lab_store_close(run.store);
     report_destroy(run.pictures);
     report_destroy(run.times);
     for (size_t i = 0; i < run.further_count; ++i)

@@ -10,21 +10,21 @@
 
 /* What a run has measured so far, in a file that outlives an interruption. */
 
-typedef struct lab_kept lab_kept;
+typedef struct lab_store lab_store;
 
 /* Takes up the file of a run of the same `identity` (a line), or begins it anew. Errors: WRITE, MEMORY. */
-aur_result lab_kept_open(const char *path, const char *identity, lab_kept **kept, aur_error *error);
-void lab_kept_close(lab_kept *kept); /* NULL is allowed */
+aur_result lab_store_open(const char *path, const char *identity, lab_store **store, aur_error *error);
+void lab_store_close(lab_store *store); /* NULL is allowed */
 
 /* Whether there is anything from an earlier run, and the processor seconds that it took. */
-bool lab_kept_continues(const lab_kept *kept);
-double lab_kept_seconds(const lab_kept *kept);
+bool lab_store_continues(const lab_store *store);
+double lab_store_seconds(const lab_store *store);
 
 /* The numbers of a key; false when there are none. */
-bool lab_kept_find(const lab_kept *kept, const char *key, size_t count, double *values);
+bool lab_store_find(const lab_store *store, const char *key, size_t count, double *values);
 /* `seconds` are all that the run has taken. Errors: WRITE. */
-aur_result lab_kept_add(lab_kept *kept, const char *key, size_t count, const double *values, double seconds,
-                        aur_error *error);
+aur_result lab_store_add(lab_store *store, const char *key, size_t count, const double *values,
+                         double seconds, aur_error *error);
 
 enum { LAB_FURTHER_TABLES = 8 };
 
@@ -33,7 +33,7 @@ struct lab_run {
     lab_options options;
     lab_result *result;
     FILE *notes, *files; /* in memory */
-    lab_kept *kept;
+    lab_store *store;
     report_table *pictures, *times;
     size_t further_count;
     report_table *further[LAB_FURTHER_TABLES];

@@ -12,7 +12,7 @@ double lab_clock_seconds(clockid_t clock) {
 }
 
 double lab_run_seconds(const lab_run *run) {
-    return lab_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - run->begin + lab_kept_seconds(run->kept);
+    return lab_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - run->begin + lab_store_seconds(run->store);
 }
 
 /* FOLDER/NAME/NAME-<what>.<extension>; letters that file names should not have become underscores. */

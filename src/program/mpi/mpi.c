@@ -60,20 +60,20 @@ static void end_all(void *state, int status) {
     MPI_Abort(MPI_COMM_WORLD, status);
 }
 
-AUR_INTERNAL aur_result aur_carrier_open(aur_carrier *carrier, aur_error *error);
+AUR_INTERNAL aur_result aur_transport_open(aur_transport *transport, aur_error *error);
 
-aur_result aur_carrier_open(aur_carrier *carrier, aur_error *error) {
+aur_result aur_transport_open(aur_transport *transport, aur_error *error) {
     int given = 0, rank = 0, count = 0;
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "MPI does not start");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &count);
-    *carrier = (aur_carrier){.rank = (size_t)rank,
-                             .count = (size_t)count,
-                             .send = send,
-                             .poll = poll,
-                             .receive = receive,
-                             .finish = finish,
-                             .abort = end_all};
+    *transport = (aur_transport){.rank = (size_t)rank,
+                                 .count = (size_t)count,
+                                 .send = send,
+                                 .poll = poll,
+                                 .receive = receive,
+                                 .finish = finish,
+                                 .abort = end_all};
     return AUR_OK;
 }

@@ -1,4 +1,4 @@
-#include "render/adaptive/rivals.h"
+#include "render/adaptive/comparison.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@ static const double LEAST_GAIN = 0.1;
 
 static const size_t counts[AUR_CANDIDATE_CHOICES] = {1, 2, 4};
 
-char *aur_ask_path(const char *path, size_t candidates) {
+char *aur_adaptive_path(const char *path, size_t candidates) {
     enum { CAPACITY = 48 }; /* a number and the key's name */
     const size_t capacity = strlen(path) + CAPACITY;
     char *const text = malloc(capacity);
@@ -25,33 +25,33 @@ char *aur_ask_path(const char *path, size_t candidates) {
 }
 
 /* Samples that go where they are needed leave an error whose square is as the square of this sum. */
-static double sum_of_deviations(const aur_trial *trial) {
+static double sum_of_deviations(const aur_candidate *candidate) {
     double sum = 0.0;
-    for (size_t i = 0; i < trial->value_count; ++i)
-        sum += sqrt(trial->variances[i]);
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        sum += sqrt(candidate->variances[i]);
     return sum;
 }
 
 static aur_result look_at(aur_renderer *renderer, const aur_render_options *coarse, const aur_choice *choice,
                           size_t candidates, double *deviations, aur_spent *spent, aur_error *error) {
-    aur_trial trial = {.integrator = aur_ask_path(choice->trial.integrator, candidates)};
-    aur_result result = trial.integrator != NULL
-                            ? aur_trial_create(renderer, coarse, choice->replica_count, &trial, error)
+    aur_candidate candidate = {.integrator = aur_adaptive_path(choice->candidate.integrator, candidates)};
+    aur_result result = candidate.integrator != NULL
+                            ? aur_candidate_create(renderer, coarse, choice->replica_count, &candidate, error)
                             : aur_fail_memory(error);
     if (result == AUR_OK) {
-        aur_trial_plan_evenly(&trial, AUR_CANDIDATE_SAMPLES);
-        result = aur_trial_render(&trial, choice->confidence, choice->cancelled, error);
+        aur_candidate_plan_evenly(&candidate, AUR_CANDIDATE_SAMPLES);
+        result = aur_candidate_render(&candidate, choice->confidence, choice->cancelled, error);
     }
     if (result == AUR_OK)
-        *deviations = sum_of_deviations(&trial);
-    aur_trial_add_spent(&trial, spent);
-    aur_trial_release(&trial);
+        *deviations = sum_of_deviations(&candidate);
+    aur_candidate_add_spent(&candidate, spent);
+    aur_candidate_release(&candidate);
     return result;
 }
 
-aur_result aur_ask_candidates(aur_renderer *renderer, const aur_render_options *coarse,
-                              const aur_choice *choice, aur_candidates *found, aur_spent *spent,
-                              aur_error *error) {
+aur_result aur_adaptive_candidates(aur_renderer *renderer, const aur_render_options *coarse,
+                                   const aur_choice *choice, aur_candidates *found, aur_spent *spent,
+                                   aur_error *error) {
     double one = 0.0;
     *found = (aur_candidates){1, 1.0};
     for (size_t i = 0; i < AUR_CANDIDATE_CHOICES; ++i) {

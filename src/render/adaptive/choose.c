@@ -20,8 +20,8 @@ static const char *depth_of(const aur_parameters *parameters) {
     return NULL;
 }
 
-aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
-                          aur_error *error) {
+aur_result aur_adaptive_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
+                               aur_error *error) {
     const aur_parameters *const own = aur_scene_integrator(scene);
     *integrator = NULL;
     *open = false;

@@ -1,13 +1,13 @@
 /* Which integrator answers a wish. */
 #pragma once
 
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 
 #include "points/base/cache.h"
 #include "points/base/parallel.h"
+#include "render/adaptive/candidate.h"
 #include "render/adaptive/gather_size.h"
 #include "render/adaptive/replicas.h"
-#include "render/adaptive/trial.h"
 #include "render/scene/scene.h"
 
 /* How far two ways to render a picture are from each other in the mean: the bias of one, if the other has
@@ -36,9 +36,9 @@ aur_bias aur_replicas_sharing_bias(const aur_replicas *replicas, double mean, do
 aur_bias aur_bias_of_both(aur_bias a, aur_bias b);
 
 /* NAME[:key=value] as aur_render_options take it; NULL keeps the scene's own. A new text. `open` tells
- * whether nobody has said which, so that aur_ask_try may take another one. Errors: MEMORY. */
-aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
-                          aur_error *error);
+ * whether nobody has said which, so that aur_adaptive_try may take another one. Errors: MEMORY. */
+aur_result aur_adaptive_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
+                               aur_error *error);
 
 /* What a choice by trial takes and finds. */
 typedef struct aur_choice {
@@ -46,16 +46,16 @@ typedef struct aur_choice {
     double seconds, confidence;
     size_t replica_count;
     const atomic_bool *cancelled;
-    aur_trial trial; /* before: path tracing, which may not have begun; after: the one to go on with, which
-                        the caller releases */
-    aur_gather_size gather; /* where that is final gathering; else 0 */
-    size_t candidates;      /* where that is path tracing with more than one; else 0 */
-    aur_bias bias;          /* of the trial's integrator; 0 of path tracing */
-    aur_spent others;       /* what the trials cost that are not gone on with */
+    aur_candidate candidate; /* before: path tracing, which may not have begun; after: the one to go on with,
+                        which the caller releases */
+    aur_gather_size gather;  /* where that is final gathering; else 0 */
+    size_t candidates;       /* where that is path tracing with more than one; else 0 */
+    aur_bias bias;           /* of the trial's integrator; 0 of path tracing */
+    aur_spent others;        /* what the trials cost that are not gone on with */
 } aur_choice;
 
 /* Of the photons of a picture by that seed, as a key takes it. */
-static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
+static inline uint64_t aur_adaptive_photon_seed(uint64_t seed) {
     return (seed & UINT32_MAX) + 1;
 }
 
@@ -64,23 +64,23 @@ static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
  * is cheap. Final gathering is then taken where a pilot of few pixels says that it comes to the error asked
  * with so many fewer rays that trying it pays, and where its bias is small beside that error, as pictures of
  * what paths find over what the photon map says tell. Errors: CANCELLED, MEMORY, and those of rendering. */
-aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
-                       aur_error *error);
+aur_result aur_adaptive_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
+                            aur_error *error);
 
 /* The inside of an asking. */
 
-struct aur_ask {
-    aur_ask_options wish;
+struct aur_adaptive {
+    aur_adaptive_options target;
     aur_renderer *renderer;
     aur_render_options options; /* of all trials, but for the integrator; the texts are the asking's */
     char *sampler, *filter;
     aur_progress progress;
     aur_progress_share share;
-    char *identity;      /* of a resumable asking; else NULL */
-    aur_trial trial;     /* what the picture is made of */
-    aur_bias bias;       /* of its integrator */
-    aur_spent others;    /* what integrators cost that were tried and not taken */
-    aur_cache_uses uses; /* of all trials */
+    char *identity;          /* of a resumable asking; else NULL */
+    aur_candidate candidate; /* what the picture is made of */
+    aur_bias bias;           /* of its integrator */
+    aur_spent others;        /* what integrators cost that were tried and not taken */
+    aur_cache_uses uses;     /* of all trials */
     atomic_bool cancelled;
     bool open;                /* another integrator may turn out better: that is not tried yet */
     const aur_choice *choice; /* while it is tried; else NULL */
@@ -90,5 +90,5 @@ struct aur_ask {
 
 /* Go on with final gathering of that size, or path tracing with so many candidates, from nothing. Errors:
  * those of aur_render_create. */
-aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *error);
-aur_result aur_ask_take_candidates(aur_ask *ask, size_t candidates, aur_error *error);
+aur_result aur_adaptive_take_gather(aur_adaptive *adaptive, aur_gather_size size, aur_error *error);
+aur_result aur_adaptive_take_candidates(aur_adaptive *adaptive, size_t candidates, aur_error *error);

@@ -56,44 +56,44 @@ static double noise_planned(double wanted, double square_bias, double sharing) {
 /* A pattern by which the replicas are thought to come to the noise without another one. Where that is wrong,
  * rounds go on with more patterns, or the first one is larger than it needs: it costs time, never truth. One
  * sample's is shared with the neighbouring pixels. */
-static aur_gather_pattern pattern_for(const aur_gather_law *law, double wanted, double square_bias) {
+static aur_gather_pattern pattern_for(const aur_gather_model *model, double wanted, double square_bias) {
     const double shared_noise = noise_planned(wanted, square_bias, SHARING);
     const double alone_noise = noise_planned(wanted, square_bias, 0.0);
-    const aur_gather_wish shared = {shared_noise * shared_noise, 1.0, 1.0, MOST_CAMERA_SHARED};
-    const aur_gather_wish alone = {alone_noise * alone_noise, PATTERN_SAMPLES, UNSHARED, MOST_CAMERA};
-    aur_gather_pattern pattern = aur_gather_law_pattern(law, &shared);
-    if (pattern.directions <= SINGLE_DIRECTIONS && law->camera <= shared.most_camera * shared.noise &&
-        !law->alone) {
+    const aur_gather_target shared = {shared_noise * shared_noise, 1.0, 1.0, MOST_CAMERA_SHARED};
+    const aur_gather_target alone = {alone_noise * alone_noise, PATTERN_SAMPLES, UNSHARED, MOST_CAMERA};
+    aur_gather_pattern pattern = aur_gather_model_pattern(model, &shared);
+    if (pattern.directions <= SINGLE_DIRECTIONS && model->camera <= shared.most_camera * shared.noise &&
+        !model->alone) {
         pattern.directions = fmax(pattern.directions, LEAST_DIRECTIONS);
         return pattern;
     }
-    pattern = aur_gather_law_pattern(law, &alone);
+    pattern = aur_gather_model_pattern(model, &alone);
     pattern.directions = fmax(pattern.directions, SINGLE_DIRECTIONS + 1);
     return pattern;
 }
 
 /* Where the largest pattern does not do, more and more of them do, whose error falls as the root of their
  * number. */
-double aur_gather_rays(const aur_gather_law *law, double wanted, double square_bias) {
-    const aur_gather_pattern pattern = pattern_for(law, wanted, square_bias);
+double aur_gather_rays(const aur_gather_model *model, double wanted, double square_bias) {
+    const aur_gather_pattern pattern = pattern_for(model, wanted, square_bias);
     const double directions = fmin(pattern.directions, MOST_DIRECTIONS);
-    if (law->camera / PATTERN_SAMPLES > HOPELESS_CAMERA * wanted * wanted)
+    if (model->camera / PATTERN_SAMPLES > HOPELESS_CAMERA * wanted * wanted)
         return INFINITY;
-    return pow(pattern.directions / directions, law->power) *
-           (law->fixed + law->direction * directions + law->light * pattern.lights);
+    return pow(pattern.directions / directions, model->power) *
+           (model->fixed + model->direction * directions + model->light * pattern.lights);
 }
 
 static size_t multiple_of(size_t step, double number) {
     return step * (size_t)ceil(number / (double)step);
 }
 
-aur_gather_size aur_gather_size_of(const aur_gather_law *law, double wanted, double square_bias,
+aur_gather_size aur_gather_size_of(const aur_gather_model *model, double wanted, double square_bias,
                                    size_t photons, uint64_t seed) {
-    const aur_gather_pattern pattern = pattern_for(law, wanted, square_bias);
+    const aur_gather_pattern pattern = pattern_for(model, wanted, square_bias);
     const double directions = fmin(pattern.directions, MOST_DIRECTIONS);
     const size_t step = directions <= SINGLE_DIRECTIONS ? 1 : PATTERN_SAMPLES;
     return (aur_gather_size){photons, seed, multiple_of(step, directions), multiple_of(step, pattern.lights),
-                             multiple_of(step, directions * law->bright)};
+                             multiple_of(step, directions * model->bright)};
 }
 
 double aur_photon_rays(double photons) {
@@ -136,7 +136,7 @@ static size_t edges_of(size_t directions) {
     return (aur_gather_is_shared(directions) ? 12 : 6) * directions;
 }
 
-char *aur_ask_gather(const char *path, aur_gather_size size) {
+char *aur_adaptive_gather(const char *path, aur_gather_size size) {
     const bool shared = aur_gather_is_shared(size.directions);
     char more[64]; /* two numbers and the keys */
     snprintf(more, sizeof more, ",edges=%zu,short_rays=%d%s", edges_of(size.directions), SHORT_RAYS,
@@ -144,7 +144,7 @@ char *aur_ask_gather(const char *path, aur_gather_size size) {
     return gather_instead(path, shared ? 1 : PATTERN_SAMPLES, size, more);
 }
 
-char *aur_ask_gather_pilot(const char *path, uint64_t seed, aur_pilot_kind kind) {
+char *aur_adaptive_gather_pilot(const char *path, uint64_t seed, aur_pilot_kind kind) {
     char more[96]; /* a number and the keys */
     /* Coarse pixels see more edges. With four times as many the noise that is left is told too small. */
     snprintf(more, sizeof more, ",short_rays=0,edges=%zu,share=near%s", 2 * edges_of(AUR_PILOT_DIRECTIONS),
@@ -153,7 +153,7 @@ char *aur_ask_gather_pilot(const char *path, uint64_t seed, aur_pilot_kind kind)
     return gather_instead(path, 1, size, more);
 }
 
-char *aur_ask_gather_difference(const char *path, size_t photons, uint64_t seed) {
+char *aur_adaptive_gather_difference(const char *path, size_t photons, uint64_t seed) {
     char more[96]; /* a number and the keys */
     snprintf(more, sizeof more, ",short_rays=%d,pixel=centre,debias=only,continued=1", SHORT_RAYS);
     const aur_gather_size size = {photons, seed, DIFFERENCE_DIRECTIONS, PATTERN_SAMPLES, 0};

@@ -1,4 +1,4 @@
-#include "render/adaptive/rivals.h"
+#include "render/adaptive/comparison.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,17 +14,17 @@ static int descending(const void *a, const void *b) {
 }
 
 /* The variance of one sample in each pixel. */
-static void sample_variances(const aur_trial *trial, double *variances) {
-    const size_t pixels = trial->replicas.pixel_count;
+static void sample_variances(const aur_candidate *candidate, double *variances) {
+    const size_t pixels = candidate->replicas.pixel_count;
     for (size_t i = 0; i < pixels; ++i) {
         double samples = 0.0;
-        for (size_t r = 0; r < trial->replicas.count; ++r)
-            samples += trial->targets[r * pixels + i];
-        variances[i] = trial->pixels[i].variance * samples;
+        for (size_t r = 0; r < candidate->replicas.count; ++r)
+            samples += candidate->targets[r * pixels + i];
+        variances[i] = candidate->pixels[i].variance * samples;
     }
 }
 
-aur_outliers aur_outliers_find(aur_trial *path, const aur_trial *trial) {
+aur_outliers aur_outliers_find(aur_candidate *path, const aur_candidate *candidate) {
     const size_t pixels = path->replicas.pixel_count, most = (size_t)(PART * (double)pixels);
     aur_outliers found = {.rest = 1.0, .price = 1.0};
     double *const variances = path->scratch, *const sorted = path->scratch + pixels;
@@ -36,7 +36,7 @@ aur_outliers aur_outliers_find(aur_trial *path, const aur_trial *trial) {
     double all = 0.0, others = 0.0, roots = 0.0;
     size_t count = 0;
     for (size_t i = 0; i < pixels; ++i) {
-        const double variance = trial->pixels[i].variance;
+        const double variance = candidate->pixels[i].variance;
         const bool is_one = variances[i] > sorted[most];
         all += variance;
         others += is_one ? 0.0 : variance;

@@ -1,4 +1,4 @@
-#include "render/adaptive/trial.h"
+#include "render/adaptive/candidate.h"
 
 #include <math.h>
 

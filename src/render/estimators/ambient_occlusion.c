@@ -67,7 +67,7 @@ static void release(aur_integrator *integrator) {
 
 typedef struct occlusion_sums {
     const aur_scene *scene;
-    uint32_t stopped[AUR_OCCLUSION_PLACES];
+    uint32_t stopped[AUR_OCCLUSION_POINTS];
 } occlusion_sums;
 
 static void trace(void *context, size_t first, aur_embree_order order, aur_packet *packet) {
@@ -81,20 +81,22 @@ static void trace(void *context, size_t first, aur_embree_order order, aur_packe
  * the same. */
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
     const size_t x = tile->x0 - tile->x0 % AUR_TILE_SIZE, y = tile->y0 - tile->y0 % AUR_TILE_SIZE;
-    aur_occlusion_places places = {0};
+    aur_occlusion_points surface_points = {0};
     for (uint32_t i = tile->first; i < tile->first + tile->count; ++i) {
         occlusion_sums sums = {.scene = integrator->scene};
-        aur_occlusion_find_places(tile->view, x, y, i, &places);
-        const size_t directions = aur_occlusion_visit(integrator->data, &places, x, y, i, trace, &sums);
-        for (size_t place = 0; place < AUR_OCCLUSION_PLACES; ++place) {
-            const size_t pixel = aur_group_pixel(places.arrangement, (uint32_t)(place / AUR_PACKET_SIZE),
-                                                 place % AUR_PACKET_SIZE);
+        aur_occlusion_find_points(tile->view, x, y, i, &surface_points);
+        const size_t directions =
+            aur_occlusion_visit(integrator->data, &surface_points, x, y, i, trace, &sums);
+        for (size_t surface_point = 0; surface_point < AUR_OCCLUSION_POINTS; ++surface_point) {
+            const size_t pixel =
+                aur_group_pixel(surface_points.arrangement, (uint32_t)(surface_point / AUR_PACKET_SIZE),
+                                surface_point % AUR_PACKET_SIZE);
             const size_t px = x + pixel % AUR_TILE_SIZE, py = y + pixel / AUR_TILE_SIZE;
             if (px < tile->x0 || px >= tile->x1 || py < tile->y0 || py >= tile->y1 ||
                 !aur_tile_wants(tile, px, py, i))
                 continue;
-            const float open = 1.0f - (float)sums.stopped[place] / (float)directions;
-            aur_tile_add(tile, px, py, places.weight[place], (aur_vector){open, open, open});
+            const float open = 1.0f - (float)sums.stopped[surface_point] / (float)directions;
+            aur_tile_add(tile, px, py, surface_points.weight[surface_point], (aur_vector){open, open, open});
         }
     }
     return AUR_OK;

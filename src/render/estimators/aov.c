@@ -42,10 +42,10 @@ static void depth(const aov_sample *sample, float *values) {
 }
 
 static void position(const aov_sample *sample, float *values) {
-    double place[3];
-    aur_vector_to_doubles(sample->surface->position, place);
+    double surface_point[3];
+    aur_vector_to_doubles(sample->surface->position, surface_point);
     for (size_t i = 0; i < 3; ++i)
-        values[i] = (float)(place[i] + sample->origin[i]);
+        values[i] = (float)(surface_point[i] + sample->origin[i]);
 }
 
 static void uv(const aov_sample *sample, float *values) {

@@ -4,7 +4,7 @@
  *
  * The directions of a pattern are split among the samples of a pixel: sample s of S takes every S-th. */
 #include "render/gather/plan.h"
-#include "render/vertex/lamps.h"
+#include "render/vertex/visible_emitters.h"
 
 /* --- keys */
 
@@ -124,11 +124,11 @@ static aur_result look(const aur_view *view, const aur_integrator_context *conte
     enum { MOST_PATTERNS = 4 };
     const aur_gather_settings *const p = integrator->data;
     aur_gather_plan *const plan = integrator->made;
-    const size_t looks = p->edge_samples / (MOST_PATTERNS * plan->samples_per_pattern);
+    const size_t probes = p->edge_samples / (MOST_PATTERNS * plan->samples_per_pattern);
     if (p->edge_samples == 0 || p->direct == AUR_DIRECT_NONE)
         return AUR_OK;
     const aur_result result =
-        aur_lamp_edges_find(view, (uint16_t)(looks > 1 ? looks : 1), context, &plan->lamp_edges, error);
+        aur_emitter_edges_find(view, (uint16_t)(probes > 1 ? probes : 1), context, &plan->lamp_edges, error);
     integrator->lamp_looks = plan->lamp_edges;
     return result;
 }

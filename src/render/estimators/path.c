@@ -46,8 +46,8 @@ static aur_result look(const aur_view *view, const aur_integrator_context *conte
     aur_path *const data = integrator->data;
     if (data->lamp_rays == 0.0 || data->hide_emitters || aur_filter_weight(view->filter, 0.0f) != 1.0f)
         return AUR_OK;
-    const aur_result result = aur_lamp_looks_find(view, data->lamp_rays, context, &data->looks, error);
-    integrator->lamp_looks = data->looks != NULL ? data->looks->counts : NULL;
+    const aur_result result = aur_edge_probes_find(view, data->lamp_rays, context, &data->probes, error);
+    integrator->lamp_looks = data->probes != NULL ? data->probes->counts : NULL;
     return result;
 }
 

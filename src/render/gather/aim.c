@@ -7,40 +7,43 @@
 
 /* --- randomisations of the patterns */
 
-bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
-    const aur_gather_plan *const plan = places->plan;
-    return plan->policy.share == AUR_SHARE_BLOCKS && rule == &plan->rules.lobes[0] && places->bounces == 0;
+bool aur_gather_splits(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule) {
+    const aur_gather_plan *const plan = surface_points->plan;
+    return plan->policy.share == AUR_SHARE_BLOCKS && rule == &plan->rules.lobes[0] &&
+           surface_points->bounces == 0;
 }
 
-bool aur_gather_pools(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
-    const aur_gather_plan *const plan = places->plan;
-    return plan->policy.share != AUR_SHARE_NONE && rule == &plan->rules.lobes[0] && places->bounces == 0;
+bool aur_gather_pools(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule) {
+    const aur_gather_plan *const plan = surface_points->plan;
+    return plan->policy.share != AUR_SHARE_NONE && rule == &plan->rules.lobes[0] &&
+           surface_points->bounces == 0;
 }
 
-aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
+aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_points,
                                            const aur_gather_lobe_rule *lobe_rule, size_t lane,
                                            uint64_t lobe) {
-    const aur_gather_plan *const plan = places->plan;
+    const aur_gather_plan *const plan = surface_points->plan;
     const aur_gather_settings *const policy = &plan->policy;
     const aur_gather_rule *const rule = &lobe_rule->rule;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return aur_gather_rule_rotation(rule, 0);
     if (policy->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotation_count == 0)
-        return aur_gather_rule_rotation(rule, aur_hash4(plan->seed,
-                                                        aur_gather_places_hash(places, places->pixels[lane]),
-                                                        places->bounces, lobe));
-    uint64_t tile =
-        aur_hash4(plan->seed, aur_gather_places_hash(places, places->tile), places->bounces, lobe);
+        return aur_gather_rule_rotation(
+            rule, aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->pixels[lane]),
+                            surface_points->bounces, lobe));
+    uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
+                              surface_points->bounces, lobe);
     /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
     if (plan->rules.method != NULL)
-        tile = aur_hash2(tile, places->index);
+        tile = aur_hash2(tile, surface_points->index);
     if (rule->nested) {
-        const size_t pixel = aur_group_pixel(places->arrangement, places->group, lane);
+        const size_t pixel = aur_group_pixel(surface_points->arrangement, surface_points->group, lane);
         const size_t number = aur_nested_number(tile, pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
         const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
         return aur_gather_rotation_by(rule->rotations[number], cosf(angle), sinf(angle));
     }
-    const uint32_t rank = aur_gather_splits(places, lobe_rule) ? 0 : aur_group_rank(places->group);
+    const uint32_t rank =
+        aur_gather_splits(surface_points, lobe_rule) ? 0 : aur_group_rank(surface_points->group);
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (rank ^ (tile & 15u)) * rule->rotation_count / 16;
@@ -54,20 +57,21 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
     return aur_gather_rotation_by(rotation, cosf(angle), sinf(angle));
 }
 
-size_t aur_gather_prepared_rotation(const aur_gather_places *places, size_t rotations, size_t lane,
+size_t aur_gather_prepared_rotation(const aur_gather_points *surface_points, size_t rotations, size_t lane,
                                     bool *mirrored) {
-    const aur_gather_settings *const policy = &places->plan->policy;
+    const aur_gather_settings *const policy = &surface_points->plan->policy;
     *mirrored = false;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return 0;
     const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
     const uint64_t hash = aur_hash3(
-        places->plan->seed, aur_gather_places_hash(places, random ? places->pixels[lane] : places->tile),
-        places->bounces);
+        surface_points->plan->seed,
+        aur_gather_points_hash(surface_points, random ? surface_points->pixels[lane] : surface_points->tile),
+        surface_points->bounces);
     *mirrored = hash >> 63 != 0;
     if (random)
         return (hash & UINT32_MAX) % rotations;
-    return (aur_group_rank(places->group) ^ (hash & 15u)) * rotations / 16;
+    return (aur_group_rank(surface_points->group) ^ (hash & 15u)) * rotations / 16;
 }
 
 /* Whether all lanes have one rotation. */
@@ -80,20 +84,20 @@ static bool rotate_together(const aur_gather_plan *plan, const aur_gather_rule *
 
 /* --- rays */
 
-void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_frame *frame,
+void aur_gather_set_frame(const aur_gather_point *surface_point, size_t lane, const aur_frame *frame,
                           aur_lobe_frames *frames, aur_gather_rays *gather_rays) {
     struct RTCRay16 *const rays = &gather_rays->packet.query.ray;
-    const aur_surface *const surface = &place->surface;
+    const aur_surface *const surface = &surface_point->surface;
     aur_lane_set(&frames->x, lane, frame->x);
     aur_lane_set(&frames->y, lane, frame->y);
     aur_lane_set(&frames->z, lane, frame->z);
-    aur_lane_set(&frames->shading, lane, aur_vector_scale(surface->frame.z, place->side));
-    aur_lane_set(&frames->geometric, lane, aur_vector_scale(surface->geometric_normal, place->side));
-    rays->org_x[lane] = place->origin.x;
-    rays->org_y[lane] = place->origin.y;
-    rays->org_z[lane] = place->origin.z;
+    aur_lane_set(&frames->shading, lane, aur_vector_scale(surface->frame.z, surface_point->side));
+    aur_lane_set(&frames->geometric, lane, aur_vector_scale(surface->geometric_normal, surface_point->side));
+    rays->org_x[lane] = surface_point->origin.x;
+    rays->org_y[lane] = surface_point->origin.y;
+    rays->org_z[lane] = surface_point->origin.z;
     rays->tnear[lane] = 0.0f;
-    gather_rays->reference[lane] = aur_gather_place_reference(place);
+    gather_rays->reference[lane] = aur_gather_point_reference(surface_point);
 }
 
 uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
@@ -123,10 +127,10 @@ uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, 
     return aimed;
 }
 
-bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float u[3], float draws,
+bool aur_gather_aim_draw(const aur_gather_point *surface_point, size_t lane, const float u[3], float draws,
                          aur_gather_rays *rays, aur_vector *value, float *height) {
-    const aur_surface *const surface = &place->surface;
-    const aur_shading shading = {surface, place->view};
+    const aur_surface *const surface = &surface_point->surface;
+    const aur_shading shading = {surface, surface_point->view};
     aur_bsdf_sample drawn;
     if (!aur_shading_draw(&shading, AUR_BSDF_SAMPLED_LOBES, u, &drawn) || !(drawn.pdf > 0.0f))
         return false;
@@ -141,23 +145,25 @@ bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float
 
 /* --- a rule, direction by direction */
 
-void aur_gather_sweep_start(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
-                            uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays) {
-    *sweep = (aur_gather_sweep){
-        .rule = rule, .lobe = lobe, .lanes = lanes, .together = rotate_together(places->plan, &rule->rule)};
+void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule,
+                            size_t lobe, uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays) {
+    *sweep = (aur_gather_sweep){.rule = rule,
+                                .lobe = lobe,
+                                .lanes = lanes,
+                                .together = rotate_together(surface_points->plan, &rule->rule)};
     const size_t first = aur_first_lane(lanes);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const aur_gather_place *const place = &places->at[lane];
-        const aur_bsdf_lobe *const own = &place->lobes[lobe];
+        const aur_gather_point *const surface_point = &surface_points->at[lane];
+        const aur_bsdf_lobe *const own = &surface_point->lobes[lobe];
         if (own->factor != NULL)
             sweep->factored |= 1u << lane;
         sweep->times_cosine[lane] = own->times_cosine;
         sweep->rotations[lane] = sweep->together && lane != first
                                      ? sweep->rotations[first]
-                                     : aur_gather_rotation_at(places, rule, lane, lobe);
-        const aur_frame frame = aur_frame_about(aur_gather_place_axis(place, lobe));
-        aur_gather_set_frame(place, lane, &frame, &sweep->frames, rays);
+                                     : aur_gather_rotation_at(surface_points, rule, lane, lobe);
+        const aur_frame frame = aur_frame_about(aur_gather_point_axis(surface_point, lobe));
+        aur_gather_set_frame(surface_point, lane, &frame, &sweep->frames, rays);
     }
 }
 
@@ -189,14 +195,15 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane
     }
 }
 
-void aur_gather_set_chance(const aur_gather_places *places, size_t lobe, size_t index,
-                           aur_gather_rays *rays) {
-    rays->hash = aur_hash4(places->index, places->bounces, lobe, index);
-    rays->pixels = places->pixels;
+void aur_gather_set_probability(const aur_gather_points *surface_points, size_t lobe, size_t index,
+                                aur_gather_rays *rays) {
+    rays->hash = aur_hash4(surface_points->index, surface_points->bounces, lobe, index);
+    rays->pixels = surface_points->pixels;
 }
 
-uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t index,
-                                bool weighed, aur_gather_sums *sums, float factor[AUR_PACKET_SIZE]) {
+uint32_t aur_gather_sweep_trace(const aur_gather_points *surface_points, const aur_gather_sweep *sweep,
+                                size_t index, bool weighed, aur_gather_sums *sums,
+                                float factor[AUR_PACKET_SIZE]) {
     aur_gather_rays *const rays = &sums->rays;
     aur_lane_vectors local = {0};
     float cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
@@ -204,13 +211,13 @@ uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gathe
     const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, &local, &rays->packet, cosine);
     if (aimed == 0)
         return 0;
-    aur_gather_set_chance(places, sweep->lobe, index, rays);
-    aur_gather_rays_trace(places->plan, places->order, rays, sums->counters);
+    aur_gather_set_probability(surface_points, sweep->lobe, index, rays);
+    aur_gather_rays_trace(surface_points->plan, surface_points->order, rays, sums->counters);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);
     for (uint32_t rest = sweep->factored & aimed; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        factor[lane] *= aur_lobe_factor(&places->at[lane].lobes[sweep->lobe], cosine[lane]);
+        factor[lane] *= aur_lobe_factor(&surface_points->at[lane].lobes[sweep->lobe], cosine[lane]);
     }
     return aimed;
 }

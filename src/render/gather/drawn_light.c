@@ -2,28 +2,28 @@
 #include "render/vertex/vertex.h"
 
 /* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
-static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_place *place,
+static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_point *surface_point,
                                  const aur_light_sample *light) {
-    const aur_surface *const surface = &place->surface;
+    const aur_surface *const surface = &surface_point->surface;
     const aur_vector local = aur_frame_to_local(&surface->frame, light->direction);
     if (aur_vector_dot(surface->geometric_normal, light->direction) * local.z <= 0.0f)
         return (aur_vector){0};
     aur_vector sum = {0};
-    for (size_t i = 0; i < place->lobe_count; ++i) {
-        const aur_bsdf_lobe *const lobe = &place->lobes[i];
+    for (size_t i = 0; i < surface_point->lobe_count; ++i) {
+        const aur_bsdf_lobe *const lobe = &surface_point->lobes[i];
         if (aur_vector_is_zero(lobe->coefficient))
             continue;
         aur_vector value = {0};
         float density = 0.0f;
         if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
-            value = aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, place->view,
-                                      local, &density);
+            value = aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture,
+                                      surface_point->view, local, &density);
             density *= plan->rules.sampled.directions;
-        } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && place->view.z * local.z > 0.0f) {
+        } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && surface_point->view.z * local.z > 0.0f) {
             value = aur_lobe_value(lobe, local);
-            const aur_gather_lobe_rule *const rule = place->rules[i];
-            if (place->merged != NULL)
-                density = aur_gather_place_merged_density(place, local);
+            const aur_gather_lobe_rule *const rule = surface_point->rules[i];
+            if (surface_point->merged != NULL)
+                density = aur_gather_point_merged_density(surface_point, local);
             else if (!aur_vector_is_zero(value))
                 density = aur_gather_rule_density(&rule->rule, aur_vector_dot(lobe->axis, local)) *
                           rule->directions;
@@ -36,21 +36,21 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
 }
 
 /* Adds the light of one point a lane if nothing lies between; the pdfs count all draws of a sample. */
-static void add_lights(const aur_gather_places *places, aur_embree_order order,
+static void add_lights(const aur_gather_points *surface_points, aur_embree_order order,
                        const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums) {
     aur_packet *const packet = &sums->rays.packet;
     aur_vector radiance[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
     aur_packet_empty(packet);
-    for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = surface_points->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const aur_gather_place *const place = &places->at[lane];
+        const aur_gather_point *const surface_point = &surface_points->at[lane];
         const aur_light_sample *const light = &lights[lane];
         if (!(light->pdf > 0.0f))
             continue;
         aur_shadow shadow;
-        if (!aur_vertex_shadow(&place->surface, light, weighted_value(places->plan, place, light), 1.0f,
-                               &shadow))
+        if (!aur_vertex_shadow(&surface_point->surface, light,
+                               weighted_value(surface_points->plan, surface_point, light), 1.0f, &shadow))
             continue;
         radiance[lane] = shadow.radiance;
         aur_packet_set(packet, lane, &shadow.ray);
@@ -58,34 +58,35 @@ static void add_lights(const aur_gather_places *places, aur_embree_order order,
     }
     if (aimed == 0)
         return;
-    const uint32_t lit = aimed & ~aur_gather_occluded(places->plan, order, packet);
+    const uint32_t lit = aimed & ~aur_gather_occluded(surface_points->plan, order, packet);
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1)
-        aur_gather_add(sums, places, aur_first_lane(rest), radiance[aur_first_lane(rest)]);
+        aur_gather_add(sums, surface_points, aur_first_lane(rest), radiance[aur_first_lane(rest)]);
 }
 
-void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {
-    const aur_gather_plan *const plan = places->plan;
+void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = surface_points->plan;
     /* Lanes without a place stand where the first one is: nothing is drawn for them, or it is thrown away. */
     aur_lane_vectors position, normal;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        const size_t from = aur_has_lane(places->lanes, lane) ? lane : aur_first_lane(places->lanes);
-        const aur_light_reference reference = aur_gather_place_reference(&places->at[from]);
+        const size_t from =
+            aur_has_lane(surface_points->lanes, lane) ? lane : aur_first_lane(surface_points->lanes);
+        const aur_light_reference reference = aur_gather_point_reference(&surface_points->at[from]);
         aur_lane_set(&position, lane, reference.position);
         aur_lane_set(&normal, lane, reference.normal);
     }
     const aur_light_references references = {&position, &normal};
     const bool chooses = aur_light_chooses(plan->scene);
-    const uint32_t pair = aur_gather_first_pair(places->bounces), draws = plan->light.draws;
+    const uint32_t pair = aur_gather_first_pair(surface_points->bounces), draws = plan->light.draws;
     for (uint32_t k = 0; k < draws; ++k) {
-        const uint32_t index = places->index * draws + k;
+        const uint32_t index = surface_points->index * draws + k;
         float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
         if (chooses)
-            aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+            aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
                               pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
-        aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+        aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
                           pair + AUR_GATHER_PAIR_POSITION, u, v);
         aur_light_lanes drawn = {0};
-        aur_light_lanes_direct(plan->scene, places->lanes, &references, choice, u, v, &drawn);
+        aur_light_lanes_direct(plan->scene, surface_points->lanes, &references, choice, u, v, &drawn);
         aur_light_sample lights[AUR_PACKET_SIZE];
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
             const aur_vector target = aur_lane_vector(&drawn.position, lane);
@@ -96,7 +97,7 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
                                               .pdf = drawn.pdf[lane] * (float)draws,
                                               .delta = drawn.rivals[lane] == 0.0f};
         }
-        add_lights(places, places->order, lights, sums);
+        add_lights(surface_points, surface_points->order, lights, sums);
     }
 }
 
@@ -104,8 +105,8 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
                                    aur_vector position, uint64_t hash) {
     const aur_gather_light *const from = &plan->light;
-    const aur_gather_known known =
-        aur_gather_plan_known(plan, point->shape, point->element, point->u, point->v, point->behind);
+    const aur_photon_radiance known =
+        aur_gather_plan_photons(plan, point->shape, point->element, point->u, point->v, point->behind);
     aur_vector radiance = known.radiance;
     const aur_vector offset = aur_vector_subtract(point->position, position);
     const float square = aur_vector_dot(offset, offset);
@@ -115,9 +116,9 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
     if (cosine > 0.0f && square > 0.0f) {
         sample.pdf = aur_bright_texels_density(from->bright, known.radiance) * (float)from->bright_draws *
                      square / cosine;
-        const bool near = aur_onward_is_near(&plan->onward, sqrtf(square), known.area);
-        if (!near && !aur_onward_is_due(&plan->onward, hash)) {
-            radiance = aur_onward_kept(&plan->onward, radiance);
+        const bool near = aur_continuation_is_near(&plan->continuation, sqrtf(square), known.area);
+        if (!near && !aur_continuation_is_due(&plan->continuation, hash)) {
+            radiance = aur_continuation_kept(&plan->continuation, radiance);
         } else {
             const aur_ray ray = {position, 0.0f, direction, INFINITY};
             const aur_hit hit = {.distance = sqrtf(square),
@@ -126,39 +127,39 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
                                  .shape = point->shape,
                                  .primitive = point->primitive,
                                  .instance = AUR_NO_INSTANCE};
-            aur_onward_start start = {.view = aur_vector_scale(direction, -1.0f),
-                                      .edges = 2,
-                                      .hash = hash,
-                                      .near = near,
-                                      .known = radiance};
+            aur_continuation_start start = {.view = aur_vector_scale(direction, -1.0f),
+                                            .edges = 2,
+                                            .hash = hash,
+                                            .near = near,
+                                            .known = radiance};
             aur_scene_surface(plan->scene, &ray, &hit, &start.surface);
-            aur_onward_correct(&plan->onward, 1, &start, &radiance);
+            aur_continuation_correct(&plan->continuation, 1, &start, &radiance);
         }
     }
     sample.radiance = aur_vector_add(radiance, known.caustics);
     return sample;
 }
 
-void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sums *sums) {
-    const aur_gather_plan *const plan = places->plan;
+void aur_gather_add_bright_light(const aur_gather_points *surface_points, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = surface_points->plan;
     const aur_gather_light *const from = &plan->light;
-    const uint32_t pair = aur_gather_first_pair(places->bounces);
+    const uint32_t pair = aur_gather_first_pair(surface_points->bounces);
     for (uint32_t k = 0; k < from->bright_draws; ++k) {
-        const uint32_t index = places->index * from->bright_draws + k;
+        const uint32_t index = surface_points->index * from->bright_draws + k;
         float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
-        aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+        aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
                           pair + AUR_GATHER_PAIR_TEXEL, choice, unused);
-        aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
+        aur_stream_pixels(surface_points->sampler, AUR_PACKET_SIZE, surface_points->pixels, index,
                           pair + AUR_GATHER_PAIR_TEXEL_POSITION, u, v);
         aur_light_sample lights[AUR_PACKET_SIZE];
-        for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
+        for (uint32_t rest = surface_points->lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_bright_point point =
                 aur_bright_texels_sample(from->bright, plan->scene, from->map, (double)choice[lane],
                                          (const float[2]){u[lane], v[lane]});
-            lights[lane] = light_from(plan, &point, places->at[lane].surface.position,
-                                      aur_hash4(places->pixels[lane], index, pair, plan->seed));
+            lights[lane] = light_from(plan, &point, surface_points->at[lane].surface.position,
+                                      aur_hash4(surface_points->pixels[lane], index, pair, plan->seed));
         }
-        add_lights(places, AUR_EMBREE_INCOHERENT, lights, sums);
+        add_lights(surface_points, AUR_EMBREE_INCOHERENT, lights, sums);
     }
 }

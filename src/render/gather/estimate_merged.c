@@ -16,7 +16,7 @@ typedef struct merged_pattern {
 
 /* One subset of both patterns at the places of a group. */
 typedef struct merged {
-    const aur_gather_places *places;
+    const aur_gather_points *surface_points;
     merged_pattern patterns[2];
     uint32_t diffuse;                        /* lanes that send the first pattern only, their rule's */
     size_t subset;                           /* this sample's */
@@ -34,29 +34,30 @@ static float *weights_of(const merged *work, size_t lobe, size_t sample) {
 }
 
 static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_counters *counters) {
-    const aur_gather_place *const place = &work->places->at[lane];
-    const aur_merged_rule *const rule = place->merged;
-    const size_t *const lobes = place->merged_lobes;
-    const aur_vector normal = aur_gather_place_axis(place, lobes[0]);
-    const aur_vector mirror = aur_gather_place_axis(place, lobes[1]);
+    const aur_gather_point *const surface_point = &work->surface_points->at[lane];
+    const aur_merged_rule *const rule = surface_point->merged;
+    const size_t *const lobes = surface_point->merged_lobes;
+    const aur_vector normal = aur_gather_point_axis(surface_point, lobes[0]);
+    const aur_vector mirror = aur_gather_point_axis(surface_point, lobes[1]);
     bool mirrored;
     aur_frame frames[2];
-    const size_t rotation = aur_gather_prepared_rotation(work->places, rule->rotations, lane, &mirrored);
+    const size_t rotation =
+        aur_gather_prepared_rotation(work->surface_points, rule->rotations, lane, &mirrored);
     aur_merged_rule_frames(normal, mirror, mirrored, frames);
     rays->merged[lane] = rule;
     rays->axes[lane][0] = normal;
     rays->axes[lane][1] = mirror;
-    work->times_cosine[lane] = place->lobes[lobes[1]].times_cosine ? 1.0f : 0.0f;
+    work->times_cosine[lane] = surface_point->lobes[lobes[1]].times_cosine ? 1.0f : 0.0f;
     for (size_t k = 0; k < 2; ++k) {
         merged_pattern *const pattern = &work->patterns[k];
-        const aur_merged_rule *const from = k == 0 ? work->places->plan->rules.merged : rule;
+        const aur_merged_rule *const from = k == 0 ? work->surface_points->plan->rules.merged : rule;
         const size_t first = rotation * rule->count[k] + work->subset * rule->subset_count[k];
         for (size_t c = 0; c < 3; ++c)
             pattern->directions[c][lane] = from->direction[k][c] + first;
         pattern->stride[lane] = 1;
-        aur_gather_set_frame(place, lane, &frames[k], &pattern->frames, rays);
-        if (aur_gather_plan_gathers(work->places->plan, &place->lobes[lobes[k]]))
-            work->coefficients[lane][k] = place->lobes[lobes[k]].coefficient;
+        aur_gather_set_frame(surface_point, lane, &frames[k], &pattern->frames, rays);
+        if (aur_gather_plan_gathers(work->surface_points->plan, &surface_point->lobes[lobes[k]]))
+            work->coefficients[lane][k] = surface_point->lobes[lobes[k]].coefficient;
     }
     float *const looked_up = weights_of(work, 2, 0);
     if (!aur_merged_rule_weights(rule, rotation, work->subset, aur_vector_dot(normal, mirror), looked_up))
@@ -67,23 +68,23 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
 
 /* A diffuse place has its rule's directions and weights. */
 static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays *rays) {
-    const aur_gather_lobe_rule *const lobe_rule = &work->places->plan->rules.lobes[0];
+    const aur_gather_lobe_rule *const lobe_rule = &work->surface_points->plan->rules.lobes[0];
     const aur_gather_rule *const rule = &lobe_rule->rule;
-    const aur_gather_place *const place = &work->places->at[lane];
-    const size_t parts = work->places->plan->samples_per_pattern;
-    const aur_gather_rotation rotation = aur_gather_rotation_at(work->places, lobe_rule, lane, lobe);
-    const aur_frame about = aur_frame_about(aur_gather_place_axis(place, lobe));
+    const aur_gather_point *const surface_point = &work->surface_points->at[lane];
+    const size_t parts = work->surface_points->plan->samples_per_pattern;
+    const aur_gather_rotation rotation = aur_gather_rotation_at(work->surface_points, lobe_rule, lane, lobe);
+    const aur_frame about = aur_frame_about(aur_gather_point_axis(surface_point, lobe));
     const aur_frame rotated = {
         aur_vector_add_scaled(aur_vector_scale(about.x, rotation.cosine), rotation.sine, about.y),
         aur_vector_add_scaled(aur_vector_scale(about.y, rotation.cosine), -rotation.sine, about.x), about.z};
-    aur_gather_set_frame(place, lane, &rotated, &work->patterns[0].frames, rays);
+    aur_gather_set_frame(surface_point, lane, &rotated, &work->patterns[0].frames, rays);
     const size_t first = rotation.first + work->subset;
     const float *const directions[3] = {rule->x, rule->y, rule->z};
     for (size_t c = 0; c < 3; ++c)
         work->patterns[0].directions[c][lane] = directions[c] + first;
     work->densities[lane] = rule->densities + first;
     work->patterns[0].stride[lane] = parts;
-    work->coefficients[lane][0] = place->lobes[lobe].coefficient;
+    work->coefficients[lane][0] = surface_point->lobes[lobe].coefficient;
     for (size_t i = 0; i < work->subset_count[0]; ++i)
         weights_of(work, 0, i)[lane] = rule->weights[first + i * parts] / (float)work->subset_count[0];
     for (size_t i = work->subset_count[0]; i < 2 * work->samples; ++i)
@@ -91,13 +92,13 @@ static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays 
 }
 
 /* Whether the only light that a place gathers is that of one diffuse lobe, its number in `lobe`. */
-static bool is_diffuse(const aur_gather_plan *plan, const aur_gather_place *place, size_t *lobe) {
+static bool is_diffuse(const aur_gather_plan *plan, const aur_gather_point *surface_point, size_t *lobe) {
     size_t gathered = 0;
     bool diffuse = false;
-    for (size_t i = 0; i < place->lobe_count; ++i) {
-        const aur_bsdf_lobe *const own = &place->lobes[i];
+    for (size_t i = 0; i < surface_point->lobe_count; ++i) {
+        const aur_bsdf_lobe *const own = &surface_point->lobes[i];
         const bool has_formula = own->shape == AUR_LOBE_SHAPE_COSINE_POWER;
-        if (!aur_gather_plan_gathers(plan, own) || !aur_gather_place_has(place, i))
+        if (!aur_gather_plan_gathers(plan, own) || !aur_gather_point_has(surface_point, i))
             continue;
         ++gathered;
         diffuse = has_formula && own->diffuse && own->exponent == 1.0f && own->factor == NULL;
@@ -123,12 +124,12 @@ static void finish_pattern(merged_pattern *pattern) {
 
 /* Frames, directions and weights of all lanes; returns those that are served. */
 static uint32_t prepare(merged *work, aur_gather_rays *rays, aur_counters *counters) {
-    const aur_gather_plan *const plan = work->places->plan;
-    const uint32_t lanes = work->places->lanes;
+    const aur_gather_plan *const plan = work->surface_points->plan;
+    const uint32_t lanes = work->surface_points->lanes;
     uint32_t merged_lanes = 0, diffuse = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        if (work->places->at[lane].merged == NULL)
+        if (work->surface_points->at[lane].merged == NULL)
             continue;
         merged_lanes |= 1u << lane;
         set_merged(work, lane, rays, counters);
@@ -136,7 +137,7 @@ static uint32_t prepare(merged *work, aur_gather_rays *rays, aur_counters *count
     for (uint32_t rest = merged_lanes != 0 ? lanes & ~merged_lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         size_t lobe = 0;
-        if (!is_diffuse(plan, &work->places->at[lane], &lobe))
+        if (!is_diffuse(plan, &work->surface_points->at[lane], &lobe))
             continue;
         diffuse |= 1u << lane;
         set_diffuse(work, lane, lobe, rays);
@@ -192,22 +193,22 @@ static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
         set_directions(work, k, i, &local, rays);
         if (aur_gather_aim(pattern->lanes, &pattern->frames, &local, &rays->packet, cosine) == 0)
             continue;
-        aur_gather_set_chance(work->places, 0, sample, rays);
-        aur_gather_rays_trace(work->places->plan, work->places->order, rays, sums->counters);
+        aur_gather_set_probability(work->surface_points, 0, sample, rays);
+        aur_gather_rays_trace(work->surface_points->plan, work->surface_points->order, rays, sums->counters);
         add_radiance(work, sample, cosine, rays);
     }
 }
 
-uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *sums) {
-    const aur_merged_rule *const first = places->plan->rules.merged;
-    merged work = {.places = places,
-                   .subset = aur_gather_part(places),
+uint32_t aur_gather_by_merged(const aur_gather_points *surface_points, aur_gather_sums *sums) {
+    const aur_merged_rule *const first = surface_points->plan->rules.merged;
+    merged work = {.surface_points = surface_points,
+                   .subset = aur_gather_part(surface_points),
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
                    .weights = sums->numbers};
     const uint32_t lanes = prepare(&work, &sums->rays, sums->counters);
     if (lanes == 0)
-        return places->lanes;
+        return surface_points->lanes;
     for (size_t k = 0; k < 2; ++k)
         trace_pattern(&work, k, sums);
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
@@ -219,7 +220,7 @@ uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *
             const aur_vector gathered = {work.sum[k][0][lane], work.sum[k][1][lane], work.sum[k][2][lane]};
             reflected = aur_vector_add(reflected, aur_vector_multiply(gathered, work.coefficients[lane][k]));
         }
-        aur_gather_add(sums, places, lane, reflected);
+        aur_gather_add(sums, surface_points, lane, reflected);
     }
-    return places->lanes & ~lanes;
+    return surface_points->lanes & ~lanes;
 }

@@ -48,7 +48,7 @@ static void add_emission(const aur_gather_plan *plan, const aur_surface *surface
  */
 typedef struct waiting_paths {
     size_t count;
-    aur_onward_start starts[AUR_PACKET_SIZE];
+    aur_continuation_start starts[AUR_PACKET_SIZE];
     aur_vector weights[AUR_PACKET_SIZE]; /* of their light in that of the ray */
     size_t lanes[AUR_PACKET_SIZE];
 } waiting_paths;
@@ -57,7 +57,7 @@ typedef struct waiting_paths {
 static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_gather_rays *rays) {
     aur_vector radiance[AUR_PACKET_SIZE];
     if (waiting->count > 0)
-        aur_onward_correct(&plan->onward, waiting->count, waiting->starts, radiance);
+        aur_continuation_correct(&plan->continuation, waiting->count, waiting->starts, radiance);
     for (size_t i = 0; i < waiting->count; ++i) {
         const aur_vector added = aur_vector_multiply(waiting->weights[i], radiance[i]);
         const size_t lane = waiting->lanes[i];
@@ -86,13 +86,14 @@ static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const
     if (plan->light.map != NULL) {
         const aur_texel_view texel = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, wo);
         const uint64_t hash = aur_hash2(chain->hash, chain->length);
-        const bool near = aur_onward_is_near(&plan->onward, chain->length_seen + hit->distance, texel.area);
-        if (near || aur_onward_is_due(&plan->onward, hash)) {
+        const bool near =
+            aur_continuation_is_near(&plan->continuation, chain->length_seen + hit->distance, texel.area);
+        if (near || aur_continuation_is_due(&plan->continuation, hash)) {
             waiting->starts[waiting->count] =
-                (aur_onward_start){*surface, wo, chain->length + 2, hash, near, texel.radiance};
+                (aur_continuation_start){*surface, wo, chain->length + 2, hash, near, texel.radiance};
             wait_for_path(plan, chain->lane, chain->path.beta, waiting, rays);
         } else {
-            radiance = aur_onward_kept(&plan->onward, texel.radiance);
+            radiance = aur_continuation_kept(&plan->continuation, texel.radiance);
         }
     }
     if (plan->light.caustics != NULL)
@@ -180,9 +181,9 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     const aur_vector normal = {query->hit.Ng_x[lane], query->hit.Ng_y[lane], query->hit.Ng_z[lane]};
     const aur_vector direction = {query->ray.dir_x[lane], query->ray.dir_y[lane], query->ray.dir_z[lane]};
     const float along = fabsf(aur_vector_dot(normal, direction)), distance = query->ray.tfar[lane];
-    const float rival =
+    const float other_pdf =
         texel * (float)plan->light.bright_draws * distance * distance * aur_vector_length(normal) / along;
-    return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), rival) : 1.0f;
+    return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), other_pdf) : 1.0f;
 }
 
 /* Of a surface that is diffuse, without emission, in no instance: what the map knows, or a path where the
@@ -196,18 +197,19 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiti
                             query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
                         0.0f;
     const uint32_t element = plan->light.map->texels.elements.shape_first[shape] + query->hit.primID[lane];
-    const aur_gather_known known =
-        aur_gather_plan_known(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind);
+    const aur_photon_radiance known =
+        aur_gather_plan_photons(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind);
     const float weight =
         plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, known.radiance) : 1.0f;
     const uint64_t hash = aur_gather_rays_hash(rays, lane);
-    const bool near = aur_onward_is_near(&plan->onward, query->ray.tfar[lane], known.area);
-    if (!near && !aur_onward_is_due(&plan->onward, hash))
+    const bool near = aur_continuation_is_near(&plan->continuation, query->ray.tfar[lane], known.area);
+    if (!near && !aur_continuation_is_due(&plan->continuation, hash))
         return aur_vector_scale(
-            aur_vector_add(aur_onward_kept(&plan->onward, known.radiance), known.caustics), weight);
+            aur_vector_add(aur_continuation_kept(&plan->continuation, known.radiance), known.caustics),
+            weight);
     const aur_ray ray = aur_packet_ray(&rays->packet, lane);
     const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-    aur_onward_start *const start = &waiting->starts[waiting->count];
+    aur_continuation_start *const start = &waiting->starts[waiting->count];
     aur_scene_surface(plan->scene, &ray, &hit, &start->surface);
     start->view = aur_vector_scale(ray.direction, -1.0f);
     start->edges = 2;

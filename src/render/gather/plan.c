@@ -188,14 +188,15 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_settings *p,
         result = find_light(p, context, plan, error);
     plan->counts_emitters = policy->direct == AUR_DIRECT_GATHER ||
                             (p->incident == AUR_INCIDENT_EMITTERS && policy->direct == AUR_DIRECT_NONE);
-    plan->onward = (aur_onward){.scene = context->scene,
-                                .map = plan->light.map,
-                                .caustics = plan->light.caustics,
-                                .max_depth = policy->max_depth,
-                                .share = p->debias != AUR_DEBIAS_NONE ? (float)p->continued : 0.0f,
-                                .reach = (float)p->short_rays,
-                                .lone = p->debias == AUR_DEBIAS_ONLY,
-                                .packets = policy->packets};
+    plan->continuation =
+        (aur_continuation){.scene = context->scene,
+                           .map = plan->light.map,
+                           .caustics = plan->light.caustics,
+                           .max_depth = policy->max_depth,
+                           .share = p->debias != AUR_DEBIAS_NONE ? (float)p->continued : 0.0f,
+                           .reach = (float)p->short_rays,
+                           .single = p->debias == AUR_DEBIAS_ONLY,
+                           .packets = policy->packets};
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));
     return result;

@@ -18,7 +18,7 @@
  */
 #pragma once
 
-#include "render/gather/onward.h"
+#include "render/gather/continuation.h"
 #include "render/gather/rules.h"
 #include "render/photons/bright_texels.h"
 
@@ -49,8 +49,8 @@ typedef struct aur_gather_plan {
     bool counts_emitters;
     bool gathers; /* whether gather rays can bring any light */
     const uint16_t
-        *lamp_edges;   /* of the picture's pixels: not 0 where the edge of a small lamp is; or NULL */
-    aur_onward onward; /* in place of the map, where it is too coarse or is corrected */
+        *lamp_edges; /* of the picture's pixels: not 0 where the edge of a small lamp is; or NULL */
+    aur_continuation continuation; /* in place of the map, where it is too coarse or is corrected */
 } aur_gather_plan;
 
 /* `method` is the caller's way to gather lobes, or NULL. The maps of photons come from the context's cache,
@@ -74,19 +74,19 @@ static inline bool aur_gather_plan_gathers(const aur_gather_plan *plan, const au
 }
 
 /* What the photon maps know of a point of a plain triangle. */
-typedef struct aur_gather_known {
+typedef struct aur_photon_radiance {
     aur_vector radiance; /* by the first map */
     aur_vector caustics; /* by the second one */
     float area;          /* of the first one's texel */
-} aur_gather_known;
+} aur_photon_radiance;
 
-static inline aur_gather_known aur_gather_plan_known(const aur_gather_plan *plan, uint32_t shape,
-                                                     uint32_t element, float u, float v, bool behind) {
+static inline aur_photon_radiance aur_gather_plan_photons(const aur_gather_plan *plan, uint32_t shape,
+                                                          uint32_t element, float u, float v, bool behind) {
     const aur_gather_light *const light = &plan->light;
     const aur_vector albedo = plan->classes[shape].albedo_on_pi[behind];
     const aur_texel_light *const texel = aur_irradiance_on_triangle(light->map, element, u, v, behind);
-    aur_gather_known known = {.radiance = aur_vector_multiply(albedo, texel->irradiance),
-                              .area = texel->area};
+    aur_photon_radiance known = {.radiance = aur_vector_multiply(albedo, texel->irradiance),
+                                 .area = texel->area};
     if (light->caustics != NULL)
         known.caustics = aur_vector_multiply(
             albedo, aur_irradiance_on_triangle(light->caustics, element, u, v, behind)->irradiance);

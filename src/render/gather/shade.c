@@ -19,33 +19,34 @@ static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
 }
 
 /* Keeps the gathered irradiance for the pool instead of adding it. */
-static void keep_for_pool(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t lane,
+static void keep_for_pool(const aur_gather_points *surface_points, const aur_gather_sweep *sweep, size_t lane,
                           aur_vector gathered, aur_gather_sums *sums) {
-    const aur_gather_place *const place = &places->at[lane];
+    const aur_gather_point *const surface_point = &surface_points->at[lane];
     sums->pooled_lanes |= 1u << lane;
-    sums->pooled[lane] = (aur_gather_pooled){
-        .irradiance = aur_vector_scale(gathered, 1.0f / sweep->rule->directions),
-        .coefficient = aur_vector_multiply(places->throughput[lane], place->lobes[sweep->lobe].coefficient),
-        .position = place->surface.position,
-        .normal = aur_vector_scale(place->surface.frame.z, place->side)};
+    sums->pooled[lane] =
+        (aur_gather_pooled){.irradiance = aur_vector_scale(gathered, 1.0f / sweep->rule->directions),
+                            .coefficient = aur_vector_multiply(surface_points->throughput[lane],
+                                                               surface_point->lobes[sweep->lobe].coefficient),
+                            .position = surface_point->surface.position,
+                            .normal = aur_vector_scale(surface_point->surface.frame.z, surface_point->side)};
 }
 
 /* By this sample's part of the rule. */
-static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+static void by_rule(const aur_gather_points *surface_points, const aur_gather_lobe_rule *rule, size_t lobe,
                     uint32_t lanes, aur_gather_sums *sums) {
     aur_gather_sweep sweep;
-    aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
-    const bool splits = aur_gather_splits(places, rule);
+    aur_gather_sweep_start(surface_points, rule, lobe, lanes, &sweep, &sums->rays);
+    const bool splits = aur_gather_splits(surface_points, rule);
     /* The rule's directions are in so many parts, of which this is one. */
-    size_t parts = places->plan->samples_per_pattern, part = aur_gather_part(places);
+    size_t parts = surface_points->plan->samples_per_pattern, part = aur_gather_part(surface_points);
     if (splits) {
-        part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
+        part = part * AUR_PACKET_SIZE + aur_group_rank(surface_points->group);
         parts *= AUR_PACKET_SIZE;
     }
     float sum[3][AUR_PACKET_SIZE] = {0};
     for (size_t i = part; i < rule->rule.count; i += parts) {
         float factor[AUR_PACKET_SIZE];
-        if (aur_gather_sweep_trace(places, &sweep, i, true, sums, factor) == 0)
+        if (aur_gather_sweep_trace(surface_points, &sweep, i, true, sums, factor) == 0)
             continue;
         for (size_t c = 0; c < 3; ++c)
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
@@ -54,33 +55,35 @@ static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule 
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
-        if (aur_gather_pools(places, rule)) {
-            keep_for_pool(places, &sweep, lane, gathered, sums);
+        if (aur_gather_pools(surface_points, rule)) {
+            keep_for_pool(surface_points, &sweep, lane, gathered, sums);
             continue;
         }
-        const aur_vector reflected = aur_vector_multiply(gathered, places->at[lane].lobes[lobe].coefficient);
+        const aur_vector reflected =
+            aur_vector_multiply(gathered, surface_points->at[lane].lobes[lobe].coefficient);
         sums->radiance[lane] =
             aur_vector_add_scaled(sums->radiance[lane], horizon_factor(&sweep, lane) / rule->directions,
-                                  aur_vector_multiply(places->throughput[lane], reflected));
+                                  aur_vector_multiply(surface_points->throughput[lane], reflected));
     }
 }
 
 /* --- lobes without a formula: the rule's points of the square choose among the BSDF's own draws */
 
 /* Lobes that have no formula, by the BSDF's own sampling. */
-static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t lanes, aur_gather_sums *sums) {
-    const aur_gather_plan *const plan = places->plan;
+static void by_sampling(const aur_gather_points *surface_points, size_t lobe, uint32_t lanes,
+                        aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = surface_points->plan;
     const aur_gather_lobe_rule *const sampled = &plan->rules.sampled;
     aur_gather_rays *const rays = &sums->rays;
     aur_gather_sweep sweep;
-    aur_gather_sweep_start(places, sampled, lobe, lanes, &sweep, rays);
+    aur_gather_sweep_start(surface_points, sampled, lobe, lanes, &sweep, rays);
     const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pattern;
-    for (size_t i = aur_gather_part(places); i < sampled->rule.count; i += parts) {
+    for (size_t i = aur_gather_part(surface_points); i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
         float u[3] = {0.0f, 0.0f, 0.0f}, unused;
         uint32_t aimed = 0;
         aur_packet_empty(&rays->packet);
-        aur_gather_set_chance(places, lobe, i, rays);
+        aur_gather_set_probability(surface_points, lobe, i, rays);
         if (sweep.together)
             aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i, &u[1]);
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
@@ -88,18 +91,18 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
             if (!sweep.together)
                 aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], i, &u[1]);
             u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
-            aimed |= (uint32_t)aur_gather_aim_draw(&places->at[lane], lane, u, sampled->directions, rays,
-                                                   &value[lane], &unused)
+            aimed |= (uint32_t)aur_gather_aim_draw(&surface_points->at[lane], lane, u, sampled->directions,
+                                                   rays, &value[lane], &unused)
                      << lane;
         }
         if (aimed == 0)
             continue;
-        aur_gather_rays_trace(plan, places->order, rays, sums->counters);
+        aur_gather_rays_trace(plan, surface_points->order, rays, sums->counters);
         for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_vector incident = {rays->radiance[0][lane], rays->radiance[1][lane],
                                          rays->radiance[2][lane]};
-            aur_gather_add(sums, places, lane, aur_vector_multiply(value[lane], incident));
+            aur_gather_add(sums, surface_points, lane, aur_vector_multiply(value[lane], incident));
         }
     }
 }
@@ -107,28 +110,29 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
 /* --- all lobes */
 
 /* The lanes, among `lanes`, whose lobe number `lobe` is gathered by the rule. */
-static uint32_t lanes_of_rule(const aur_gather_places *places, uint32_t lanes, size_t lobe,
+static uint32_t lanes_of_rule(const aur_gather_points *surface_points, uint32_t lanes, size_t lobe,
                               const aur_gather_lobe_rule *rule) {
     uint32_t found = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        if (places->at[lane].rules[lobe] == rule)
+        if (surface_points->at[lane].rules[lobe] == rule)
             found |= 1u << lane;
     }
     return found;
 }
 
 /* The lobe number `lobe` of all lanes that have one. */
-static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t lobe, aur_gather_sums *sums) {
+static void gather_lobe(const aur_gather_points *surface_points, uint32_t lanes, size_t lobe,
+                        aur_gather_sums *sums) {
     uint32_t ruled = 0, sampled = 0, ggx = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const aur_gather_place *const place = &places->at[lane];
-        const aur_bsdf_lobe *const own = &place->lobes[lobe];
-        if (lobe >= place->lobe_count || !aur_gather_plan_gathers(places->plan, own) ||
-            !aur_gather_place_has(place, lobe))
+        const aur_gather_point *const surface_point = &surface_points->at[lane];
+        const aur_bsdf_lobe *const own = &surface_point->lobes[lobe];
+        if (lobe >= surface_point->lobe_count || !aur_gather_plan_gathers(surface_points->plan, own) ||
+            !aur_gather_point_has(surface_point, lobe))
             continue;
-        if (own->shape == AUR_LOBE_SHAPE_SAMPLED && place->ggx != NULL)
+        if (own->shape == AUR_LOBE_SHAPE_SAMPLED && surface_point->ggx != NULL)
             ggx |= 1u << lane;
         else if (own->shape == AUR_LOBE_SHAPE_SAMPLED)
             sampled |= 1u << lane;
@@ -136,30 +140,31 @@ static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t 
             ruled |= 1u << lane;
     }
     while (ruled != 0) {
-        const aur_gather_lobe_rule *const rule = places->at[aur_first_lane(ruled)].rules[lobe];
-        const uint32_t alike = lanes_of_rule(places, ruled, lobe, rule);
+        const aur_gather_lobe_rule *const rule = surface_points->at[aur_first_lane(ruled)].rules[lobe];
+        const uint32_t alike = lanes_of_rule(surface_points, ruled, lobe, rule);
         if (rule->state != NULL)
-            aur_gather_by_method(places, rule, lobe, alike, sums);
+            aur_gather_by_method(surface_points, rule, lobe, alike, sums);
         else
-            by_rule(places, rule, lobe, alike, sums);
+            by_rule(surface_points, rule, lobe, alike, sums);
         ruled &= ~alike;
     }
     if (ggx != 0)
-        aur_gather_by_ggx(places, lobe, ggx, sums);
+        aur_gather_by_ggx(surface_points, lobe, ggx, sums);
     if (sampled != 0)
-        by_sampling(places, lobe, sampled, sums);
+        by_sampling(surface_points, lobe, sampled, sums);
 }
 
-void aur_gather_shade(const aur_gather_places *places, aur_gather_sums *sums) {
-    const aur_gather_plan *const plan = places->plan;
+void aur_gather_shade(const aur_gather_points *surface_points, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = surface_points->plan;
     if (plan->policy.direct == AUR_DIRECT_NEE && plan->policy.max_depth >= 2 &&
         aur_scene_emitter_count(plan->scene) > 0)
-        aur_gather_add_direct_light(places, sums);
+        aur_gather_add_direct_light(surface_points, sums);
     if (plan->light.bright_draws > 0)
-        aur_gather_add_bright_light(places, sums);
+        aur_gather_add_bright_light(surface_points, sums);
     if (!plan->gathers)
         return;
-    const uint32_t lanes = plan->rules.merged != NULL ? aur_gather_by_merged(places, sums) : places->lanes;
+    const uint32_t lanes =
+        plan->rules.merged != NULL ? aur_gather_by_merged(surface_points, sums) : surface_points->lanes;
     for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY && lanes != 0; ++lobe)
-        gather_lobe(places, lanes, lobe, sums);
+        gather_lobe(surface_points, lanes, lobe, sums);
 }

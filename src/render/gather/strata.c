@@ -129,15 +129,15 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
 }
 
 /* The tile's own pixel at a place; NULL on the ring around the tile. */
-static const aur_pixel_strata *own_pixel(const surroundings *self, size_t place) {
-    const size_t column = place % self->side, row = place / self->side, reach = self->reach;
+static const aur_pixel_strata *own_pixel(const surroundings *self, size_t surface_point) {
+    const size_t column = surface_point % self->side, row = surface_point / self->side, reach = self->reach;
     const bool inside = column >= reach && column < SIDE + reach && row >= reach && row < SIDE + reach;
     return inside ? &self->strata[(row - reach) * SIDE + (column - reach)] : NULL;
 }
 
 /* Whether a pixel within reach has samples, so that an edge between them counts. */
-static bool is_beside_samples(const surroundings *self, size_t place) {
-    const size_t column = place % self->side, row = place / self->side, reach = self->reach;
+static bool is_beside_samples(const surroundings *self, size_t surface_point) {
+    const size_t column = surface_point % self->side, row = surface_point / self->side, reach = self->reach;
     for (size_t j = row > reach ? row - reach : 0; j <= row + reach && j < self->side; ++j)
         for (size_t i = column > reach ? column - reach : 0; i <= column + reach && i < self->side; ++i) {
             const aur_pixel_strata *const other = own_pixel(self, j * self->side + i);
@@ -154,8 +154,8 @@ static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bo
                         surroundings *self) {
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;
     glance *seen[AUR_PACKET_SIZE];
-    const size_t reach = self->reach, places = self->side * self->side;
-    for (size_t i = 0; i < places; ++i) {
+    const size_t reach = self->reach, surface_points = self->side * self->side;
+    for (size_t i = 0; i < surface_points; ++i) {
         const aur_pixel_strata *const own = own_pixel(self, i);
         self->seen[i] = (glance){0};
         if (alike && own != NULL && own->count > 0) {
@@ -220,15 +220,15 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
     all.side = SIDE + 2 * reach;
     look_around(plan, x, y, alike, &all);
     *edges = (aur_gather_edges){0};
-    for (uint32_t place = 0; place < AUR_GROUP_COUNT; ++place)
+    for (uint32_t surface_point = 0; surface_point < AUR_GROUP_COUNT; ++surface_point)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const size_t pixel = aur_group_pixel(0, place, lane);
+            const size_t pixel = aur_group_pixel(0, surface_point, lane);
             if (strata[pixel].count == 0)
                 continue;
             const int edge = is_lamp_edge(plan, view, x + pixel % SIDE, y + pixel / SIDE)
                                  ? LIGHT_EDGE
                                  : edge_at(&all, pixel % SIDE, pixel / SIDE);
-            edges->any[place] |= (uint32_t)(edge != NO_EDGE) << lane;
-            edges->lights[place] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
+            edges->any[surface_point] |= (uint32_t)(edge != NO_EDGE) << lane;
+            edges->lights[surface_point] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
         }
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/gather/incident.h"
-#include "render/gather/places.h"
+#include "render/gather/points.h"
 
 /* Diffuse light that goes into the pool of neighbouring pixels instead of the radiance: it is the product of
  * the first two. */
@@ -28,8 +28,8 @@ typedef struct aur_gather_sums {
 } aur_gather_sums;
 
 /* Adds radiance that leaves a lane's place towards the eye. */
-static inline void aur_gather_add(aur_gather_sums *sums, const aur_gather_places *places, size_t lane,
+static inline void aur_gather_add(aur_gather_sums *sums, const aur_gather_points *surface_points, size_t lane,
                                   aur_vector radiance) {
     sums->radiance[lane] =
-        aur_vector_add(sums->radiance[lane], aur_vector_multiply(places->throughput[lane], radiance));
+        aur_vector_add(sums->radiance[lane], aur_vector_multiply(surface_points->throughput[lane], radiance));
 }

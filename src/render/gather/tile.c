@@ -13,7 +13,7 @@ typedef struct gather_tile {
     size_t x, y;                                            /* of the tile's corner in the picture */
     size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the picture */
     bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
-    aur_gather_places places;
+    aur_gather_points surface_points;
     aur_gather_sums sums;
     aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
     float weights[AUR_PACKET_SIZE];
@@ -36,12 +36,12 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     memset(work, 0, sizeof *work);
     aur_packet_clear(&work->sums.rays.packet);
     work->sums.numbers = calloc(numbers + 1, sizeof *work->sums.numbers);
-    work->places.plan = plan;
+    work->surface_points.plan = plan;
     work->view = tile->view;
     work->x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
     work->y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
-    work->places.tile = aur_hash2(work->y, work->x);
-    work->places.sampler = tile->view->sampler;
+    work->surface_points.tile = aur_hash2(work->y, work->x);
+    work->surface_points.sampler = tile->view->sampler;
     if (work->sums.numbers != NULL)
         return work;
     free(work);
@@ -51,33 +51,33 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
 /* --- one sample of sixteen pixels: what the eye sees, also by mirrors and through glass */
 
 static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
-    return &work->strata[aur_group_pixel(work->places.arrangement, work->places.group, lane)];
+    return &work->strata[aur_group_pixel(work->surface_points.arrangement, work->surface_points.group, lane)];
 }
 
 /* The pixels of a group for sample `index`. Samples that share a pattern have the same ones. Pixels that
  * split a pattern among them lie where they always do. */
 static void choose(gather_tile *work, uint32_t group, uint32_t index) {
-    aur_gather_places *const places = &work->places;
-    const aur_gather_plan *const plan = places->plan;
-    places->group = group;
-    places->index = index;
-    places->arrangement = 0;
+    aur_gather_points *const surface_points = &work->surface_points;
+    const aur_gather_plan *const plan = surface_points->plan;
+    surface_points->group = group;
+    surface_points->index = index;
+    surface_points->arrangement = 0;
     if (plan->policy.share != AUR_SHARE_BLOCKS && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
-        places->arrangement =
-            aur_group_arrangement(aur_hash2(plan->seed, aur_gather_places_hash(places, places->tile)));
-    aur_group_pixels(places->arrangement, group, work->x, work->y, work->columns, work->rows);
+        surface_points->arrangement = aur_group_arrangement(
+            aur_hash2(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile)));
+    aur_group_pixels(surface_points->arrangement, group, work->x, work->y, work->columns, work->rows);
 }
 
 static void begin(gather_tile *work, uint32_t lanes) {
-    aur_gather_places *const places = &work->places;
+    aur_gather_points *const surface_points = &work->surface_points;
     aur_gather_sums *const sums = &work->sums;
-    aur_view_samples(work->view, AUR_PACKET_SIZE, work->columns, work->rows, places->index, work->samples,
-                     work->weights);
-    places->lanes = lanes;
+    aur_view_samples(work->view, AUR_PACKET_SIZE, work->columns, work->rows, surface_points->index,
+                     work->samples, work->weights);
+    surface_points->lanes = lanes;
     sums->pooled_lanes = 0;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        places->pixels[lane] = work->samples[lane].stream.pixel;
-        places->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
+        surface_points->pixels[lane] = work->samples[lane].stream.pixel;
+        surface_points->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
         sums->radiance[lane] = (aur_vector){0};
         sums->directions[lane] = 0;
         work->stratum[lane] = NULL;
@@ -88,26 +88,28 @@ static void begin(gather_tile *work, uint32_t lanes) {
 static uint32_t trace(gather_tile *work) {
     aur_packet *const packet = &work->sums.rays.packet;
     aur_packet_empty(packet);
-    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         aur_packet_set(packet, lane, &work->samples[lane].ray);
     }
-    const aur_embree_order order = work->places.bounces == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    return aur_gather_intersect(work->places.plan, order, packet);
+    const aur_embree_order order =
+        work->surface_points.bounces == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    return aur_gather_intersect(work->surface_points.plan, order, packet);
 }
 
 /* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
 static void count_seen(gather_tile *work, uint32_t found) {
     const aur_packet *const packet = &work->sums.rays.packet;
-    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const uint64_t key =
-            aur_has_lane(found, lane) ? aur_gather_surface_key(work->places.plan->classes, packet, lane) : 0;
+        const uint64_t key = aur_has_lane(found, lane)
+                                 ? aur_gather_surface_key(work->surface_points.plan->classes, packet, lane)
+                                 : 0;
         bool known;
         aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
         stratum->seen += (double)work->weights[lane];
         if (work->only_new && known && stratum->shaded > 0.0)
-            work->places.lanes &= ~(1u << lane);
+            work->surface_points.lanes &= ~(1u << lane);
         else
             work->stratum[lane] = stratum;
     }
@@ -115,12 +117,12 @@ static void count_seen(gather_tile *work, uint32_t found) {
 
 /* Light from beyond the scene, for lanes whose ray left it. */
 static void add_sky(gather_tile *work, uint32_t lanes) {
-    const aur_gather_plan *const plan = work->places.plan;
+    const aur_gather_plan *const plan = work->surface_points.plan;
     if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_environment(plan->scene))
         return;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        aur_gather_add(&work->sums, &work->places, lane,
+        aur_gather_add(&work->sums, &work->surface_points, lane,
                        aur_scene_environment(plan->scene, work->samples[lane].ray.direction));
     }
 }
@@ -128,75 +130,78 @@ static void add_sky(gather_tile *work, uint32_t lanes) {
 /* The surfaces that the rays met, with the light that reaches the eye from them without being gathered:
  * caustics, and what they emit. */
 static void set_places(gather_tile *work) {
-    const aur_gather_plan *const plan = work->places.plan;
+    const aur_gather_plan *const plan = work->surface_points.plan;
     const aur_scene *const scene = plan->scene;
     const aur_irradiance_map *const caustics = plan->light.caustics;
-    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_hit hit = aur_packet_hit(scene, &work->sums.rays.packet, lane);
         const aur_ray *const ray = &work->samples[lane].ray;
-        const aur_surface *const surface = &work->places.at[lane].surface;
-        aur_gather_place_set(plan, ray, &hit, &work->places.at[lane]);
+        const aur_surface *const surface = &work->surface_points.at[lane].surface;
+        aur_gather_point_set(plan, ray, &hit, &work->surface_points.at[lane]);
         if (plan->policy.direct == AUR_DIRECT_NONE)
             continue;
         const aur_vector view = aur_vector_scale(ray->direction, -1.0f);
         if (caustics != NULL)
-            aur_gather_add(&work->sums, &work->places, lane,
+            aur_gather_add(&work->sums, &work->surface_points, lane,
                            aur_irradiance_view(caustics, scene, &hit, surface, view).radiance);
         if (surface->emitter != AUR_NO_EMITTER)
-            aur_gather_add(&work->sums, &work->places, lane, aur_surface_emission(scene, surface, view));
+            aur_gather_add(&work->sums, &work->surface_points, lane,
+                           aur_surface_emission(scene, surface, view));
     }
-    work->places.order = aur_gather_places_order(&work->places);
+    work->surface_points.order = aur_gather_points_order(&work->surface_points);
 }
 
 /* A lane's ray in the direction of a specular lobe; false where there is none, or it absorbs the light. */
 static bool bounce_lane(gather_tile *work, size_t lane) {
-    const aur_gather_place *const place = &work->places.at[lane];
-    if ((aur_bsdf_scatters(place->surface.bsdf, place->view.z) & AUR_SCATTERS_SPECULAR) == 0)
+    const aur_gather_point *const surface_point = &work->surface_points.at[lane];
+    if ((aur_bsdf_scatters(surface_point->surface.bsdf, surface_point->view.z) & AUR_SCATTERS_SPECULAR) == 0)
         return false;
-    const uint32_t pair = aur_gather_first_pair(work->places.bounces);
+    const uint32_t pair = aur_gather_first_pair(work->surface_points.bounces);
     const aur_stream *const stream = &work->samples[lane].stream;
     float lobe[2], direction[2];
     aur_stream_pair(stream, pair + AUR_GATHER_PAIR_LOBE, lobe);
     aur_stream_pair(stream, pair + AUR_GATHER_PAIR_BOUNCE, direction);
-    const aur_shading shading = {&place->surface, place->view};
+    const aur_shading shading = {&surface_point->surface, surface_point->view};
     aur_bsdf_sample drawn;
     if (!aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &drawn) ||
         !drawn.specular)
         return false;
-    aur_vector *const throughput = &work->places.throughput[lane];
+    aur_vector *const throughput = &work->surface_points.throughput[lane];
     *throughput = aur_vector_multiply(*throughput, drawn.weight);
-    work->samples[lane].ray = aur_surface_ray(&place->surface, drawn.light);
+    work->samples[lane].ray = aur_surface_ray(&surface_point->surface, drawn.light);
     return true;
 }
 
 /* Lanes whose surface has a specular lobe go on in its direction; the others are done. The other lobes of
  * either have been gathered for. */
 static void bounce(gather_tile *work) {
-    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1)
+    for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1)
         if (!bounce_lane(work, aur_first_lane(rest)))
-            work->places.lanes &= ~(1u << aur_first_lane(rest));
+            work->surface_points.lanes &= ~(1u << aur_first_lane(rest));
 }
 
 /* Adds one sample of the pixels chosen to their strata. */
 static void add_samples(gather_tile *work, uint32_t lanes) {
-    aur_gather_places *const places = &work->places;
+    aur_gather_points *const surface_points = &work->surface_points;
     if (lanes == 0)
         return;
     begin(work, lanes);
-    for (places->bounces = 0; places->bounces <= AUR_LONGEST_CHAIN && places->lanes != 0; ++places->bounces) {
+    for (surface_points->bounces = 0;
+         surface_points->bounces <= AUR_LONGEST_CHAIN && surface_points->lanes != 0;
+         ++surface_points->bounces) {
         const uint32_t found = trace(work);
-        if (places->bounces == 0)
+        if (surface_points->bounces == 0)
             count_seen(work, found);
-        add_sky(work, places->lanes & ~found);
-        places->lanes &= found;
-        if (places->lanes == 0)
+        add_sky(work, surface_points->lanes & ~found);
+        surface_points->lanes &= found;
+        if (surface_points->lanes == 0)
             break;
         set_places(work);
-        aur_gather_shade(places, &work->sums);
+        aur_gather_shade(surface_points, &work->sums);
         bounce(work);
     }
-    work->sums.counters->cut += aur_lane_count(places->lanes);
+    work->sums.counters->cut += aur_lane_count(surface_points->lanes);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         if (work->stratum[lane] != NULL)
@@ -211,19 +216,19 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
  * small part of them. */
 static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     enum { PLAIN_EDGE_PART = 64 };
-    const uint32_t count = work->places.plan->policy.edge_samples;
+    const uint32_t count = work->surface_points.plan->policy.edge_samples;
     aur_counters *const counters = work->sums.counters;
     const uint64_t before = aur_rays_traced;
     aur_gather_edges edges;
-    aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, tile->begins == NULL,
-                          &edges);
+    aur_gather_find_edges(work->surface_points.plan, work->view, work->x, work->y, work->strata,
+                          tile->begins == NULL, &edges);
     work->only_new = true;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (uint32_t i = 0; i < count; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
             choose(work, group, tile->first + tile->count + i);
-            add_samples(work, aur_group_lanes_marked(work->places.arrangement, group,
+            add_samples(work, aur_group_lanes_marked(work->surface_points.arrangement, group,
                                                      i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
         }
     counters->edge_rays += aur_rays_traced - before;
@@ -244,11 +249,11 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
             add_samples(work,
                         aur_group_lanes_wanted(tile, work->columns, work->rows, lanes, tile->first + i));
         }
-    return work->places.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
+    return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 
 static void add_means(const gather_tile *work, aur_tile *tile) {
-    const aur_gather_settings *const policy = &work->places.plan->policy;
+    const aur_gather_settings *const policy = &work->surface_points.plan->policy;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
             const aur_pixel_strata *const pixel =
@@ -265,7 +270,7 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
                 for (size_t c = 0; c < 3; ++c)
                     aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
             }
-            if (work->places.plan->rules.method != NULL)
+            if (work->surface_points.plan->rules.method != NULL)
                 aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
         }
 }
@@ -275,7 +280,7 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
     if (work == NULL)
         return AUR_ERROR_MEMORY;
     work->sums.counters = &tile->counters;
-    work->sums.corrected = plan->onward.share > 0.0f;
+    work->sums.corrected = plan->continuation.share > 0.0f;
     aur_result result = shade_tile(work, tile);
     if (result == AUR_OK && plan->policy.share != AUR_SHARE_NONE &&
         !aur_gather_pool_irradiance(plan->policy.share == AUR_SHARE_NEAR, work->strata))

@@ -4,42 +4,42 @@
 
 /* --- places */
 
-static void put(float arrays[3][AUR_OCCLUSION_PLACES], size_t place, aur_vector v) {
-    arrays[0][place] = v.x;
-    arrays[1][place] = v.y;
-    arrays[2][place] = v.z;
+static void put(float arrays[3][AUR_OCCLUSION_POINTS], size_t surface_point, aur_vector v) {
+    arrays[0][surface_point] = v.x;
+    arrays[1][surface_point] = v.y;
+    arrays[2][surface_point] = v.z;
 }
 
 /* Surfaces are seen from either side. */
-static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, size_t place,
-                      aur_occlusion_places *places) {
+static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, size_t surface_point,
+                      aur_occlusion_points *surface_points) {
     aur_surface surface;
     aur_scene_surface(scene, ray, hit, &surface);
     const float side = aur_vector_dot(surface.geometric_normal, ray->direction) > 0.0f ? -1.0f : 1.0f;
     const aur_frame frame = aur_frame_about(aur_vector_scale(surface.frame.z, side));
-    put(places->origin, place,
+    put(surface_points->origin, surface_point,
         aur_surface_ray(&surface, aur_vector_scale(surface.geometric_normal, side)).origin);
-    put(places->axis[0], place, frame.x);
-    put(places->axis[1], place, frame.y);
-    put(places->axis[2], place, frame.z);
-    places->seen[place] = true;
+    put(surface_points->axis[0], surface_point, frame.x);
+    put(surface_points->axis[1], surface_point, frame.y);
+    put(surface_points->axis[2], surface_point, frame.z);
+    surface_points->seen[surface_point] = true;
 }
 
-void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,
-                               aur_occlusion_places *places) {
+void aur_occlusion_find_points(const aur_view *view, size_t x, size_t y, uint32_t index,
+                               aur_occlusion_points *surface_points) {
     aur_packet packet;
     aur_packet_clear(&packet);
-    places->arrangement = aur_group_arrangement(aur_hash3(view->seed, y, x));
+    surface_points->arrangement = aur_group_arrangement(aur_hash3(view->seed, y, x));
     aur_ray rays[AUR_PACKET_SIZE];
     for (size_t block = 0; block < AUR_PACKET_SIZE; ++block) {
         for (size_t within = 0; within < AUR_PACKET_SIZE; ++within) {
-            const size_t place = within * AUR_PACKET_SIZE + block;
-            const size_t pixel = aur_group_pixel(places->arrangement, (uint32_t)within, block);
+            const size_t surface_point = within * AUR_PACKET_SIZE + block;
+            const size_t pixel = aur_group_pixel(surface_points->arrangement, (uint32_t)within, block);
             aur_camera_sample sample;
-            places->weight[place] =
+            surface_points->weight[surface_point] =
                 aur_view_sample(view, x + pixel % AUR_TILE_SIZE, y + pixel / AUR_TILE_SIZE, index, &sample);
-            places->pixel[place] = sample.stream.pixel;
-            places->seen[place] = false;
+            surface_points->pixel[surface_point] = sample.stream.pixel;
+            surface_points->seen[surface_point] = false;
             rays[within] = sample.ray;
             aur_packet_set(&packet, within, &sample.ray);
         }
@@ -47,31 +47,32 @@ void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_
         for (size_t within = 0; within < AUR_PACKET_SIZE; ++within)
             if ((hits >> within & 1) != 0) {
                 const aur_hit hit = aur_packet_hit(view->scene, &packet, within);
-                set_place(view->scene, &rays[within], &hit, within * AUR_PACKET_SIZE + block, places);
+                set_place(view->scene, &rays[within], &hit, within * AUR_PACKET_SIZE + block, surface_points);
             }
     }
 }
 
 /* --- rays */
 
-static aur_vector get(const float arrays[3][AUR_OCCLUSION_PLACES], size_t place) {
-    return (aur_vector){arrays[0][place], arrays[1][place], arrays[2][place]};
+static aur_vector get(const float arrays[3][AUR_OCCLUSION_POINTS], size_t surface_point) {
+    return (aur_vector){arrays[0][surface_point], arrays[1][surface_point], arrays[2][surface_point]};
 }
 
 /* Packets are fast together where their surface is flat, and slower than apart where it is not. */
-static aur_embree_order order_of(const aur_occlusion_places *places, size_t first) {
-    const aur_vector origin = get(places->origin, first), normal = get(places->axis[2], first);
+static aur_embree_order order_of(const aur_occlusion_points *surface_points, size_t first) {
+    const aur_vector origin = get(surface_points->origin, first),
+                     normal = get(surface_points->axis[2], first);
     uint32_t apart = 0;
     for (size_t k = first; k < first + AUR_PACKET_SIZE; ++k)
-        apart |= (uint32_t)!places->seen[k] |
-                 aur_is_off_plane(aur_vector_subtract(get(places->origin, k), origin), normal,
-                                  aur_vector_dot(get(places->axis[2], k), normal));
+        apart |= (uint32_t)!surface_points->seen[k] |
+                 aur_is_off_plane(aur_vector_subtract(get(surface_points->origin, k), origin), normal,
+                                  aur_vector_dot(get(surface_points->axis[2], k), normal));
     return apart == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
 }
 
 /* Direction `index` of the rule in the frames of 16 places, which have one randomisation together or one
  * each. */
-static void aim(const aur_gather_rule *rule, const aur_occlusion_places *places, size_t first,
+static void aim(const aur_gather_rule *rule, const aur_occlusion_points *surface_points, size_t first,
                 const aur_gather_rotation *rotations, bool together, size_t index, struct RTCRay16 *rays) {
     aur_lane_vectors local;
     aur_vector direction;
@@ -82,9 +83,9 @@ static void aim(const aur_gather_rule *rule, const aur_occlusion_places *places,
     }
     float *const out[3] = {rays->dir_x, rays->dir_y, rays->dir_z};
     for (size_t c = 0; c < 3; ++c) {
-        const float *const x = places->axis[0][c] + first;
-        const float *const y = places->axis[1][c] + first;
-        const float *const z = places->axis[2][c] + first;
+        const float *const x = surface_points->axis[0][c] + first;
+        const float *const y = surface_points->axis[1][c] + first;
+        const float *const z = surface_points->axis[2][c] + first;
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             out[c][k] = local.x[k] * x[k] + local.y[k] * y[k] + local.z[k] * z[k];
     }
@@ -111,8 +112,8 @@ static aur_gather_rotation rotation_of(const aur_occlusion *occlusion, uint64_t 
     return aur_gather_rotation_by(rotation, cosf(angle), sinf(angle));
 }
 
-size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_places *places, size_t x,
-                           size_t y, uint32_t index, aur_occlusion_visitor visit, void *context) {
+size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_points *surface_points,
+                           size_t x, size_t y, uint32_t index, aur_occlusion_visitor visit, void *context) {
     const aur_gather_rule *const rule = &occlusion->rule;
     const uint64_t pattern = occlusion->renews ? index / occlusion->samples_per_pattern : 0;
     const uint64_t seed = pattern > 0 ? aur_hash2(occlusion->seed, pattern) : occlusion->seed;
@@ -123,24 +124,24 @@ size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_p
         const size_t first = within * AUR_PACKET_SIZE;
         bool any = false;
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-            packet.valid[k] = places->seen[first + k] ? -1 : 0;
-            packet.query.ray.org_x[k] = places->origin[0][first + k];
-            packet.query.ray.org_y[k] = places->origin[1][first + k];
-            packet.query.ray.org_z[k] = places->origin[2][first + k];
-            any = any || places->seen[first + k];
+            packet.valid[k] = surface_points->seen[first + k] ? -1 : 0;
+            packet.query.ray.org_x[k] = surface_points->origin[0][first + k];
+            packet.query.ray.org_y[k] = surface_points->origin[1][first + k];
+            packet.query.ray.org_z[k] = surface_points->origin[2][first + k];
+            any = any || surface_points->seen[first + k];
         }
         if (!any)
             continue;
-        const aur_embree_order order = order_of(places, first);
+        const aur_embree_order order = order_of(surface_points, first);
         const bool together = rule->rotation_count > 0 || rule->scramble == AUR_SCRAMBLE_NONE;
         aur_gather_rotation rotations[AUR_PACKET_SIZE];
         for (size_t k = 0; k < (together ? 1 : AUR_PACKET_SIZE); ++k)
-            rotations[k] = together
-                               ? rotation_of(occlusion, tile, within)
-                               : aur_gather_rule_rotation(rule, aur_hash2(seed, places->pixel[first + k]));
+            rotations[k] =
+                together ? rotation_of(occlusion, tile, within)
+                         : aur_gather_rule_rotation(rule, aur_hash2(seed, surface_points->pixel[first + k]));
         for (size_t i = part_of(occlusion, tile, within, index); i < rule->count;
              i += occlusion->samples_per_pattern) {
-            aim(rule, places, first, rotations, together, i, &packet.query.ray);
+            aim(rule, surface_points, first, rotations, together, i, &packet.query.ray);
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
                 packet.query.ray.tfar[k] = occlusion->max_distance;
             visit(context, first, order, &packet);

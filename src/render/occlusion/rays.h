@@ -7,7 +7,7 @@
 
 /* The 16 pixels of a group (packets/interleave.h) share a rotation of the pattern, so the rays of a packet
  * are one direction of it at 16 places, almost parallel where the surface is flat. */
-enum { AUR_OCCLUSION_PLACES = AUR_TILE_PIXELS };
+enum { AUR_OCCLUSION_POINTS = AUR_TILE_PIXELS };
 
 typedef struct aur_occlusion {
     size_t samples_per_pattern; /* among which its directions are shared out */
@@ -21,18 +21,18 @@ typedef struct aur_occlusion {
 
 /* What the eye sees at the places of a tile, in packet order: those of group g begin at g * AUR_PACKET_SIZE.
  */
-typedef struct aur_occlusion_places {
+typedef struct aur_occlusion_points {
     uint64_t arrangement; /* of the tile's pixels in groups */
-    _Alignas(64) float origin[3][AUR_OCCLUSION_PLACES];
-    _Alignas(64) float axis[3][3][AUR_OCCLUSION_PLACES]; /* x, y and z of the frame about the normal */
-    float weight[AUR_OCCLUSION_PLACES];                  /* of the camera sample */
-    uint64_t pixel[AUR_OCCLUSION_PLACES];                /* a hash of the pixel */
-    bool seen[AUR_OCCLUSION_PLACES];                     /* else the eye sees no surface there */
-} aur_occlusion_places;
+    _Alignas(64) float origin[3][AUR_OCCLUSION_POINTS];
+    _Alignas(64) float axis[3][3][AUR_OCCLUSION_POINTS]; /* x, y and z of the frame about the normal */
+    float weight[AUR_OCCLUSION_POINTS];                  /* of the camera sample */
+    uint64_t pixel[AUR_OCCLUSION_POINTS];                /* a hash of the pixel */
+    bool seen[AUR_OCCLUSION_POINTS];                     /* else the eye sees no surface there */
+} aur_occlusion_points;
 
 /* Sample `index` of every pixel of the tile whose corner is (x, y). */
-void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,
-                               aur_occlusion_places *places);
+void aur_occlusion_find_points(const aur_view *view, size_t x, size_t y, uint32_t index,
+                               aur_occlusion_points *surface_points);
 
 /* Called with each packet of the tile's rays in a fixed order; lane k is place first_place + k. */
 typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_embree_order order,
@@ -40,5 +40,5 @@ typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_emb
 
 /* Makes the rays of sample `index` from its places and hands them on; returns how many directions a place
  * has. */
-size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_places *places, size_t x,
-                           size_t y, uint32_t index, aur_occlusion_visitor visit, void *context);
+size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_points *surface_points,
+                           size_t x, size_t y, uint32_t index, aur_occlusion_visitor visit, void *context);

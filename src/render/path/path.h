@@ -5,9 +5,9 @@
 #include "points/base/error.h"
 #include "render/film/integrator.h"
 #include "render/trace/packet_rays.h"
-#include "render/vertex/lamps.h"
 #include "render/vertex/vertex.h"
 #include "render/vertex/vertex_lanes.h"
+#include "render/vertex/visible_emitters.h"
 
 typedef struct aur_path {
     uint32_t max_depth;  /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
@@ -18,8 +18,8 @@ typedef struct aur_path {
     bool interleaved;    /* which share their numbers but for the camera's */
     double lamp_rays;    /* rays for lamps alone that a sample has more, in the picture's mean */
     const aur_vertex_kernels *kernels;
-    aur_shape_class *classes;    /* one a shape */
-    const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
+    aur_shape_class *classes;      /* one a shape */
+    const aur_edge_probes *probes; /* NULL: the camera's own rays tell what lamps they meet */
 } aur_path;
 
 AUR_INTERNAL aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);

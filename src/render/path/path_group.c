@@ -104,13 +104,13 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
                      aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight, light));
         if (g->sensor.from_sky != NULL)
             g->sensor.from_sky(g->sensor.from_sky_user, k, aur_lane_vector(&directions, k),
-                               aur_vector_scale(light, weight), aur_has_lane(g->sensor.straight, k));
+                               aur_vector_scale(light, weight), aur_has_lane(g->sensor.unscattered, k));
     }
 }
 
 static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface) {
     if (surface->emitter == AUR_NO_EMITTER ||
-        (g->sensor.known != NULL && aur_has_lane(g->sensor.straight, k) &&
+        (g->sensor.known != NULL && aur_has_lane(g->sensor.unscattered, k) &&
          g->sensor.known[surface->emitter] >= 0.0f))
         return;
     aur_walk walk = walk_of(g, k);
@@ -170,7 +170,8 @@ static bool goes_through(const aur_path_group *g, const aur_surface *surface, co
 }
 
 /* Of a lane that is not plain, on the path `before`. */
-static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, bool straight, bool roulette) {
+static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, bool unscattered,
+                        bool roulette) {
     const aur_surface *const surface = &g->surfaces[k];
     const aur_shading shading = aur_shading_at(surface, aur_vector_scale(before->ray.direction, -1.0f));
     const float u[3] = {g->lanes.lobe[k], g->lanes.direction_u[k], g->lanes.direction_v[k]};
@@ -181,7 +182,7 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, boo
     if (goes_through(g, surface, before, &walk)) {
         walk.bounce = before->bounce;
         walk.ray = aur_surface_ray(surface, before->ray.direction);
-        g->sensor.straight |= (uint32_t)straight << k;
+        g->sensor.unscattered |= (uint32_t)unscattered << k;
     }
     aur_lane_set(&g->lanes.throughput, k, walk.beta);
     aur_lane_set(&g->lanes.from, k, walk.bounce.from.position);
@@ -329,7 +330,7 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
 }
 
 static void scatter(aur_path_group *g, bool roulette) {
-    const uint32_t plain = g->plain, others = g->alive & ~plain, straight = g->sensor.straight;
+    const uint32_t plain = g->plain, others = g->alive & ~plain, unscattered = g->sensor.unscattered;
     aur_walk before[AUR_PACKET_SIZE]; /* the kernels leave nothing of it */
     for (uint32_t rest = others; rest != 0; rest &= rest - 1)
         before[aur_first_lane(rest)] = walk_of(g, aur_first_lane(rest));
@@ -338,10 +339,10 @@ static void scatter(aur_path_group *g, bool roulette) {
         g->data->kernels->scatter(&g->lanes, roulette, &g->packet);
         alive = aur_lanes_set(g->lanes.alive) & plain;
     }
-    g->specular = g->sensor.straight = 0;
+    g->specular = g->sensor.unscattered = 0;
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        alive |= (uint32_t)scatter_one(g, k, &before[k], aur_has_lane(straight, k), roulette) << k;
+        alive |= (uint32_t)scatter_one(g, k, &before[k], aur_has_lane(unscattered, k), roulette) << k;
     }
     g->alive = alive;
 }

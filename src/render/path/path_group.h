@@ -8,7 +8,7 @@
 #include "render/trace/packet_rays.h"
 
 /* Is told of light that a lane finds in the sky: from where, how much, and whether it came straight. */
-typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight);
+typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vector light, bool unscattered);
 
 /* What irradiance at a sensor has of its paths beside their sums; all 0 for paths of the camera. */
 typedef struct aur_path_sensor {
@@ -21,7 +21,7 @@ typedef struct aur_path_sensor {
     bool panes; /* rays to lights go straight through surfaces that let them */
     /* Lanes whose path nothing has scattered, but panes that it went straight through, where these count; who
      * begins the paths sets it. */
-    uint32_t straight;
+    uint32_t unscattered;
 } aur_path_sensor;
 
 typedef struct aur_path_group {

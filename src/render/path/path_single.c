@@ -88,7 +88,7 @@ void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x,
     aur_camera_sample sample;
     aur_vector seen;
     const float weight = aur_view_sample(tile->view, x, y, index, &sample);
-    const bool told = aur_lamp_look(data->looks, tile->view, x, y, index, &seen);
+    const bool told = aur_edge_probe(data->probes, tile->view, x, y, index, &seen);
     aur_tile_add(tile, x, y, weight,
                  aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &tile->counters));
 }

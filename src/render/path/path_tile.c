@@ -9,10 +9,10 @@
 /* Looks for lamps in those of `lanes` that have rays for them alone. */
 static void look(aur_path_group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes) {
     g->told = 0;
-    for (uint32_t rest = g->data->looks != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = g->data->probes != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_vector seen;
-        if (!aur_lamp_look(g->data->looks, view, x[k], y[k], g->index, &seen))
+        if (!aur_edge_probe(g->data->probes, view, x[k], y[k], g->index, &seen))
             continue;
         g->told |= 1u << k;
         aur_lane_set(&g->lanes.sum, k, seen);

@@ -44,17 +44,17 @@ aur_result aur_radiosity_image_prepare(const aur_rule_options *rule, aur_radiosi
 void aur_radiosity_image_release(aur_radiosity_image *image);
 
 /* A point that light is reflected from. */
-typedef struct aur_radiosity_place {
+typedef struct aur_radiosity_surface_point {
     aur_vector position, normal; /* normal: on the side that is seen */
     uint32_t triangle, patch;    /* patch: of that side, or AUR_NO_PATCH */
     bool mirrored;               /* it is seen by way of mirrors */
     aur_vector albedo, emission;
-} aur_radiosity_place;
+} aur_radiosity_surface_point;
 
 /* The place that a ray leads to from its first hit, by way of mirrors, and what these keep. False when it
  * leaves the scene or ends between mirrors. `hash` is of what mirrors choose. */
 bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray ray, aur_hit hit,
-                       aur_radiosity_place *place, aur_vector *throughput);
+                       aur_radiosity_surface_point *surface_point, aur_vector *throughput);
 
 /* The solid angle of a triangle, three corners of three coordinates, seen from a point without obstruction,
  * and a direction in it drawn uniformly by u, v in [0,1). 0 when it is seen edge on. */
@@ -63,12 +63,13 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
 
 /* One sample of the radiance that the light `triangle` makes the place reflect; 0 when something else is met
  * first. */
-aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radiosity_place *place,
-                                uint32_t triangle, float u, float v);
+aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene,
+                                const aur_radiosity_surface_point *surface_point, uint32_t triangle, float u,
+                                float v);
 
 /* The indirect irradiance over pi at a place; `hash` turns the pattern. */
-aur_vector aur_radiosity_gather(const aur_radiosity_image *image, const aur_radiosity_place *place,
-                                uint64_t hash);
+aur_vector aur_radiosity_gather(const aur_radiosity_image *image,
+                                const aur_radiosity_surface_point *surface_point, uint64_t hash);
 
 /* The `tile` of the integrator. */
 aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile);

@@ -85,38 +85,41 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
 /* --- direct light */
 
 /* A ray from the place. */
-static aur_ray leave(const aur_radiosity_scene *scene, const aur_radiosity_place *place,
+static aur_ray leave(const aur_radiosity_scene *scene, const aur_radiosity_surface_point *surface_point,
                      aur_vector direction) {
-    return (aur_ray){
-        aur_vector_add_scaled(place->position, scene->triangles[place->triangle].offset, place->normal), 0.0f,
-        direction, INFINITY};
+    return (aur_ray){aur_vector_add_scaled(surface_point->position,
+                                           scene->triangles[surface_point->triangle].offset,
+                                           surface_point->normal),
+                     0.0f, direction, INFINITY};
 }
 
-aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radiosity_place *place,
-                                uint32_t triangle, float u, float v) {
+aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene,
+                                const aur_radiosity_surface_point *surface_point, uint32_t triangle, float u,
+                                float v) {
     const aur_vector black = {0};
     const aur_radiosity_triangle *const light = &scene->triangles[triangle];
-    if (!(aur_vector_dot(light->frame.z, aur_vector_subtract(place->position, light->corner)) > 0.0f))
+    if (!(aur_vector_dot(light->frame.z, aur_vector_subtract(surface_point->position, light->corner)) > 0.0f))
         return black;
     double corner[9], from[3], direction[3];
     aur_vector_to_doubles(light->corner, corner);
     aur_vector_to_doubles(aur_vector_add(light->corner, light->edge[0]), &corner[3]);
     aur_vector_to_doubles(aur_vector_add(light->corner, light->edge[1]), &corner[6]);
-    aur_vector_to_doubles(place->position, from);
+    aur_vector_to_doubles(surface_point->position, from);
     const double solid_angle = aur_spherical_triangle(corner, from, (double)u, (double)v, direction);
     if (solid_angle == 0.0)
         return black;
     const aur_vector towards = {(float)direction[0], (float)direction[1], (float)direction[2]};
-    const float cosine = aur_vector_dot(towards, place->normal);
+    const float cosine = aur_vector_dot(towards, surface_point->normal);
     if (!(cosine > 0.0f))
         return black;
-    const aur_ray ray = leave(scene, place, towards);
+    const aur_ray ray = leave(scene, surface_point, towards);
     aur_hit hit;
     if (!aur_scene_intersect(scene->scene, &ray, &hit) || aur_radiosity_triangle_at(scene, &hit) != triangle)
         return black;
     const float factor = (float)solid_angle * cosine / AUR_PI_F;
     return aur_vector_scale(
-        aur_vector_multiply(place->albedo, aur_radiosity_emitted(scene, triangle, hit.u, hit.v)), factor);
+        aur_vector_multiply(surface_point->albedo, aur_radiosity_emitted(scene, triangle, hit.u, hit.v)),
+        factor);
 }
 
 /* --- gathered light */
@@ -162,7 +165,7 @@ void aur_radiosity_image_release(aur_radiosity_image *image) {
 }
 
 bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray ray, aur_hit hit,
-                       aur_radiosity_place *place, aur_vector *throughput) {
+                       aur_radiosity_surface_point *surface_point, aur_vector *throughput) {
     uint32_t index = aur_radiosity_triangle_at(scene, &hit);
     const bool mirrored = (scene->triangles[index].flags & AUR_RADIOSITY_MIRROR) != 0;
     *throughput = (aur_vector){1.0f, 1.0f, 1.0f};
@@ -173,40 +176,41 @@ bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray 
     }
     const aur_radiosity_triangle *const met = &scene->triangles[index];
     const bool front = aur_vector_dot(ray.direction, met->frame.z) < 0.0f;
-    *place = (aur_radiosity_place){.position = aur_radiosity_point(met, hit.u, hit.v),
-                                   .normal = aur_vector_scale(met->frame.z, front ? 1.0f : -1.0f),
-                                   .triangle = index,
-                                   .patch = front ? index : met->back,
-                                   .mirrored = mirrored};
-    if (place->patch != AUR_NO_PATCH)
-        place->albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
+    *surface_point =
+        (aur_radiosity_surface_point){.position = aur_radiosity_point(met, hit.u, hit.v),
+                                      .normal = aur_vector_scale(met->frame.z, front ? 1.0f : -1.0f),
+                                      .triangle = index,
+                                      .patch = front ? index : met->back,
+                                      .mirrored = mirrored};
+    if (surface_point->patch != AUR_NO_PATCH)
+        surface_point->albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
     if (front && (met->flags & AUR_RADIOSITY_GLOWS) != 0)
-        place->emission = aur_radiosity_emitted(scene, index, hit.u, hit.v);
+        surface_point->emission = aur_radiosity_emitted(scene, index, hit.u, hit.v);
     return true;
 }
 
 /* The radiance that the solution has where a gather ray ends. */
 static aur_vector radiance_at(const aur_radiosity_image *image, const aur_ray *ray, const aur_hit *hit,
                               uint64_t hash) {
-    aur_radiosity_place place;
+    aur_radiosity_surface_point surface_point;
     aur_vector throughput;
-    if (!aur_radiosity_see(&image->solution->scene, hash, *ray, *hit, &place, &throughput) ||
-        place.patch == AUR_NO_PATCH)
+    if (!aur_radiosity_see(&image->solution->scene, hash, *ray, *hit, &surface_point, &throughput) ||
+        surface_point.patch == AUR_NO_PATCH)
         return (aur_vector){0};
-    aur_vector radiance = aur_vector_multiply(place.albedo, image->exitance[place.patch]);
+    aur_vector radiance = aur_vector_multiply(surface_point.albedo, image->exitance[surface_point.patch]);
     /* Direct light is drawn from lights that are seen without mirrors, so what a mirror shows of a light is
      * added here. */
-    if (place.mirrored)
-        radiance = aur_vector_add(radiance, place.emission);
+    if (surface_point.mirrored)
+        radiance = aur_vector_add(radiance, surface_point.emission);
     return aur_vector_multiply(throughput, radiance);
 }
 
-aur_vector aur_radiosity_gather(const aur_radiosity_image *image, const aur_radiosity_place *place,
-                                uint64_t hash) {
+aur_vector aur_radiosity_gather(const aur_radiosity_image *image,
+                                const aur_radiosity_surface_point *surface_point, uint64_t hash) {
     const aur_radiosity_scene *const scene = &image->solution->scene;
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)(hash >> 32));
     const float cosine = cosf(angle), sine = sinf(angle);
-    const aur_frame frame = aur_frame_about(place->normal);
+    const aur_frame frame = aur_frame_about(surface_point->normal);
     aur_packet packet;
     aur_packet_clear(&packet);
     aur_vector sum = {0};
@@ -217,7 +221,7 @@ aur_vector aur_radiosity_gather(const aur_radiosity_image *image, const aur_radi
         for (size_t k = 0; k < lanes; ++k) {
             const float x = image->x[first + k], y = image->y[first + k];
             const aur_vector local = {cosine * x - sine * y, sine * x + cosine * y, image->z[first + k]};
-            made[k] = leave(scene, place, aur_frame_to_world(&frame, local));
+            made[k] = leave(scene, surface_point, aur_frame_to_world(&frame, local));
             aur_packet_set(&packet, k, &made[k]);
         }
         for (size_t k = lanes; k < AUR_PACKET_SIZE; ++k)

@@ -61,29 +61,30 @@ static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t inde
 
 /* --- light at a hit point */
 
-static aur_vector light_sample(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
-                               size_t light, uint32_t index) {
+static aur_vector light_sample(const workspace *work, const aur_radiosity_surface_point *surface_point,
+                               uint64_t pixel, size_t light, uint32_t index) {
     const uint32_t triangle = work->image->solution->walk.lights[light];
-    if (triangle == place->triangle)
+    if (triangle == surface_point->triangle)
         return (aur_vector){0};
     /* The R2 sequence, shifted for each pixel and light. */
     const uint64_t shift = aur_hash3(pixel, 0x6c69676874, light);
     const float u = aur_unit_float((uint32_t)shift + (index + 1) * 3242174889u);
     const float v = aur_unit_float((uint32_t)(shift >> 32) + (index + 1) * 2447445414u);
-    return aur_radiosity_direct(&work->image->solution->scene, place, triangle, u, v);
+    return aur_radiosity_direct(&work->image->solution->scene, surface_point, triangle, u, v);
 }
 
 /* Light number p of the round's order is taken by one hit point alone, `points` times: over the round every
  * light is used once. Which point begins is a matter of chance: the first ones have one light more where
  * their number is no multiple, and the last round may lack the others. */
-static aur_vector direct_light(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
-                               uint32_t index, uint32_t points) {
+static aur_vector direct_light(const workspace *work, const aur_radiosity_surface_point *surface_point,
+                               uint64_t pixel, uint32_t index, uint32_t points) {
     const bool permuted = work->image->permuted;
     aur_vector sum = {0};
     const uint64_t turn = aur_hash3(pixel, 0x7475726e, index / points) % points;
     for (size_t p = permuted ? (index + turn) % points : 0; p < work->image->solution->walk.light_count;
          p += permuted ? points : 1)
-        sum = aur_vector_add(sum, light_sample(work, place, pixel, permuted ? work->order[p] : p, index));
+        sum = aur_vector_add(sum,
+                             light_sample(work, surface_point, pixel, permuted ? work->order[p] : p, index));
     return permuted ? aur_vector_scale(sum, (float)points) : sum;
 }
 
@@ -98,22 +99,22 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
     aur_ray ray;
     hit_point made = {.triangle = AUR_NO_PATCH, .weight = camera_ray(work, x, y, index, &ray)};
     aur_hit hit;
-    aur_radiosity_place place;
+    aur_radiosity_surface_point surface_point;
     aur_vector path;
     if (!aur_scene_intersect(scene->scene, &ray, &hit) ||
-        !aur_radiosity_see(scene, hash, ray, hit, &place, &path))
+        !aur_radiosity_see(scene, hash, ray, hit, &surface_point, &path))
         return made;
-    made.triangle = place.triangle << 1 | (place.patch == place.triangle);
-    made.throughput = aur_vector_multiply(path, place.albedo);
+    made.triangle = surface_point.triangle << 1 | (surface_point.patch == surface_point.triangle);
+    made.throughput = aur_vector_multiply(path, surface_point.albedo);
     if (wants(work, AUR_RADIOSITY_EMISSION))
-        made.rest = aur_vector_multiply(path, place.emission);
-    if (aur_vector_is_zero(place.albedo))
+        made.rest = aur_vector_multiply(path, surface_point.emission);
+    if (aur_vector_is_zero(surface_point.albedo))
         return made;
     if (wants(work, AUR_RADIOSITY_DIRECT))
         made.rest = aur_vector_add(
-            made.rest, aur_vector_multiply(path, direct_light(work, &place, pixel, index, points)));
+            made.rest, aur_vector_multiply(path, direct_light(work, &surface_point, pixel, index, points)));
     if (wants(work, AUR_RADIOSITY_INDIRECT))
-        made.irradiance = aur_radiosity_gather(work->image, &place, aur_mix64(hash + 1));
+        made.irradiance = aur_radiosity_gather(work->image, &surface_point, aur_mix64(hash + 1));
     return made;
 }
 

@@ -3,7 +3,7 @@
  */
 #include <aureole-lighting/daylight.h>
 #include <aureole-lighting/view_factors.h>
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole-render/radiosity.h>
 #include <aureole-render/render.h>
 
@@ -174,29 +174,29 @@ static void renders(const aur_scene *scene) {
 static void asks(const aur_scene *scene) {
     aur_renderer *renderer = NULL;
     accept(aur_renderer_create(scene, &renderer, &error), &error);
-    aur_ask_options wish = {.size = sizeof wish};
-    aur_ask_options_init(&wish, NULL);
-    aur_ask *ask = NULL;
+    aur_adaptive_options wish = {.size = sizeof wish};
+    aur_adaptive_options_init(&wish, NULL);
+    aur_adaptive *adaptive = NULL;
     wish.error = -1.0;
-    refuse(aur_ask_create(renderer, NULL, &wish, &ask, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_adaptive_create(renderer, NULL, &wish, &adaptive, &error), AUR_ERROR_ARGUMENT, &error);
     wish.error = 0.5;
-    accept(aur_ask_create(renderer, NULL, &wish, &ask, &error), &error);
-    require(strcmp(aur_ask_integrator(ask), "path") == 0, "aur_ask_integrator");
-    aur_ask_cancel(ask);
-    refuse(aur_ask_run(ask, &error), AUR_ERROR_CANCELLED, &error);
-    accept(aur_ask_run(ask, &error), &error);
-    refuse(aur_ask_save(ask, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
-    refuse(aur_ask_resume(ask, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
-    aur_ask_report report = {.size = sizeof report};
-    accept(aur_ask_get_report(ask, &report, &error), &error);
-    require(report.error_high <= 0.5 && report.rounds > 0, "aur_ask_get_report");
+    accept(aur_adaptive_create(renderer, NULL, &wish, &adaptive, &error), &error);
+    require(strcmp(aur_adaptive_integrator(adaptive), "path") == 0, "aur_adaptive_integrator");
+    aur_adaptive_cancel(adaptive);
+    refuse(aur_adaptive_run(adaptive, &error), AUR_ERROR_CANCELLED, &error);
+    accept(aur_adaptive_run(adaptive, &error), &error);
+    refuse(aur_adaptive_save(adaptive, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_adaptive_resume(adaptive, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
+    aur_adaptive_report report = {.size = sizeof report};
+    accept(aur_adaptive_get_report(adaptive, &report, &error), &error);
+    require(report.error_high <= 0.5 && report.rounds > 0, "aur_adaptive_get_report");
     report.size = 0;
-    refuse(aur_ask_get_report(ask, &report, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_adaptive_get_report(adaptive, &report, &error), AUR_ERROR_ARGUMENT, &error);
     aur_image *image = NULL;
-    accept(aur_ask_develop(ask, true, &image, &error), &error);
-    require(aur_image_channel_count(image) == 6, "aur_ask_develop");
+    accept(aur_adaptive_develop(adaptive, true, &image, &error), &error);
+    require(aur_image_channel_count(image) == 6, "aur_adaptive_develop");
     aur_image_destroy(image);
-    aur_ask_destroy(ask);
+    aur_adaptive_destroy(adaptive);
     aur_renderer_destroy(renderer);
 }
 
@@ -233,8 +233,8 @@ static void irradiances(const aur_scene *scene) {
     aur_sensors *sensors = NULL;
     accept(aur_sensors_read("calls.pts", NULL, &sensors, &error), &error);
     remove("calls.pts");
-    const aur_sensors_view *const view = aur_sensors_look(sensors);
-    require(view->count == 1 && view->normals[2] == 1.0, "aur_sensors_look");
+    const aur_sensors_view *const view = aur_sensors_get_view(sensors);
+    require(view->count == 1 && view->normals[2] == 1.0, "aur_sensors_get_view");
     aur_irradiance_options options = {.size = sizeof options};
     aur_irradiance_options_init(&options, NULL);
     aur_irradiance result;

@@ -193,24 +193,24 @@ static void points_and_measures(void) {
     aur_points *points = NULL;
     refuse(aur_points_generate("nothing", &request, &points, &error), AUR_ERROR_NAME, &error);
     accept(aur_points_generate("spherical-fibonacci", &request, &points, &error), &error);
-    accept(aur_points_write("calls.csv", AUR_POINTS_CSV, aur_points_look(points), NULL, &error), &error);
+    accept(aur_points_write("calls.csv", AUR_POINTS_CSV, aur_points_get_view(points), NULL, &error), &error);
     aur_points_write_options writing = {.size = sizeof writing};
     aur_points_write_options_init(&writing, NULL);
     writing.digits = 18;
-    refuse(aur_points_write("calls.txt", AUR_POINTS_CSV, aur_points_look(points), &writing, &error),
+    refuse(aur_points_write("calls.txt", AUR_POINTS_CSV, aur_points_get_view(points), &writing, &error),
            AUR_ERROR_ARGUMENT, &error);
     aur_points_destroy(points);
     refuse(aur_points_read("no such folder/calls.csv", NULL, &points, &error), AUR_ERROR_OPEN, &error);
     refuse(aur_points_read("calls.csv", &square, &points, &error), AUR_ERROR_UNSUPPORTED, &error);
     refuse(aur_points_read_memory("text", 6, "u,v\n2,", NULL, &points, &error), AUR_ERROR_FORMAT, &error);
     accept(aur_points_read_memory("text", 10, "x,y\n.5,.25", &square, &points, &error), &error);
-    require(aur_points_look(points)->coordinates[1] == .25, "aur_points_read_memory");
+    require(aur_points_get_view(points)->coordinates[1] == .25, "aur_points_read_memory");
     aur_points_destroy(points);
     accept(aur_points_read("calls.csv", NULL, &points, &error), &error);
     aur_points_destroy(points);
     accept(aur_points_read("calls.csv", &sphere, &points, &error), &error);
     remove("calls.csv");
-    const aur_points_view *const view = aur_points_look(points);
+    const aur_points_view *const view = aur_points_get_view(points);
     const aur_measure_description *description = NULL;
     accept(aur_measure_find("energy", &description, &error), &error);
     refuse(aur_measure_find("enargy", &description, &error), AUR_ERROR_NAME, &error);

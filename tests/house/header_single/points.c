@@ -38,8 +38,8 @@ static void take(const char *set, aur_domain domain, size_t dimension, aur_scram
         ++failures;
         return;
     }
-    memcpy(points, aur_points_look(made)->coordinates,
-           COUNT * aur_points_look(made)->dimension * sizeof *points);
+    memcpy(points, aur_points_get_view(made)->coordinates,
+           COUNT * aur_points_get_view(made)->dimension * sizeof *points);
     aur_points_destroy(made);
 }
 

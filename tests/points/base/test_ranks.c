@@ -81,8 +81,8 @@ static void run(int (*body)(size_t rank), int leaves) {
             continue;
         alarm(SECONDS);
         aur_error error = {0};
-        const aur_carrier carrier = {rank, RANKS, &rank, carry, look, take, finish, end_all};
-        if (aur_ranks_join_by(&carrier, &error) != AUR_OK || aur_ranks_rank() != rank ||
+        const aur_transport transport = {rank, RANKS, &rank, carry, look, take, finish, end_all};
+        if (aur_ranks_join_by(&transport, &error) != AUR_OK || aur_ranks_rank() != rank ||
             aur_ranks_count() != RANKS)
             _exit(98);
         const int status = body(rank);

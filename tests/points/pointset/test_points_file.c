@@ -46,9 +46,9 @@ static void headers_say_what_columns_are(void **state) {
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         aur_points *points = read_text(cases[k].text);
-        assert_int_equal(aur_points_look(points)->domain, cases[k].domain);
-        assert_int_equal(aur_points_look(points)->dimension, cases[k].dimension);
-        assert_int_equal(aur_points_look(points)->weights != NULL, cases[k].weights);
+        assert_int_equal(aur_points_get_view(points)->domain, cases[k].domain);
+        assert_int_equal(aur_points_get_view(points)->dimension, cases[k].dimension);
+        assert_int_equal(aur_points_get_view(points)->weights != NULL, cases[k].weights);
         aur_points_destroy(points);
     }
 }
@@ -65,7 +65,7 @@ static void the_domain_asked_for_decides(void **state) {
     aur_points *points;
     aur_error error = {0};
     assert_int_equal(read_on(AUR_DOMAIN_SQUARE, unit, &points, &error), AUR_OK);
-    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SQUARE);
+    assert_int_equal(aur_points_get_view(points)->domain, AUR_DOMAIN_SQUARE);
     aur_points_destroy(points);
     assert_int_equal(aur_points_read(path, NULL, &points, &error), AUR_ERROR_FORMAT);
     assert_non_null(strstr(error.message, "header x,y"));
@@ -76,7 +76,7 @@ static void the_domain_asked_for_decides(void **state) {
     assert_int_equal(read_on(AUR_DOMAIN_SPHERE, "u1,u2,u3\n0,0.5,0.25\n", &points, &error),
                      AUR_ERROR_UNSUPPORTED);
     assert_int_equal(read_on(AUR_DOMAIN_SPHERE, "x,y,z\n0,0,1\n", &points, &error), AUR_OK);
-    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SPHERE);
+    assert_int_equal(aur_points_get_view(points)->domain, AUR_DOMAIN_SPHERE);
     aur_points_destroy(points);
     assert_int_equal(read_on(AUR_DOMAIN_HEMISPHERE, "x,y,z\n0,0,-1\n", &points, &error), AUR_ERROR_FORMAT);
     assert_int_equal(error.line, 2);
@@ -103,12 +103,12 @@ static void domains_have_names(void **state) {
 static void numbers_come_back(void **state) {
     (void)state;
     aur_points *points = read_text("u,v,w\n0.10000000000000001,2.5e-1,3\n0.99999999999999989,0,-1\n");
-    assert_int_equal(aur_points_look(points)->count, 2);
-    assert_near(aur_points_look(points)->coordinates[0], 0.1, 0.0);
-    assert_near(aur_points_look(points)->coordinates[1], 0.25, 0.0);
-    assert_near(aur_points_look(points)->coordinates[2], 0.99999999999999989, 0.0);
-    assert_near(aur_points_look(points)->weights[0], 3.0, 0.0);
-    assert_near(aur_points_look(points)->weights[1], -1.0, 0.0);
+    assert_int_equal(aur_points_get_view(points)->count, 2);
+    assert_near(aur_points_get_view(points)->coordinates[0], 0.1, 0.0);
+    assert_near(aur_points_get_view(points)->coordinates[1], 0.25, 0.0);
+    assert_near(aur_points_get_view(points)->coordinates[2], 0.99999999999999989, 0.0);
+    assert_near(aur_points_get_view(points)->weights[0], 3.0, 0.0);
+    assert_near(aur_points_get_view(points)->weights[1], -1.0, 0.0);
     aur_points_destroy(points);
 }
 
@@ -167,31 +167,31 @@ static void arrays_come_back(void **state) {
     aur_points *points;
     write_npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }\n", rows, sizeof rows);
     assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
-    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SQUARE);
-    assert_int_equal(aur_points_look(points)->count, 3);
-    assert_memory_equal(aur_points_look(points)->coordinates, rows, sizeof rows);
+    assert_int_equal(aur_points_get_view(points)->domain, AUR_DOMAIN_SQUARE);
+    assert_int_equal(aur_points_get_view(points)->count, 3);
+    assert_memory_equal(aur_points_get_view(points)->coordinates, rows, sizeof rows);
     aur_points_destroy(points);
 
     write_npy("{'descr': '<f8', 'fortran_order': True, 'shape': (3, 2), }\n", rows, sizeof rows);
     assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
     for (size_t r = 0; r < 3; ++r)
         for (size_t c = 0; c < 2; ++c)
-            assert_near(aur_points_look(points)->coordinates[2 * r + c], rows[3 * c + r], 0.0);
+            assert_near(aur_points_get_view(points)->coordinates[2 * r + c], rows[3 * c + r], 0.0);
     aur_points_destroy(points);
 
     static const unsigned char half[] = {0x3f, 0, 0, 0};
     write_npy("{'descr': '>f4', 'fortran_order': False, 'shape': (1,), }\n", half, sizeof half);
     assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
-    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_CUBE);
-    assert_int_equal(aur_points_look(points)->dimension, 1);
-    assert_near(aur_points_look(points)->coordinates[0], 0.5, 0.0);
+    assert_int_equal(aur_points_get_view(points)->domain, AUR_DOMAIN_CUBE);
+    assert_int_equal(aur_points_get_view(points)->dimension, 1);
+    assert_near(aur_points_get_view(points)->coordinates[0], 0.5, 0.0);
     aur_points_destroy(points);
 
     static const float pole[] = {0, 0, -1, 0.25f};
     write_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 4), }\n", pole, sizeof pole);
     assert_int_equal(aur_points_read(path, NULL, &points, NULL), AUR_OK);
-    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SPHERE);
-    assert_near(aur_points_look(points)->weights[0], 0.25, 0.0);
+    assert_int_equal(aur_points_get_view(points)->domain, AUR_DOMAIN_SPHERE);
+    assert_near(aur_points_get_view(points)->weights[0], 0.25, 0.0);
     aur_points_destroy(points);
 }
 

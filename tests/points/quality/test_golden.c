@@ -22,7 +22,7 @@ static double measured(const golden *g) {
     if (aur_points_generate(g->set, &request, &points, &error) != AUR_OK)
         print_error("%s: %s\n", g->set, error.message);
     double value = NAN;
-    assert_int_equal(aur_measure(g->metric, aur_points_look(points), NULL, &value, &error), AUR_OK);
+    assert_int_equal(aur_measure(g->metric, aur_points_get_view(points), NULL, &value, &error), AUR_OK);
     aur_points_destroy(points);
     return value;
 }

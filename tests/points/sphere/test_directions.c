@@ -314,7 +314,7 @@ static void options_can_grow(void **state) {
     aur_points_request_init(&newer.known, &request, NULL);
     aur_points *points;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL), AUR_OK);
-    assert_int_equal(aur_points_look(points)->count, 4);
+    assert_int_equal(aur_points_get_view(points)->count, 4);
     aur_points_destroy(points);
     newer.wish = 1;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL),

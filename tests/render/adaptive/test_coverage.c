@@ -1,6 +1,6 @@
 /* Intervals of the error of an image: in a closed furnace, whose radiance is 1 everywhere, the error is
  * known. */
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole-render/render.h>
 #include <math.h>
 
@@ -9,24 +9,24 @@
 enum { SIDE = 6, RUNS = 600 };
 
 /* Two rounds of a path tracer that ends paths at random; the root mean square of what the image is off 1. */
-static double error_of(aur_renderer *renderer, uint64_t seed, aur_ask_report *report) {
+static double error_of(aur_renderer *renderer, uint64_t seed, aur_adaptive_report *report) {
     aur_render_options render = {.size = sizeof render};
     aur_render_options_init(&render, NULL);
     render.width = render.height = SIDE;
     render.integrator = "path:rr_depth=1";
     render.threads = 1;
     render.seed = seed;
-    aur_ask_options wish = {.size = sizeof wish};
-    aur_ask_options_init(&wish, NULL);
-    wish.error = 0.0;
-    wish.rounds = 2;
-    wish.confidence = 0.5;
-    aur_ask *ask;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.0;
+    target.rounds = 2;
+    target.confidence = 0.5;
+    aur_adaptive *adaptive;
     aur_image *image;
-    assert_int_equal(aur_ask_create(renderer, &render, &wish, &ask, NULL), AUR_OK);
-    assert_int_equal(aur_ask_run(ask, NULL), AUR_OK);
-    assert_int_equal(aur_ask_develop(ask, NULL, &image, NULL), AUR_OK);
-    assert_int_equal(aur_ask_get_report(ask, report, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_create(renderer, &render, &target, &adaptive, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(adaptive, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_develop(adaptive, NULL, &image, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_get_report(adaptive, report, NULL), AUR_OK);
     double squares = 0.0;
     for (size_t i = 0; i < 3 * SIDE * SIDE; ++i) {
         const double off =
@@ -34,7 +34,7 @@ static double error_of(aur_renderer *renderer, uint64_t seed, aur_ask_report *re
         squares += off * off;
     }
     aur_image_destroy(image);
-    aur_ask_destroy(ask);
+    aur_adaptive_destroy(adaptive);
     return sqrt(squares / (3.0 * SIDE * SIDE));
 }
 
@@ -50,7 +50,7 @@ static void intervals_hold_the_error(void **state) {
     size_t below = 0, above = 0;
     double squares = 0.0, estimated = 0.0;
     for (uint64_t seed = 0; seed < RUNS; ++seed) {
-        aur_ask_report report = {.size = sizeof report};
+        aur_adaptive_report report = {.size = sizeof report};
         const double error = error_of(renderer, seed, &report);
         below += error < report.error_low * report.mean;
         above += error > report.error_high * report.mean;

@@ -50,12 +50,12 @@ static aur_pixel_spread pool(aur_pixel_spread a, aur_pixel_spread b) {
 }
 
 /* Value i from normal number `index` of a trial. */
-typedef double (*value_function)(size_t i, uint64_t trial, uint64_t index);
+typedef double (*value_function)(size_t i, uint64_t candidate, uint64_t index);
 
 /* The truth is 0. `pooled`: a round before saw other replicas with the same variances. */
 static coverage cover(size_t count, value_function draw, bool pooled) {
     coverage c = {0};
-    for (size_t trial = 0; trial < TRIALS; ++trial) {
+    for (size_t candidate = 0; candidate < TRIALS; ++candidate) {
         aur_deviations sum = {0};
         double square = 0.0;
         aur_pixel_spread pixels[VALUES];
@@ -64,8 +64,8 @@ static coverage cover(size_t count, value_function draw, bool pooled) {
             for (size_t i = block * BLOCK_VALUES; i < (block + 1) * BLOCK_VALUES; ++i) {
                 double d[AUR_REPLICAS_MAX], before[AUR_REPLICAS_MAX];
                 for (size_t r = 0; r < count; ++r) {
-                    d[r] = draw(i, trial, i * count + r);
-                    before[r] = pooled ? draw(i, trial, (VALUES + i) * count + r) : 0.0;
+                    d[r] = draw(i, candidate, i * count + r);
+                    before[r] = pooled ? draw(i, candidate, (VALUES + i) * count + r) : 0.0;
                 }
                 const double mean = deviations_of(count, d);
                 deviations_of(count, before);
@@ -91,22 +91,22 @@ static coverage cover(size_t count, value_function draw, bool pooled) {
     return c;
 }
 
-static double same(size_t i, uint64_t trial, uint64_t index) {
+static double same(size_t i, uint64_t candidate, uint64_t index) {
     (void)i;
-    return normal(trial, index);
+    return normal(candidate, index);
 }
 
 /* A third of the square error in a hundredth of the values. */
-static double uneven(size_t i, uint64_t trial, uint64_t index) {
-    return (i % 100 == 0 ? 7.0 : 1.0) * normal(trial, index);
+static double uneven(size_t i, uint64_t candidate, uint64_t index) {
+    return (i % 100 == 0 ? 7.0 : 1.0) * normal(candidate, index);
 }
 
 enum { RARE = 32 };
 
 /* One in RARE is large, and the others are as much too low; the variance is 1. */
-static double rare(size_t i, uint64_t trial, uint64_t index) {
+static double rare(size_t i, uint64_t candidate, uint64_t index) {
     (void)i;
-    const double large = aur_hash2(trial, index) < UINT64_MAX / RARE ? (double)RARE : 0.0;
+    const double large = aur_hash2(candidate, index) < UINT64_MAX / RARE ? (double)RARE : 0.0;
     return (large - 1.0) / sqrt(RARE - 1.0);
 }
 
@@ -141,8 +141,8 @@ static void test_holds_what_it_says(void **state) {
 }
 
 /* Nine tenths of the square error in one value. */
-static double single(size_t i, uint64_t trial, uint64_t index) {
-    return (i == 100 ? sqrt(9.0 * (VALUES - 1)) : 1.0) * normal(trial, index);
+static double single(size_t i, uint64_t candidate, uint64_t index) {
+    return (i == 100 ? sqrt(9.0 * (VALUES - 1)) : 1.0) * normal(candidate, index);
 }
 
 /* Where one value has the error the replicas of now tell too little of its spread, and a round before helps.

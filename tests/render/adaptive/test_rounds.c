@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "render/adaptive/trial.h"
+#include "render/adaptive/candidate.h"
 
 static double sum_after(size_t count, const double *variances, const uint32_t *before,
                         const uint32_t *after) {

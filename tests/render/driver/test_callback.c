@@ -1,7 +1,7 @@
 /* A progress callback may call the library: core.h. */
 #include "check.h"
 
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole-render/render.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,14 +114,14 @@ static void renders_previews_of_an_error(void **state) {
     aur_render_options_init(&options, NULL);
     options.width = options.height = SIDE;
     options.progress = (aur_progress){show, &shown};
-    aur_ask_options wish = {.size = sizeof wish};
-    aur_ask_options_init(&wish, NULL);
+    aur_adaptive_options wish = {.size = sizeof wish};
+    aur_adaptive_options_init(&wish, NULL);
     wish.rounds = 2;
-    aur_ask *ask;
-    assert_int_equal(aur_ask_create(f.outer, &options, &wish, &ask, NULL), AUR_OK);
-    assert_int_equal(aur_ask_run(ask, NULL), AUR_OK);
+    aur_adaptive *ask;
+    assert_int_equal(aur_adaptive_create(f.outer, &options, &wish, &ask, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(ask, NULL), AUR_OK);
     assert_int_equal(shown.calls, 2);
-    aur_ask_destroy(ask);
+    aur_adaptive_destroy(ask);
     finish(&f);
 }
 

@@ -65,8 +65,8 @@ static void writes_and_reads_points(void **state) {
     assert_true(file_contains("points.json", "[0.5, 0.25]"));
     aur_points *read;
     assert_int_equal(aur_points_read("points.csv", NULL, &read, &error), AUR_OK);
-    assert_memory_equal(aur_points_look(read)->coordinates, coordinates, sizeof coordinates);
-    assert_memory_equal(aur_points_look(read)->weights, weights, sizeof weights);
+    assert_memory_equal(aur_points_get_view(read)->coordinates, coordinates, sizeof coordinates);
+    assert_memory_equal(aur_points_get_view(read)->weights, weights, sizeof weights);
     aur_points_destroy(read);
     assert_int_equal(aur_weights_write("weights.csv", AUR_DOMAIN_SPHERE, 1, (const double[]){0.0, 0.6, 0.8},
                                        1, weights, &error),

@@ -29,8 +29,8 @@ static double beyond(const aur_curves *curves, size_t segment, double u, const d
     const double cubic[4] = {v * v * v / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
                              (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0, u * u * u / 6.0};
     const double cubic_slope[4] = {-0.5 * v * v, 1.5 * u * u - 2.0 * u, 2.0 * v - 1.5 * v * v, 0.5 * u * u};
-    const double straight[4] = {v, u, 0.0, 0.0}, straight_slope[4] = {-1.0, 1.0, 0.0, 0.0};
-    const double *const weight = curves->smooth ? cubic : straight;
+    const double unscattered[4] = {v, u, 0.0, 0.0}, straight_slope[4] = {-1.0, 1.0, 0.0, 0.0};
+    const double *const weight = curves->smooth ? cubic : unscattered;
     const double *const change = curves->smooth ? cubic_slope : straight_slope;
     double squared = 0.0, radius = 0.0;
     for (size_t k = 0; k < 4; ++k) {

@@ -49,15 +49,15 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
                     : weight_at(&at, sample.direction) * (double)(sample.radiance.x / sample.pdf);
             direct[0] += value;
             direct[1] += value * value;
-            aur_ray onward = ray;
-            onward.farthest = INFINITY;
+            aur_ray continuation = ray;
+            continuation.farthest = INFINITY;
             aur_hit hit;
             /* Not grazing, where it matters that points lie off the light, nor beside a silhouette or beyond
              * the scene. */
             if (value > 0.0 && i % 16 == 0 && sample.pdf < 15.0f &&
-                aur_scene_intersect(scene, &onward, &hit)) {
+                aur_scene_intersect(scene, &continuation, &hit)) {
                 aur_surface surface;
-                aur_scene_surface(scene, &onward, &hit, &surface);
+                aur_scene_surface(scene, &continuation, &hit, &surface);
                 assert_relative(aur_light_pdf_direct(scene, &at, &surface), sample.pdf, 4e-3);
                 assert_near(hit.distance, distance, 2e-3 * distance);
             }

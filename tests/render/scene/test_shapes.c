@@ -73,9 +73,9 @@ static void hits_curved_shapes(void **state) {
             assert_true(surface.texture.u >= 0.0f && surface.texture.u <= 1.0f + 1e-6f);
             assert_true(surface.texture.v >= 0.0f && surface.texture.v <= 1.0f + 1e-6f);
             /* onward through the shape */
-            const aur_ray onward = aur_surface_ray(&surface, ray.direction);
+            const aur_ray continuation = aur_surface_ray(&surface, ray.direction);
             aur_hit second;
-            const bool again = aur_scene_intersect(scene, &onward, &second);
+            const bool again = aur_scene_intersect(scene, &continuation, &second);
             if (n == 0 && fabsf(aur_vector_dot(normal, ray.direction)) > 0.01f)
                 assert_true(again);
             if (again)

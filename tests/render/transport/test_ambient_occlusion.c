@@ -1,7 +1,7 @@
 /* Ambient occlusion against closed forms, and what must not change it. */
 #include "../scene/scene_text.h"
 
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole-render/render.h>
 
 #include "render/image/format.h"
@@ -168,22 +168,23 @@ static void to_an_error(void **state) {
     for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; ++i) {
         const aur_render_options options = {
             .size = sizeof options, .integrator = patterns[i], .width = 24, .height = 16};
-        aur_ask_options wish = {.size = sizeof wish};
-        aur_ask_options_init(&wish, NULL);
+        aur_adaptive_options wish = {.size = sizeof wish};
+        aur_adaptive_options_init(&wish, NULL);
         aur_renderer *renderer = NULL;
-        aur_ask *ask = NULL;
+        aur_adaptive *ask = NULL;
         aur_image *image = NULL;
         aur_error error = {0};
         double mean[4];
         wish.error = 0.02;
         if (aur_renderer_create(ball, &renderer, &error) != AUR_OK ||
-            aur_ask_create(renderer, &options, &wish, &ask, &error) != AUR_OK ||
-            aur_ask_run(ask, &error) != AUR_OK || aur_ask_develop(ask, false, &image, &error) != AUR_OK ||
+            aur_adaptive_create(renderer, &options, &wish, &ask, &error) != AUR_OK ||
+            aur_adaptive_run(ask, &error) != AUR_OK ||
+            aur_adaptive_develop(ask, false, &image, &error) != AUR_OK ||
             aur_image_mean(image, mean, &error) != AUR_OK)
             fail_msg("%s: %s", patterns[i], error.message);
         assert_near(mean[3], 15.0 / 16.0, 4.0 * 0.02 * (15.0 / 16.0) / sqrt(24.0));
         aur_image_destroy(image);
-        aur_ask_destroy(ask);
+        aur_adaptive_destroy(ask);
         aur_renderer_destroy(renderer);
     }
     aur_scene_destroy(ball);

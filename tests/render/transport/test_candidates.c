@@ -101,7 +101,7 @@ static const char block[] = "<shape type='cube'><transform name='to_world'><scal
                             "<bsdf type='diffuse'/></shape>";
 static const char sky[] = "<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter>";
 /* Lamps of every way to be drawn, two of which no ray finds. */
-static const char lamps[] =
+static const char visible[] =
     "<shape type='sphere'><point name='center' x='1' y='2' z='4'/><float name='radius' value='.2'/>"
     "<emitter type='area'><rgb name='radiance' value='30,20,10'/></emitter></shape>"
     "<shape type='rectangle'><transform name='to_world'><scale value='.5'/><rotate x='1' angle='90'/>"
@@ -203,7 +203,7 @@ static void means_are_those_of_one_candidate(void **state) {
     (void)state;
     if (check_short())
         skip();
-    const char *const stages[][3] = {{glossy, bodies, sky}, {glossy, bodies, lamps}, {diffuse, block, sky}};
+    const char *const stages[][3] = {{glossy, bodies, sky}, {glossy, bodies, visible}, {diffuse, block, sky}};
     for (size_t i = 0; i < 3; ++i) {
         stage s = open_stage(stages[i][0], stages[i][1], stages[i][2]);
         assert_same_mean(&s, "path:max_depth=4", "path:max_depth=4,candidates=4");
@@ -261,7 +261,7 @@ static void assert_same_bits(const stage *s, const char *one, const char *other)
 
 static void packets_are_single_paths(void **state) {
     (void)state;
-    const char *const lights[] = {sky, lamps};
+    const char *const lights[] = {sky, visible};
     for (size_t i = 0; i < 2; ++i) {
         stage s = open_stage(glossy, bodies, lights[i]);
         assert_same_bits(&s, "path:candidates=3", "path:candidates=3,packets=false");
@@ -272,7 +272,7 @@ static void packets_are_single_paths(void **state) {
 
 static void one_candidate_is_as_without(void **state) {
     (void)state;
-    const char *const lights[] = {sky, lamps};
+    const char *const lights[] = {sky, visible};
     for (size_t i = 0; i < 2; ++i) {
         stage s = open_stage(i == 0 ? glossy : diffuse, i == 0 ? bodies : block, lights[i]);
         assert_same_bits(&s, "path", "path:candidates=1");
@@ -287,7 +287,7 @@ static void one_shadow_ray_at_a_surface(void **state) {
     (void)state;
     static const uint64_t samples = SAMPLES * PIXELS;
     float pixels[3 * PIXELS];
-    stage lit = open_stage(glossy, bodies, lamps);
+    stage lit = open_stage(glossy, bodies, visible);
     const uint64_t one = render(&lit, "path:max_depth=2,lamp_rays=0", 1, pixels);
     const uint64_t many = render(&lit, "path:max_depth=2,lamp_rays=0,candidates=16", 1, pixels);
     assert_true(one <= many && many <= 3 * samples);

@@ -160,10 +160,10 @@ static void correction_is_the_difference(void **state) {
         snprintf(lone_keys, sizeof lone_keys, "%s,debias=only", cases[k].share);
         aur_image *const plain = render_picture(renderer, cases[k].form, "");
         aur_image *const whole = render_picture(renderer, cases[k].form, whole_keys);
-        aur_image *const lone = render_picture(renderer, cases[k].form, lone_keys);
+        aur_image *const single = render_picture(renderer, cases[k].form, lone_keys);
         double most = 0.0, off = 0.0, least = 0.0;
         for (size_t v = 0; v < 3 * PICTURE * PICTURE; ++v) {
-            const double known = (double)aur_image_data(plain)[v], added = (double)aur_image_data(lone)[v];
+            const double known = (double)aur_image_data(plain)[v], added = (double)aur_image_data(single)[v];
             most = fmax(most, fabs(known) + fabs(added));
             least = fmin(least, added);
             off = fmax(off, fabs(known + added - (double)aur_image_data(whole)[v]));
@@ -173,7 +173,7 @@ static void correction_is_the_difference(void **state) {
             fail_msg("'%s%s': %g beside values up to %g", cases[k].form, cases[k].share, off, most);
         aur_image_destroy(plain);
         aur_image_destroy(whole);
-        aur_image_destroy(lone);
+        aur_image_destroy(single);
     }
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);

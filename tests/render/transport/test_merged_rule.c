@@ -35,8 +35,8 @@ static aur_merged_rule *create(const aur_merged_rule_options *options) {
 
 /* The directions of a subset in the frame of normal and plane of reflection, as the gather loop makes them.
  */
-static void place(const aur_merged_rule *pair, size_t rotation, size_t subset, double angle, bool mirrored,
-                  double *xyz) {
+static void surface_point(const aur_merged_rule *pair, size_t rotation, size_t subset, double angle,
+                          bool mirrored, double *xyz) {
     aur_frame frames[2];
     aur_merged_rule_frames((aur_vector){0.0f, 0.0f, 1.0f},
                            (aur_vector){-(float)sin(angle), 0.0f, (float)cos(angle)}, mirrored, frames);
@@ -91,7 +91,7 @@ static void tables_are_solves(void **state) {
             const double angle = (0.4 + 5.0 * (double)step) * PI / 180.0;
             float weights[2 * SIZE];
             double xyz[3 * SIZE], own[SIZE], equal[SIZE] = {0}, exact[2 * SIZE];
-            place(pair, step % ROTATIONS, 0, angle, step % 2 == 1, xyz);
+            surface_point(pair, step % ROTATIONS, 0, angle, step % 2 == 1, xyz);
             aur_merged_rule_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
             aur_potential *const lobes[2] = {lobe_at(1.0, 0.0, false), lobe_at(m, angle, cases[c].clipped)};
             const aur_potential *const potentials[2] = {lobes[0], lobes[1]};
@@ -142,7 +142,7 @@ static void constants_are_exact(void **state) {
             float weights[2 * SIZE / 4];
             double xyz[3 * SIZE / 4];
             aur_merged_rule_weights(pair, step % ROTATIONS, subset, (float)cos(angle), weights);
-            place(pair, step % ROTATIONS, subset, angle, false, xyz);
+            surface_point(pair, step % ROTATIONS, subset, angle, false, xyz);
             for (size_t i = 0; i < SIZE / 4; ++i) {
                 /* Hidden samples carry nothing. */
                 if (xyz[3 * i + 2] < -1e-3)
@@ -202,7 +202,7 @@ static void balance_is_the_library_s(void **state) {
             const double angle = 10.0 * (double)step * PI / 180.0;
             float weights[2 * SIZE];
             double xyz[3 * SIZE], expected[SIZE];
-            place(pair, 0, 0, angle, false, xyz);
+            surface_point(pair, 0, 0, angle, false, xyz);
             aur_merged_rule_weights(pair, 0, 0, (float)cos(angle), weights);
             const double power = optimal == 1 ? 0.8 : 1.0;
             const aur_strategy strategies[2] = {{.count = DIFFUSE, .sampled = {.exponent = power}},

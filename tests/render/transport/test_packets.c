@@ -76,13 +76,13 @@ static void rows_and_columns_change_places_in_half_of_the_blocks(void **state) {
 static void marks_find_their_group(void **state) {
     (void)state;
     for (uint64_t k = 0; k < 100; ++k) {
-        const uint32_t place = (uint32_t)(aur_mix64(k) % AUR_GROUP_COUNT);
+        const uint32_t surface_point = (uint32_t)(aur_mix64(k) % AUR_GROUP_COUNT);
         const size_t lane = aur_mix64(k) / AUR_GROUP_COUNT % AUR_PACKET_SIZE;
         const uint64_t hash = aur_mix64(k + 100);
         uint32_t marks[AUR_GROUP_COUNT] = {0};
-        marks[place] = 1u << lane;
+        marks[surface_point] = 1u << lane;
         for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
-            const bool has = aur_group_pixel(hash, group, lane) == aur_group_pixel(0, place, lane);
+            const bool has = aur_group_pixel(hash, group, lane) == aur_group_pixel(0, surface_point, lane);
             assert_int_equal(aur_group_lanes_marked(hash, group, marks), has ? 1u << lane : 0);
         }
     }

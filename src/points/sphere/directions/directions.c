@@ -133,7 +133,7 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
     const aur_result result = aur_points_read(path, NULL, &directions->file, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const file = aur_points_look(directions->file);
+    const aur_points_view *const file = aur_points_get_view(directions->file);
     const uint64_t count = options->count != 0 ? options->count : file->count;
     if (count > file->count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%s has %zu points, not %llu", path, file->count,
@@ -244,7 +244,7 @@ static aur_result lift(const aur_directions *directions, uint64_t first, size_t 
 
 static void take_from_file(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
                            double *weights) {
-    const aur_points_view *const file = aur_points_look(directions->file);
+    const aur_points_view *const file = aur_points_get_view(directions->file);
     memcpy(xyz, file->coordinates + 3 * first, 3 * count * sizeof *xyz);
     if (weights != NULL && file->weights != NULL)
         memcpy(weights, file->weights + first, count * sizeof *weights);

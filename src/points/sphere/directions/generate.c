@@ -48,7 +48,7 @@ static aur_result choose_domain(job *j) {
     const aur_result result = aur_points_read(path, flat ? &cube : NULL, &j->file, j->error);
     if (result != AUR_OK)
         return result;
-    const aur_points_view *const held = aur_points_look(j->file);
+    const aur_points_view *const held = aur_points_get_view(j->file);
     if (request->natural_domain) {
         j->domain = held->domain;
         aur_points_warn_of_guess(held, path, &j->options->warnings);
@@ -122,7 +122,7 @@ static aur_result copy_disk(const job *j, aur_points **points) {
     if (j->options->scramble != AUR_SCRAMBLE_NONE)
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
                         "points that are on the disk already take no scrambling");
-    const aur_points_view *const held = aur_points_look(j->file);
+    const aur_points_view *const held = aur_points_get_view(j->file);
     aur_points_warn_of_prefix(held, j->size, j->set + 5, &j->options->warnings);
     const aur_result result = allocate(j, j->size, 2, held->weights != NULL, points);
     if (result != AUR_OK)
@@ -184,7 +184,7 @@ static aur_result generate_rotations(const job *j, aur_points **points) {
 
 /* Rotations of a file, as they stand. */
 static aur_result copy_rotations(const job *j, aur_points **points) {
-    const aur_points_view *const held = aur_points_look(j->file);
+    const aur_points_view *const held = aur_points_get_view(j->file);
     aur_points_warn_of_prefix(held, j->size, j->set + 5, &j->options->warnings);
     const aur_result result = allocate(j, j->size, 4, held->weights != NULL, points);
     if (result != AUR_OK)
@@ -198,7 +198,7 @@ static aur_result copy_rotations(const job *j, aur_points **points) {
 
 static aur_result generate(const job *j, aur_points **points) {
     const aur_directions_options *const options = j->options;
-    const aur_points_view *const held = j->file != NULL ? aur_points_look(j->file) : NULL;
+    const aur_points_view *const held = j->file != NULL ? aur_points_get_view(j->file) : NULL;
     const bool rotations = j->domain == AUR_DOMAIN_ROTATIONS;
     if (is_flat(j->domain) || j->domain == AUR_DOMAIN_DISK || rotations) {
         if (options->lobe.kind != AUR_LOBE_COSINE_POWER || options->lobe.exponent != 0.0)

@@ -3,7 +3,7 @@
 #include "program/cli/options.h"
 
 #define ABSENT(name_)                                                                                        \
-    const cli_verb cli_verb_##name_ = {                                                                      \
+    const cli_command cli_command_##name_ = {                                                                \
         .name = #name_, .summary = "(needs libaureole-lighting)", .absent = "libaureole-lighting"};
 ABSENT(irradiance)
 ABSENT(viewfactors)

@@ -7,7 +7,7 @@
 static const char library[] = "libaureole-render";
 
 #define ABSENT(name_)                                                                                        \
-    const cli_verb cli_verb_##name_ = {                                                                      \
+    const cli_command cli_command_##name_ = {                                                                \
         .name = #name_, .summary = "(needs libaureole-render)", .absent = library};
 ABSENT(render)
 ABSENT(merge)

@@ -82,13 +82,13 @@ static int run(const cli_call *call) {
                       folder != NULL ? folder : "lab-report", command->small);
     }
     if (strcmp(action, "list") != 0)
-        return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);
+        return cli_bad_usage("lab: %s: try 'aureole help lab'", call->command->too_few);
     if (call->operand_count > 1)
         return cli_bad_usage("lab list: takes no names");
     return list(command->common.format);
 }
 
-const cli_verb cli_verb_lab = {
+const cli_command cli_command_lab = {
     .name = "lab",
     .summary = "the papers' experiments, measured",
     .notes =

@@ -137,7 +137,7 @@ aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const a
     if (result == AUR_OK && results == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);
     if (result == AUR_OK)
-        result = aur_daylight_estimate(scene, sensors, aur_weather_look(weather), &given->options,
+        result = aur_daylight_estimate(scene, sensors, aur_weather_get_view(weather), &given->options,
                                        sizeof *results, results, &summary, error);
     cli_progress_clear();
     if (result == AUR_OK)

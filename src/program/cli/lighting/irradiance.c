@@ -208,14 +208,14 @@ static int run(const cli_call *call) {
         result = aur_scene_load(call->operands[0], &load, &scene, &error);
     if (result == AUR_OK)
         result = given->daylight.weather != NULL
-                     ? estimate_year(given, scene, aur_sensors_look(sensors), &error)
-                     : estimate(given, scene, aur_sensors_look(sensors), &error);
+                     ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)
+                     : estimate(given, scene, aur_sensors_get_view(sensors), &error);
     aur_scene_destroy(scene);
     aur_sensors_destroy(sensors);
     return cli_status(result, &error);
 }
 
-const cli_verb cli_verb_irradiance = {
+const cli_command cli_command_irradiance = {
     .name = "irradiance",
     .summary = "how much light arrives at points, now or through a year, with standard errors",
     .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "

@@ -214,7 +214,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_viewfactors = {
+const cli_command cli_command_viewfactors = {
     .name = "viewfactors",
     .summary = "view factors between the facets of a mesh",
     .notes =

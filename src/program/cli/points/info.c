@@ -29,7 +29,7 @@ static int describe_points(const cli_info_input *input, const cli_info_options *
     static const char *const columns[] = {"domain", "points",  "coordinate", "minimum",
                                           "mean",   "maximum", "not_finite"};
     report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
-    const aur_points_view *const view = aur_points_look(points);
+    const aur_points_view *const view = aur_points_get_view(points);
     cli_warn_of_guess(input->path, view, cli_warnings(false));
     const size_t column_count = view->dimension + (view->weights != NULL);
     for (size_t c = 0; c < column_count; ++c) {
@@ -152,7 +152,7 @@ static int run(const cli_call *call) {
     return strcmp(path, "-") == 0 ? describe_stream(call->options) : describe_file(path, call->options);
 }
 
-const cli_verb cli_verb_info = {
+const cli_command cli_command_info = {
     .name = "info",
     .summary = "what is in a scene, a picture, a file of points or a table of weights",
     .notes =

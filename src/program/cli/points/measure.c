@@ -253,7 +253,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_measure = {
+const cli_command cli_command_measure = {
     .name = "measure",
     .summary = "quality figures of points",
     .notes =

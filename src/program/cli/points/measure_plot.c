@@ -9,10 +9,10 @@
 #include "program/report/figure.h"
 
 /* value = factor * N^slope by least squares of the logarithms. */
-typedef struct power_law {
+typedef struct power_model {
     size_t count; /* points that have a logarithm */
     double slope, factor;
-} power_law;
+} power_model;
 
 static double figure_of(const cli_measure_arguments *arguments, const cli_measure_row *row, size_t metric,
                         size_t which) {
@@ -23,8 +23,8 @@ static bool drawable(double value) {
     return isfinite(value) && value > 0.0;
 }
 
-static power_law fit(const cli_measure_arguments *arguments, const cli_measure_rows *rows, const char *source,
-                     size_t metric) {
+static power_model fit(const cli_measure_arguments *arguments, const cli_measure_rows *rows,
+                       const char *source, size_t metric) {
     double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
     size_t count = 0;
     for (size_t r = 0; r < rows->count; ++r) {
@@ -42,9 +42,9 @@ static power_law fit(const cli_measure_arguments *arguments, const cli_measure_r
     const double n = (double)count;
     const double spread = n * xx - x * x;
     if (count < 2 || !(spread > 1e-9))
-        return (power_law){.count = 0};
+        return (power_model){.count = 0};
     const double slope = (n * xy - x * y) / spread;
-    return (power_law){count, slope, exp((y - slope * x) / n)};
+    return (power_model){count, slope, exp((y - slope * x) / n)};
 }
 
 enum { LABEL = 512 };
@@ -84,7 +84,7 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
                                  size_t metric, size_t source, report_series *series, char *label,
                                  report_point *points) {
     const char *const name = arguments->sources[source];
-    const power_law law = fit(arguments, rows, name, metric);
+    const power_model law = fit(arguments, rows, name, metric);
     const bool spread = arguments->seed_count > 0;
     const unsigned ink = REPORT_INK_SERIES + (unsigned)source;
     double least = INFINITY, most = 0.0;
@@ -117,7 +117,7 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
 static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
     for (size_t m = 0; m < arguments->metrics.count; ++m)
         for (size_t s = 0; s < arguments->source_count; ++s) {
-            const power_law law = fit(arguments, rows, arguments->sources[s], m);
+            const power_model law = fit(arguments, rows, arguments->sources[s], m);
             if (law.count > 0)
                 fprintf(stderr, "%s of %s: slope %.4f over %zu sizes\n", cli_metric(arguments, m),
                         arguments->sources[s], law.slope, law.count);

@@ -97,7 +97,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_nearest = {
+const cli_command cli_command_nearest = {
     .name = "nearest",
     .summary = "the points that are nearest to others",
     .notes = "POINTS are a set or a file, QUERIES a file of the same domain: directions, axes (--domain "

@@ -82,7 +82,7 @@ static aur_result load(const char *text, const cli_points *from, size_t count, a
     const aur_domain domain = from->options.domain;
     if (cli_is_file(text)) {
         const aur_result result = aur_points_read(text, from->domain_given ? &domain : NULL, points, error);
-        const size_t held = result == AUR_OK ? aur_points_look(*points)->count : count;
+        const size_t held = result == AUR_OK ? aur_points_get_view(*points)->count : count;
         if (count == 0 || held == count)
             return result;
         aur_points_destroy(*points);
@@ -108,7 +108,7 @@ aur_result cli_load_points(const char *text, const cli_points *from, size_t coun
     const aur_result result = load(text, from, count, points, error);
     if (result != AUR_OK)
         return result;
-    *view = *aur_points_look(*points);
+    *view = *aur_points_get_view(*points);
     cli_warn_of_guess(text, view, from->options.warnings);
     if (cli_is_file(text) && view->weights != NULL && are_equal(view->count, view->weights))
         view->weights = NULL;

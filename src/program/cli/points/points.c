@@ -183,7 +183,7 @@ static int run(const cli_call *call) {
     aur_points *points;
     if (aur_points_generate(set, &wanted->points, &points, &error) != AUR_OK)
         return cli_fail(&error);
-    aur_points_view view = *aur_points_look(points);
+    aur_points_view view = *aur_points_get_view(points);
     double *warped = NULL;
     int status = wanted->warp != NULL ? warp(wanted->warp, &view, &warped) : CLI_SUCCESS;
     if (status == CLI_SUCCESS && wanted->warp == NULL)
@@ -195,7 +195,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_points = {
+const cli_command cli_command_points = {
     .name = "points",
     .summary = "write points of a set on the square, disk, hemisphere or sphere, as axes or as rotations",
     .too_few = "a set is missing: 'aureole sets' lists them",

@@ -57,7 +57,7 @@ static int run(const cli_call *call) {
     return cli_finish_listing(table, format);
 }
 
-const cli_verb cli_verb_sets = {
+const cli_command cli_command_sets = {
     .name = "sets",
     .summary = "list the point sets: keys, domains, sizes, extensible or not, source",
     .notes = "A set is named NAME[:key=value[,key=value...]] or file:PATH.",

@@ -181,7 +181,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_voronoi = {
+const cli_command cli_command_voronoi = {
     .name = "voronoi",
     .summary = "the cells of points: areas and corners",
     .notes =

@@ -252,7 +252,7 @@ static int run(const cli_call *call) {
     return arguments->table != NULL ? cli_weights_table(arguments) : weigh(arguments);
 }
 
-const cli_verb cli_verb_weights = {
+const cli_command cli_command_weights = {
     .name = "weights",
     .summary = "optimal and exact weights of samples, and what they gain",
     .notes =

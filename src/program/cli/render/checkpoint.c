@@ -46,7 +46,7 @@ static void save(cli_checkpoint *checkpoint) {
     aur_error error = {0};
     const aur_result result = checkpoint->render != NULL
                                   ? aur_render_save(checkpoint->render, checkpoint->path, &error)
-                                  : aur_ask_save(checkpoint->ask, checkpoint->path, &error);
+                                  : aur_adaptive_save(checkpoint->adaptive, checkpoint->path, &error);
     checkpoint->last = now();
     if (result == AUR_OK || checkpoint->warned)
         return;
@@ -59,7 +59,7 @@ static void save(cli_checkpoint *checkpoint) {
 
 static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     cli_checkpoint *const checkpoint = user;
-    if ((checkpoint->render != NULL || checkpoint->ask != NULL) &&
+    if ((checkpoint->render != NULL || checkpoint->adaptive != NULL) &&
         now() - checkpoint->last >= checkpoint->every)
         save(checkpoint);
     return checkpoint->progress.function(checkpoint->progress.user, what, done, total);
@@ -71,15 +71,15 @@ aur_progress cli_checkpoint_progress(cli_checkpoint *checkpoint, aur_progress pr
     return checkpoint->path != NULL ? (aur_progress){.function = show, .user = checkpoint} : progress;
 }
 
-aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, aur_ask *ask, bool quiet,
-                                aur_error *error) {
+aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, aur_adaptive *adaptive,
+                                bool quiet, aur_error *error) {
     if (checkpoint->path == NULL)
         return AUR_OK;
     bool exists = access(checkpoint->path, F_OK) == 0;
     aur_ranks_agree(sizeof exists, &exists);
     if (checkpoint->resume && exists) {
         const aur_result result = render != NULL ? aur_render_resume(render, checkpoint->path, error)
-                                                 : aur_ask_resume(ask, checkpoint->path, error);
+                                                 : aur_adaptive_resume(adaptive, checkpoint->path, error);
         if (result != AUR_OK)
             return result;
     } else if (checkpoint->resume && !quiet) {
@@ -87,14 +87,14 @@ aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, 
         fprintf(stderr, "aureole: there is no checkpoint %s yet: the render begins anew\n", checkpoint->path);
     }
     checkpoint->render = render;
-    checkpoint->ask = ask;
+    checkpoint->adaptive = adaptive;
     checkpoint->last = now();
     return AUR_OK;
 }
 
 void cli_checkpoint_end(cli_checkpoint *checkpoint, bool good) {
-    if (good && (checkpoint->render != NULL || checkpoint->ask != NULL))
+    if (good && (checkpoint->render != NULL || checkpoint->adaptive != NULL))
         save(checkpoint);
     checkpoint->render = NULL;
-    checkpoint->ask = NULL;
+    checkpoint->adaptive = NULL;
 }

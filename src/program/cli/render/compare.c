@@ -129,7 +129,7 @@ static int run(const cli_call *call) {
     return status == CLI_SUCCESS && !within ? CLI_DIFFERENCE : status;
 }
 
-const cli_verb cli_verb_compare = {
+const cli_command cli_command_compare = {
     .name = "compare",
     .summary = "RMSE and other figures of the difference between pictures",
     .notes =

@@ -60,7 +60,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_convert = {
+const cli_command cli_command_convert = {
     .name = "convert",
     .summary = "convert a picture between EXR, PFM, HDR and PNG",
     .notes =

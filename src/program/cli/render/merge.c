@@ -35,7 +35,7 @@ static int run(const cli_call *call) {
     return cli_status(result, &error);
 }
 
-const cli_verb cli_verb_merge = {
+const cli_command cli_command_merge = {
     .name = "merge",
     .summary = "put the parts of a picture together",
     .notes = "The parts are files of 'aureole render --shard'; the picture is that of one render, to the "

@@ -18,7 +18,7 @@ typedef struct render_command {
     cli_definitions definitions;
     aur_render_options options;
     const char *reference, *errors;
-    cli_wish wish;
+    cli_target target;
     cli_checkpoint checkpoint;
     cli_watch watch;
     cli_denoise denoise;
@@ -262,22 +262,22 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
     aur_render *work = NULL;
-    aur_ask *ask = NULL;
+    aur_adaptive *adaptive = NULL;
     aur_image *image = NULL;
     aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
     command->scene = scene;
-    if (result == AUR_OK && !cli_is_wish(&command->wish)) /* whose progress is one phase */
+    if (result == AUR_OK && !cli_is_target(&command->target)) /* whose progress is one phase */
         plan(command);
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)
-        result =
-            cli_is_wish(&command->wish)
-                ? cli_render_wish(renderer, &command->options, &command->wish,
-                                  &(cli_surroundings){&command->checkpoint, &command->watch, command->output,
-                                                      command->common.quiet, command->json},
-                                  &ask, &image, &error)
-                : render_samples(renderer, command, errors, &work, &image, &error);
+        result = cli_is_target(&command->target)
+                     ? cli_render_target(renderer, &command->options, &command->target,
+                                         &(cli_surroundings){&command->checkpoint, &command->watch,
+                                                             command->output, command->common.quiet,
+                                                             command->json},
+                                         &adaptive, &image, &error)
+                     : render_samples(renderer, command, errors, &work, &image, &error);
     if (result == AUR_OK)
         result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
     cli_progress_clear();
@@ -290,14 +290,15 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         result = cli_denoise_keep(&command->denoise, command->output, image, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
-    if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
+    if (result == AUR_OK && !command->common.quiet &&
+        !cli_is_target(&command->target)) /* which says it itself */
         say_end(command, image);
     if (result == AUR_OK && !command->common.quiet && image != NULL)
         cli_explain_black(scene, image);
     cli_watch_end(&command->watch, image, result, &error);
     cli_denoise_end(&command->denoise);
     aur_image_destroy(image);
-    aur_ask_destroy(ask);
+    aur_adaptive_destroy(adaptive);
     aur_render_destroy(work);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
@@ -310,7 +311,7 @@ static const char *conflict(const cli_call *call, const render_command *command)
         return "render: '--reference' and '--errors' must be given together";
     if (command->reference != NULL && command->checkpoint.path != NULL)
         return "render: '--checkpoint' does not go with '--errors', whose table would begin anew";
-    if (command->options.shard_count > 0 && (cli_is_wish(&command->wish) || command->reference != NULL))
+    if (command->options.shard_count > 0 && (cli_is_target(&command->target) || command->reference != NULL))
         return "render: '--shard' does not go with '--error', '--time', '--rays', '--rounds' or '--errors', "
                "which "
                "look at the whole picture";
@@ -321,11 +322,11 @@ static const char *conflict(const cli_call *call, const render_command *command)
     const char *const checkpoint = cli_checkpoint_conflict(call);
     if (checkpoint != NULL)
         return checkpoint;
-    if (command->wish.bias > 0.0 && !cli_is_wish(&command->wish))
+    if (command->target.bias > 0.0 && !cli_is_target(&command->target))
         return "render: '--bias' goes with '--error', '--time', '--rays' or '--rounds'";
-    if (!cli_is_wish(&command->wish))
-        return command->wish.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
-                                       : NULL;
+    if (!cli_is_target(&command->target))
+        return command->target.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
+                                         : NULL;
     if (command->reference != NULL)
         return "render: '--errors' does not go with '--error', '--time', '--rays' or '--rounds'";
     if (cli_given(call, "spp") != NULL)
@@ -343,7 +344,7 @@ static int run(const cli_call *call) {
     if (wrong != NULL)
         return cli_bad_usage("%s", wrong);
     if (command->denoise.wanted) /* which may change no pixel by much more than its error */
-        command->wish.error_map = true;
+        command->target.error_map = true;
     default_output(scene, &command->options, sizeof output, output);
     if (command->output == NULL) {
         aur_error error;
@@ -367,7 +368,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_render = {
+const cli_command cli_command_render = {
     .name = "render",
     .summary = "render a picture of a scene",
     .too_few = "a scene is missing",
@@ -375,7 +376,7 @@ const cli_verb cli_verb_render = {
     .operands = {{"SCENE", "the scene's file: Mitsuba's XML, .rad, or a model such as .glb",
                   .content = "file"}},
     .groups = {{options, 0},
-               {cli_wish_options, offsetof(render_command, wish)},
+               {cli_target_options, offsetof(render_command, target)},
                {cli_checkpoint_options, offsetof(render_command, checkpoint)},
                {cli_watch_options, offsetof(render_command, watch)},
                {cli_denoise_options, offsetof(render_command, denoise)},

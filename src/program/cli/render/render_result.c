@@ -21,7 +21,7 @@ static void print_ranks(void) {
         fprintf(stderr,
                 "aureole: rank %zu on %s: %.2f CPU s, %.3f of them talk, %" PRIu64 " bytes sent, %" PRIu64
                 " received\n",
-                r, ranks[r].host, ranks[r].cpu_seconds, ranks[r].talk_seconds, ranks[r].sent,
+                r, ranks[r].host, ranks[r].cpu_seconds, ranks[r].message_seconds, ranks[r].sent,
                 ranks[r].received);
     free(ranks);
 }

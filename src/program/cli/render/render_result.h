@@ -1,7 +1,7 @@
 /* What is said of a render when it ends, and where its files go. */
 #pragma once
 
-#include <aureole-render/ask.h>
+#include <aureole-render/adaptive.h>
 #include <aureole-render/render.h>
 
 #include "program/cli/options.h"
@@ -49,7 +49,7 @@ typedef struct cli_checkpoint {
     bool resume;
     /* One of these from the time on when there is something to keep. */
     const aur_render *render;
-    const aur_ask *ask;
+    const aur_adaptive *adaptive;
     aur_progress progress; /* what is shown meanwhile */
     double last;           /* when the last one was written, or tried */
     bool writes;           /* this is the process that does */
@@ -67,8 +67,8 @@ aur_progress cli_checkpoint_progress(cli_checkpoint *checkpoint, aur_progress pr
 
 /* Takes up what there is: nothing, said so unless `quiet`, where there is no checkpoint yet. From now on
  * checkpoints are written. One of `render` and `ask` is NULL. */
-aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, aur_ask *ask, bool quiet,
-                                aur_error *error);
+aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, aur_adaptive *adaptive,
+                                bool quiet, aur_error *error);
 /* Writes the last one where the samples are `good`: to be called when the image is already in its file, and
  * before the render is destroyed. */
 void cli_checkpoint_end(cli_checkpoint *checkpoint, bool good);
@@ -97,7 +97,7 @@ aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *erro
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress);
 
 /* From now on there is a picture to see, until cli_watch_hide; one of `render` and `ask` is NULL. */
-void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_ask *ask);
+void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adaptive *adaptive);
 void cli_watch_hide(cli_watch *watch);
 /* Renders so many samples more, or for 0 all that remain, and tells what they make of the picture. */
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error);
@@ -108,15 +108,15 @@ void cli_watch_end(cli_watch *watch, const aur_image *image, aur_result result, 
 /* `aureole render` to an error, for a time, or for a number of rays. */
 
 /* What was asked for; all zero: nothing, and the scene is rendered as it says. */
-typedef struct cli_wish {
+typedef struct cli_target {
     double error, bias, seconds;
     uint64_t rays, rounds;
     bool error_map;
-} cli_wish;
+} cli_target;
 
-extern const cli_option cli_wish_options[]; /* cli_wish */
+extern const cli_option cli_target_options[]; /* cli_target */
 
-bool cli_is_wish(const cli_wish *wish);
+bool cli_is_target(const cli_target *target);
 
 /* What goes on beside. */
 typedef struct cli_surroundings {
@@ -129,9 +129,9 @@ typedef struct cli_surroundings {
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
  * NULL; *made is to be destroyed in every case. The last line, unless `quiet`, says how good it is; where
  * `json` is asked for, standard output does so for programs. */
-aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           const cli_surroundings *beside, aur_ask **made, aur_image **image,
-                           aur_error *error);
+aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *options,
+                             const cli_target *target, const cli_surroundings *beside, aur_adaptive **made,
+                             aur_image **image, aur_error *error);
 
 /* The error of a picture against a reference while it is rendered. */
 

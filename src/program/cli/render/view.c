@@ -78,7 +78,7 @@ static int run(const cli_call *call) {
     return status;
 }
 
-const cli_verb cli_verb_view = {
+const cli_command cli_command_view = {
     .name = "view",
     .summary = "pictures in a page to look at: flip, slider, differences, values",
     .notes = "The page needs nothing beside it and no network; what it shows are the values of the pictures "

@@ -57,12 +57,12 @@ static aur_result develop_render(const void *user, aur_image **image, aur_error 
 }
 
 static aur_result develop_ask(const void *user, aur_image **image, aur_error *error) {
-    return aur_ask_develop(user, true, image, error);
+    return aur_adaptive_develop(user, true, image, error);
 }
 
 static void describe_ask(const void *user, size_t capacity, char *text) {
-    aur_ask_report report = {.size = sizeof report};
-    if (aur_ask_get_report(user, &report, NULL) == AUR_OK && isfinite(report.error_high))
+    aur_adaptive_report report = {.size = sizeof report};
+    if (aur_adaptive_get_report(user, &report, NULL) == AUR_OK && isfinite(report.error_high))
         aur_format(
             text, capacity,
             "after %.4g samples a pixel the error was %.3g %% of the mean, between %.3g and %.3g (95 %%)",
@@ -70,10 +70,10 @@ static void describe_ask(const void *user, size_t capacity, char *text) {
             100.0 * report.error_high);
 }
 
-void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_ask *ask) {
+void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adaptive *adaptive) {
     if (watch->watch == NULL)
         return;
-    const watch_source source = {.user = render != NULL ? (const void *)render : ask,
+    const watch_source source = {.user = render != NULL ? (const void *)render : adaptive,
                                  .develop = render != NULL ? develop_render : develop_ask,
                                  .describe = render != NULL ? NULL : describe_ask};
     watch_set_source(watch->watch, &source);

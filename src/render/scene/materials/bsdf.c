@@ -25,7 +25,7 @@ size_t aur_bsdf_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
 typedef struct weighed_lobes {
     size_t count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    float chances[AUR_BSDF_LOBE_CAPACITY], total; /* not normalised, and their sum */
+    float probabilities[AUR_BSDF_LOBE_CAPACITY], total; /* not normalised, and their sum */
 } weighed_lobes;
 
 static void weigh_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, weighed_lobes *all) {
@@ -36,8 +36,8 @@ static void weigh_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector v
         float mass = lobe->ior_squared > 0.0f ? lobe->ior_squared : 1.0f;
         if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER)
             mass = 2.0f * AUR_PI_F / (lobe->exponent + (lobe->times_cosine ? 2.0f : 1.0f));
-        all->chances[i] = mass * aur_luminance(lobe->coefficient);
-        all->total += all->chances[i];
+        all->probabilities[i] = mass * aur_luminance(lobe->coefficient);
+        all->total += all->probabilities[i];
     }
 }
 
@@ -53,9 +53,9 @@ static aur_vector value_of(const weighed_lobes *all, aur_vector light, float *pd
             continue;
         const float power = lobe->exponent == 1.0f ? cosine : powf(cosine, lobe->exponent);
         sum = aur_vector_add(sum, aur_lobe_value_of_power(lobe, power, light));
-        if (all->chances[i] > 0.0f)
+        if (all->probabilities[i] > 0.0f)
             density +=
-                all->chances[i] *
+                all->probabilities[i] *
                 (lobe->diffuse ? power / AUR_PI_F : (lobe->exponent + 1.0f) / (2.0f * AUR_PI_F) * power);
     }
     *pdf = all->total > 0.0f ? density / all->total : 0.0f;
@@ -80,9 +80,9 @@ static aur_vector evaluate_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur
 static size_t choose_lobe(const weighed_lobes *all, float u) {
     float rest = u * all->total;
     for (size_t i = all->count; i-- > 1;) {
-        if (rest < all->chances[i])
+        if (rest < all->probabilities[i])
             return i;
-        rest -= all->chances[i];
+        rest -= all->probabilities[i];
     }
     return 0;
 }
@@ -96,12 +96,12 @@ static bool draw_lobe(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     const size_t chosen = choose_lobe(&all, u[0]);
     const aur_bsdf_lobe *const lobe = &all.lobes[chosen];
     if (lobe->shape == AUR_LOBE_SHAPE_SPECULAR) {
-        *drawn =
-            (aur_bsdf_sample){.light = lobe->axis,
-                              .weight = aur_vector_scale(lobe->coefficient, all.total / all.chances[chosen]),
-                              .specular = true,
-                              .ior_squared = lobe->ior_squared};
-        return all.chances[chosen] > 0.0f;
+        *drawn = (aur_bsdf_sample){
+            .light = lobe->axis,
+            .weight = aur_vector_scale(lobe->coefficient, all.total / all.probabilities[chosen]),
+            .specular = true,
+            .ior_squared = lobe->ior_squared};
+        return all.probabilities[chosen] > 0.0f;
     }
     const aur_frame frame = aur_frame_about(lobe->axis);
     const aur_vector light =
@@ -152,7 +152,7 @@ aur_vector aur_bsdf_passed(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vecto
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     const size_t count = aur_bsdf_lobes(bsdf, point, view, lobes);
     for (size_t i = 0; i < count; ++i)
-        if (lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR && lobes[i].way == AUR_LOBE_WAY_STRAIGHT)
+        if (lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR && lobes[i].way == AUR_LOBE_WAY_UNSCATTERED)
             sum = aur_vector_add(sum, lobes[i].coefficient);
     return sum;
 }

@@ -59,7 +59,11 @@ typedef enum aur_lobe_shape {
 
 /* Where light of a specular lobe comes from: lobes that mirror, or let light straight through, are alike in
  * all materials. */
-typedef enum aur_lobe_way { AUR_LOBE_WAY_OWN, AUR_LOBE_WAY_MIRROR, AUR_LOBE_WAY_STRAIGHT } aur_lobe_way;
+typedef enum aur_lobe_way {
+    AUR_LOBE_WAY_SEPARATE,
+    AUR_LOBE_WAY_MIRROR,
+    AUR_LOBE_WAY_UNSCATTERED
+} aur_lobe_way;
 
 /* The sides of a surface that something is seen from. */
 enum { AUR_SIDE_FRONT = 1, AUR_SIDE_BACK = 2, AUR_SIDES_BOTH = 3 };

@@ -29,11 +29,11 @@ static aur_result add_lobes(aur_parameters *parameters, aur_lobe_way through, au
 }
 
 static aur_result create_boundary(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    return add_lobes(parameters, AUR_LOBE_WAY_OWN, bsdf, error);
+    return add_lobes(parameters, AUR_LOBE_WAY_SEPARATE, bsdf, error);
 }
 
 static aur_result create_pane(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    return add_lobes(parameters, AUR_LOBE_WAY_STRAIGHT, bsdf, error);
+    return add_lobes(parameters, AUR_LOBE_WAY_UNSCATTERED, bsdf, error);
 }
 
 /* `through` is where the light comes from that is not mirrored, and `ratio` the index of the view's side over

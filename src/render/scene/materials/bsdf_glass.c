@@ -17,7 +17,7 @@ static const aur_key keys[] = {
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     glass *const self = bsdf->data;
     aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR,
-                          .way = AUR_LOBE_WAY_STRAIGHT,
+                          .way = AUR_LOBE_WAY_UNSCATTERED,
                           .sides = AUR_SIDES_BOTH,
                           .transmits = true};
     aur_bsdf_add_lobe(bsdf, &lobe);
@@ -49,8 +49,8 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
     const float inside = sqrtf(squared);
     const float across = (cosine - n * inside) / (cosine + n * inside);
     const float along = (n * cosine - inside) / (n * cosine + inside);
-    const aur_vector straight = aur_color_at(&self->transmissivity, point);
-    const float channels[3] = {straight.x, straight.y, straight.z};
+    const aur_vector unscattered = aur_color_at(&self->transmissivity, point);
+    const float channels[3] = {unscattered.x, unscattered.y, unscattered.z};
     float through[3] = {0}, mirrored[3] = {0};
     for (size_t c = 0; c < 3; ++c) {
         const float left = powf(channels[c], 1.0f / inside);

@@ -14,7 +14,7 @@ typedef struct mixture {
 /* --- lobes: those of the parts that differ in nothing but coefficient and side become one */
 
 static bool are_alike(const aur_bsdf_lobe *a, const aur_bsdf_lobe *b) {
-    if (a->shape == AUR_LOBE_SHAPE_SPECULAR && a->way == AUR_LOBE_WAY_OWN)
+    if (a->shape == AUR_LOBE_SHAPE_SPECULAR && a->way == AUR_LOBE_WAY_SEPARATE)
         return false;
     return a->shape == b->shape && a->way == b->way && a->diffuse == b->diffuse &&
            a->times_cosine == b->times_cosine && a->exponent == b->exponent && a->factor == b->factor &&
@@ -148,12 +148,12 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
         return false;
     const float first = weights[0] / total;
     const size_t k = u[0] < first ? 0 : 1;
-    const float chance = weights[k] / total;
-    const float rest = (k == 0 ? u[0] : u[0] - first) / chance;
+    const float probability = weights[k] / total;
+    const float rest = (k == 0 ? u[0] : u[0] - first) / probability;
     const float own[3] = {fminf(rest, 0x1.fffffep-1f), u[1], u[2]};
     if (!aur_bsdf_draw(self->part[k], part, point, view, own, drawn))
         return false;
-    drawn->pdf *= chance;
+    drawn->pdf *= probability;
     drawn->weight = aur_vector_scale(drawn->weight, total);
     if (drawn->specular || !(weights[1 - k] > 0.0f) ||
         !has_any(self->part[1 - k], ~(unsigned)AUR_SCATTERS_SPECULAR))

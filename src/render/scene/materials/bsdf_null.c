@@ -45,7 +45,7 @@ const aur_bsdf_descriptor aur_bsdf_null = {
 const aur_bsdf aur_bsdf_nothing = {.descriptor = &aur_bsdf_null,
                                    .lobe_count = 1,
                                    .lobes = {{.shape = AUR_LOBE_SHAPE_SPECULAR,
-                                              .way = AUR_LOBE_WAY_STRAIGHT,
+                                              .way = AUR_LOBE_WAY_UNSCATTERED,
                                               .sides = AUR_SIDES_BOTH,
                                               .transmits = true}},
                                    .scatters = {AUR_SCATTERS_SPECULAR, AUR_SCATTERS_SPECULAR},

@@ -174,8 +174,8 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
                                facets * aur_fresnel_dielectric(cosine, self->ior, &refracted));
     if (part == AUR_BSDF_SAMPLED_LOBES)
         return sum;
-    const float through = transmittance(self, view.z), chance = specular_probability(self, through);
-    *pdf = chance * *pdf + (1.0f - chance) * light.z / AUR_PI_F;
+    const float through = transmittance(self, view.z), probability = specular_probability(self, through);
+    *pdf = probability * *pdf + (1.0f - probability) * light.z / AUR_PI_F;
     const float base = through * transmittance(self, light.z) * light.z / AUR_PI_F;
     return aur_vector_add_scaled(sum, base, base_color(self, point));
 }
@@ -186,18 +186,19 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     if (view.z <= 0.0f)
         return false;
     const float through = transmittance(self, view.z);
-    const float chance = part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, through);
-    if (!self->rough && u[0] < chance) {
+    const float probability = part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, through);
+    if (!self->rough && u[0] < probability) {
         *drawn = (aur_bsdf_sample){
             .light = aur_mirror(view),
-            .weight = aur_vector_scale(aur_color_at(&self->specular, point), (1.0f - through) / chance),
+            .weight = aur_vector_scale(aur_color_at(&self->specular, point), (1.0f - through) / probability),
             .specular = true};
         return true;
     }
     const aur_microfacet facets = aur_roughness_at(&self->microfacet, point);
     aur_vector normal;
-    const aur_vector light = u[0] < chance ? aur_microfacet_draw_mirrored(&facets, view, u[1], u[2], &normal)
-                                           : aur_sample_cosine(u[1], u[2]);
+    const aur_vector light = u[0] < probability
+                                 ? aur_microfacet_draw_mirrored(&facets, view, u[1], u[2], &normal)
+                                 : aur_sample_cosine(u[1], u[2]);
     float density;
     const aur_vector value = evaluate(bsdf, part, point, view, light, &density);
     *drawn =

@@ -57,10 +57,10 @@ typedef struct place {
     float base, glass; /* what is no metal: its opaque part, and the rest */
     float coat, coat_alpha;
     bool front;
-    float diffuse_chance, coat_chance; /* that they are drawn; the facets have the rest */
+    float diffuse_probability, coat_probability; /* that they are drawn; the facets have the rest */
 } place;
 
-static float chance_of_facets(const place *at, float cosine);
+static float probability_of_facets(const place *at, float cosine);
 
 static place place_of(const principled *self, aur_bsdf_part part, aur_bsdf_point point, aur_vector view) {
     place at = {.burley = aur_burley_at(&self->burley, point),
@@ -75,10 +75,10 @@ static place place_of(const principled *self, aur_bsdf_part part, aur_bsdf_point
     if (!at.front)
         return at;
     const float diffuse = part == AUR_BSDF_WHOLE ? at.base * aur_luminance(at.burley.base) : 0.0f;
-    const float rest = aur_burley_rest_chance(&at.burley, at.base, 1.0f - at.metallic, view.z);
-    const float facets = chance_of_facets(&at, view.z), total = diffuse + rest + facets + at.coat;
-    at.diffuse_chance = (diffuse + rest) / total;
-    at.coat_chance = at.coat / total;
+    const float rest = aur_burley_rest_probability(&at.burley, at.base, 1.0f - at.metallic, view.z);
+    const float facets = probability_of_facets(&at, view.z), total = diffuse + rest + facets + at.coat;
+    at.diffuse_probability = (diffuse + rest) / total;
+    at.coat_probability = at.coat / total;
     return at;
 }
 
@@ -98,14 +98,14 @@ static aur_vector reflectance(const place *at, float cosine, float dielectric) {
 }
 
 /* About their share of light from everywhere; some even where they are black straight on. */
-static float chance_of_facets(const place *at, float cosine) {
+static float probability_of_facets(const place *at, float cosine) {
     float refracted;
     const float dielectric = aur_fresnel_dielectric(cosine, at->eta, &refracted);
     return 0.05f + aur_luminance(reflectance(at, cosine, dielectric)) + at->glass * (1.0f - dielectric);
 }
 
 /* How often a facet that is drawn mirrors; else it lets light through. */
-static float chance_of_mirror(const place *at, float dielectric) {
+static float probability_of_mirror(const place *at, float dielectric) {
     return at->front ? 1.0f - at->glass * (1.0f - dielectric) : dielectric;
 }
 
@@ -146,20 +146,20 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
     const bool mirrored = view.z * light.z > 0.0f;
     if (((!at.front || !mirrored) && !(at.glass > 0.0f)) || !aur_facet_find(at.eta, view, light, &facet))
         return (aur_vector){0};
-    const float mirror = chance_of_mirror(&at, facet.mirrored);
+    const float mirror = probability_of_mirror(&at, facet.mirrored);
     const float through = at.glass * (1.0f - facet.mirrored) / (facet.ratio * facet.ratio);
     const aur_vector base = at.burley.base;
     aur_vector sum = aur_vector_scale(
         mirrored ? reflectance(&at, facet.view, facet.mirrored)
                  : aur_vector_scale((aur_vector){sqrtf(base.x), sqrtf(base.y), sqrtf(base.z)}, through),
         aur_facet_value(&at.facets, view, light, &facet));
-    *pdf = (1.0f - at.diffuse_chance - at.coat_chance) * (mirrored ? mirror : 1.0f - mirror) *
+    *pdf = (1.0f - at.diffuse_probability - at.coat_probability) * (mirrored ? mirror : 1.0f - mirror) *
            aur_facet_pdf(&at.facets, view, &facet);
     if (!at.front || !mirrored)
         return sum;
     if (at.coat > 0.0f)
-        *pdf += at.coat_chance * add_coat(&at, &facet, view, light, &sum);
-    *pdf += at.diffuse_chance * light.z / AUR_PI_F;
+        *pdf += at.coat_probability * add_coat(&at, &facet, view, light, &sum);
+    *pdf += at.diffuse_probability * light.z / AUR_PI_F;
     sum = aur_vector_add(sum, aur_burley_rest(&at.burley, at.base, 1.0f - at.metallic, view, light));
     if (part == AUR_BSDF_SAMPLED_LOBES)
         return sum;
@@ -170,20 +170,20 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
 
 /* False: no direction. */
 static bool draw_direction(const place *at, aur_vector view, const float u[3], aur_vector *light) {
-    if (u[0] < at->diffuse_chance) {
+    if (u[0] < at->diffuse_probability) {
         *light = aur_sample_cosine(u[1], u[2]);
         return true;
     }
-    float rest = u[0] - at->diffuse_chance;
-    if (rest < at->coat_chance) {
+    float rest = u[0] - at->diffuse_probability;
+    if (rest < at->coat_probability) {
         const aur_vector normal = draw_coat_normal(at->coat_alpha, u[1], u[2]);
         *light = aur_facet_ways_of(at->eta, view, normal).mirrored;
         return light->z > 0.0f && aur_vector_dot(view, normal) > 0.0f;
     }
-    rest = (rest - at->coat_chance) / (1.0f - at->diffuse_chance - at->coat_chance);
+    rest = (rest - at->coat_probability) / (1.0f - at->diffuse_probability - at->coat_probability);
     const aur_vector normal = aur_microfacet_sample(&at->facets, aur_upright(view), u[1], u[2]);
     const aur_facet_ways ways = aur_facet_ways_of(at->eta, view, normal);
-    const bool mirrored = rest < chance_of_mirror(at, ways.reflectance);
+    const bool mirrored = rest < probability_of_mirror(at, ways.reflectance);
     *light = aur_vector_normalize(mirrored ? ways.mirrored : ways.refracted);
     return (light->z * view.z > 0.0f) == mirrored;
 }

@@ -42,7 +42,7 @@ typedef struct place {
     aur_microfacet mirror,
         through; /* what goes through is blurred less, by the index (Burley 2015, fig. 15) */
     float eta, glossy, diffuse, diffuse_through; /* shares of light */
-    float mirror_chance, through_chance, diffuse_chance, diffuse_through_chance;
+    float mirror_probability, through_probability, diffuse_probability, diffuse_through_probability;
 } place;
 
 static place place_of(const thin *self, aur_bsdf_part part, aur_bsdf_point point, aur_vector view) {
@@ -56,16 +56,17 @@ static place place_of(const thin *self, aur_bsdf_part part, aur_bsdf_point point
     at.mirror = aur_burley_facets(&at.burley, at.burley.roughness);
     at.through = aur_burley_facets(&at.burley, (0.65f * at.eta - 0.35f) * at.burley.roughness);
     const float color = aur_luminance(at.burley.base);
-    at.mirror_chance = at.through_chance = 0.5f * at.glossy;
-    at.diffuse_chance = aur_burley_rest_chance(&at.burley, at.diffuse, at.diffuse, fabsf(view.z)) +
-                        (part == AUR_BSDF_WHOLE ? at.diffuse * color : 0.0f);
-    at.diffuse_through_chance = at.diffuse_through * color;
-    const float total = at.mirror_chance + at.through_chance + at.diffuse_chance + at.diffuse_through_chance;
+    at.mirror_probability = at.through_probability = 0.5f * at.glossy;
+    at.diffuse_probability = aur_burley_rest_probability(&at.burley, at.diffuse, at.diffuse, fabsf(view.z)) +
+                             (part == AUR_BSDF_WHOLE ? at.diffuse * color : 0.0f);
+    at.diffuse_through_probability = at.diffuse_through * color;
+    const float total = at.mirror_probability + at.through_probability + at.diffuse_probability +
+                        at.diffuse_through_probability;
     const float scale = total > 0.0f ? 1.0f / total : 0.0f;
-    at.mirror_chance *= scale;
-    at.through_chance *= scale;
-    at.diffuse_chance *= scale;
-    at.diffuse_through_chance *= scale;
+    at.mirror_probability *= scale;
+    at.through_probability *= scale;
+    at.diffuse_probability *= scale;
+    at.diffuse_through_probability *= scale;
     return at;
 }
 
@@ -94,7 +95,7 @@ static aur_vector facets(const place *at, aur_vector view, aur_vector light, flo
     if (!(at->glossy > 0.0f) || !(masking > 0.0f) || !(cosine > 0.0f))
         return (aur_vector){0};
     const float jacobian = 1.0f / (4.0f * cosine);
-    *pdf = (mirrored ? at->mirror_chance : at->through_chance) *
+    *pdf = (mirrored ? at->mirror_probability : at->through_probability) *
            aur_microfacet_pdf(microfacet, view, normal) * jacobian;
     float refracted;
     const float dielectric = aur_fresnel_dielectric(cosine, at->eta, &refracted);
@@ -119,10 +120,10 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
     const aur_vector base = at.burley.base;
     aur_vector sum = facets(&at, view, light, pdf);
     if (light.z < 0.0f) {
-        *pdf -= at.diffuse_through_chance * light.z / AUR_PI_F;
+        *pdf -= at.diffuse_through_probability * light.z / AUR_PI_F;
         return aur_vector_add_scaled(sum, -at.diffuse_through * light.z / AUR_PI_F, base);
     }
-    *pdf += at.diffuse_chance * light.z / AUR_PI_F;
+    *pdf += at.diffuse_probability * light.z / AUR_PI_F;
     sum = aur_vector_add(sum, aur_burley_rest(&at.burley, at.diffuse, at.diffuse, view, light));
     if (part == AUR_BSDF_SAMPLED_LOBES)
         return sum;
@@ -138,8 +139,9 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const float side = view.z < 0.0f ? -1.0f : 1.0f;
     view = aur_vector_scale(view, side);
     const place at = place_of(bsdf->data, part, point, view);
-    const float diffuse = at.diffuse_chance + at.diffuse_through_chance;
-    const bool through = u[0] >= at.diffuse_chance && !(u[0] >= diffuse && u[0] < diffuse + at.mirror_chance);
+    const float diffuse = at.diffuse_probability + at.diffuse_through_probability;
+    const bool through =
+        u[0] >= at.diffuse_probability && !(u[0] >= diffuse && u[0] < diffuse + at.mirror_probability);
     aur_vector light, normal;
     if (u[0] < diffuse)
         light = aur_sample_cosine(u[1], u[2]);

@@ -96,7 +96,7 @@ static void summarise(aur_bsdf *bsdf) {
             bsdf->scatters[side] |= (lobe->sides >> side & 1u) != 0 ? kind_of(lobe) : 0;
         bsdf->transmits = bsdf->transmits || lobe->transmits;
         bsdf->passes =
-            bsdf->passes || (lobe->shape == AUR_LOBE_SHAPE_SPECULAR && lobe->way == AUR_LOBE_WAY_STRAIGHT);
+            bsdf->passes || (lobe->shape == AUR_LOBE_SHAPE_SPECULAR && lobe->way == AUR_LOBE_WAY_UNSCATTERED);
         bsdf->plain_diffuse = bsdf->plain_diffuse && lobe->diffuse && lobe->factor == NULL;
     }
     bsdf->scatters_from_behind = bsdf->scatters[1] != 0;

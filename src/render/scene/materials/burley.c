@@ -76,7 +76,7 @@ aur_vector aur_burley_rest(const aur_burley_point *at, float weight, float sheen
     return aur_vector_scale(sum, light.z);
 }
 
-float aur_burley_rest_chance(const aur_burley_point *at, float weight, float sheen, float view_cosine) {
+float aur_burley_rest_probability(const aur_burley_point *at, float weight, float sheen, float view_cosine) {
     const float edge = 0.1f + aur_schlick_weight(view_cosine);
     return weight * aur_luminance(at->base) *
                (at->flatness + (1.0f - at->flatness) * 2.0f * at->roughness * edge) +

@@ -66,4 +66,4 @@ aur_bsdf_lobe aur_burley_lobe(unsigned sides);
 aur_vector aur_burley_rest(const aur_burley_point *at, float weight, float sheen, aur_vector view,
                            aur_vector light);
 /* About its share of light from everywhere, for drawing it in proportion. */
-float aur_burley_rest_chance(const aur_burley_point *at, float weight, float sheen, float view_cosine);
+float aur_burley_rest_probability(const aur_burley_point *at, float weight, float sheen, float view_cosine);

@@ -94,11 +94,12 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     const aur_vector around = aur_vector_cross(along, away), slope = middle.slope, bend = middle.bend;
     const float squared = aur_vector_dot(slope, slope), flat = slope.x * slope.x + slope.y * slope.y;
     const float turn = upright ? 0.0f : along.z * (slope.x * bend.y - slope.y * bend.x) / flat;
-    aur_vector onward = aur_vector_add_scaled(slope, middle.growth, away);
-    onward = aur_vector_add_scaled(onward, -middle.radius * aur_vector_dot(away, bend) / squared, slope);
-    onward = aur_vector_add_scaled(onward, middle.radius * turn, around);
+    aur_vector continuation = aur_vector_add_scaled(slope, middle.growth, away);
+    continuation =
+        aur_vector_add_scaled(continuation, -middle.radius * aur_vector_dot(away, bend) / squared, slope);
+    continuation = aur_vector_add_scaled(continuation, middle.radius * turn, around);
     tangents[0] = aur_vector_scale(around, 2.0f * AUR_PI_F * middle.radius);
-    tangents[1] = aur_vector_scale(onward, (float)curves->segment_count);
+    tangents[1] = aur_vector_scale(continuation, (float)curves->segment_count);
 }
 
 static void equal_area(const aur_hit *hit, float coordinates[2]) {

@@ -1,0 +1,13 @@
+/* The first part of the bench `ask`, alone. */
+#include "adaptive_speed.h"
+
+static bool run(const bench_options *options) {
+    bench_figures figures = {0};
+    const bool good = bench_adaptive_speed(options, &figures);
+    if (good)
+        bench_figures_print(&figures);
+    return good;
+}
+
+const bench bench_adaptive_speed_alone = {"ask-speed",
+                                          "what pictures to an error cost, beside other renderers", run};

@@ -1,0 +1,104 @@
+/* Rendering until a picture is good enough: to an error, for a time, for a number of rays. Several
+ * independent renderings of the scene with different random numbers are made side by side; their mean is the
+ * picture, and their differences say how far it is from the truth. More samples go to the parts of the
+ * picture that need them. The picture is a function of scene, options and seed, on any number of threads. */
+#ifndef AUREOLE_ADAPTIVE_H
+#define AUREOLE_ADAPTIVE_H
+
+#include <aureole-render/render.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* `size` is the caller's. Rendering ends after the first round of samples that meets one of the wishes that
+ * are not zero; with none, after the round that brings the error below one per cent. */
+typedef struct aur_adaptive_options {
+    size_t size;
+    /* The root mean square error over all pixels and the channels R, G, B, divided by their mean; the upper
+     * end of its interval is to be below. In (0, 1]. */
+    double error;
+    double
+        seconds; /* by the clock, preparation included: the only wish whose picture depends on the machine */
+    uint64_t rays;
+    uint64_t rounds;
+    /* What the named integrator may be wrong by in the mean, relative as `error` and below it where that is
+     * not zero: the noise is to leave room for it, and it is part of what is said. 0 where an integrator is
+     * chosen, for its bias is then measured. */
+    double bias;
+    double confidence; /* of the interval, in [.5, .9999]; 0: .95 */
+    size_t replicas;   /* independent renderings, 3 to 16; 0: 4 */
+} aur_adaptive_options;
+
+AUR_EXPERIMENTAL aur_result aur_adaptive_options_init(aur_adaptive_options *options, aur_error *error)
+    AUR_NONNULL(1);
+
+typedef struct aur_adaptive aur_adaptive;
+
+/* `render` as for aur_render_create: its `samples_per_pixel` is without meaning, its `sampler` NULL stands
+ * for Owen-scrambled Sobol points, and `integrator` NULL for the scene's own where that is one that looks at
+ * a scene in its own way (`ao`, `direct`, `radiosity`, `depth`, `aov`), else for `path` or `finalgather` with
+ * the scene's max_depth, whichever is found to need less for an error, a time or a number of rays. Both
+ * options may be NULL. The renderer must outlive the asking. Errors: those of aur_render_create, ARGUMENT for
+ * a wish out of range. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_create(aur_renderer *renderer, const aur_render_options *render,
+                                                const aur_adaptive_options *options, aur_adaptive **adaptive,
+                                                aur_error *error) AUR_NONNULL(1, 4);
+AUR_EXPERIMENTAL void aur_adaptive_destroy(aur_adaptive *adaptive); /* NULL is allowed */
+
+/* Renders rounds until the wish is met. Errors: CANCELLED by aur_adaptive_cancel or the progress callback:
+ * the picture keeps the samples of tiles that were finished, the report is that of the last whole round, and
+ * another call goes on to the same picture as if nothing had been; MEMORY and others, after which the asking
+ * can only be destroyed. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) AUR_NONNULL(1);
+/* Stops aur_adaptive_run in another thread; may be called from a signal handler. */
+AUR_EXPERIMENTAL void aur_adaptive_cancel(aur_adaptive *adaptive) AUR_NONNULL(1);
+
+/* As aur_render_save and aur_render_resume, for an asking whose render options say `resumable`: the rounds go
+ * on as if nothing had been. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path,
+                                              aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+
+/* `size` is set by the caller to the size of his struct. */
+typedef struct aur_adaptive_report {
+    size_t size;
+    /* Relative to `mean`: of the picture as it is, not of its like with other seeds. Infinite before the
+     * first round, and for a picture that is black. */
+    double error, error_low, error_high;
+    double mean; /* over all pixels and channels R, G, B */
+    /* Independent values that the error consists of: about one a pixel and channel for noise, few where all
+     * pixels share an error, such as a photon map's. */
+    double degrees;
+    uint64_t rounds;
+    double samples_per_pixel; /* mean over the picture, of all replicas and finished rounds: the error's */
+    size_t replicas;
+    aur_render_statistics
+        statistics; /* of all replicas together, and of what was tried; its size is set here */
+    /* Of the rays, those of trials that are not in the picture, and of what only these needed. Also where
+     * that was there already: in the renderer, or in a file of the cache. */
+    uint64_t candidate_rays;
+    double
+        bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
+} aur_adaptive_report;
+
+/* Errors: ARGUMENT when `size` is not set. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *report,
+                                                    aur_error *error) AUR_NONNULL(1, 2);
+
+/* The integrator with its keys, as aur_render_options take it. The asking owns the text. */
+AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);
+
+/* The picture, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
+ * error of each value as the replicas tell it, in the picture's units. Channels that an integrator adds are
+ * left out, which aur_adaptive_create warns of. It and aur_adaptive_get_report may also be called from the
+ * progress callback. Errors: UNSUPPORTED while there is no picture yet, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
+                                                 aur_error *error) AUR_NONNULL(1, 3);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

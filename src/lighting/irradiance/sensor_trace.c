@@ -1,0 +1,396 @@
+#include "lighting/irradiance/sensor_trace.h"
+
+#include <string.h>
+
+#include "points/base/random.h"
+#include "points/base/vector3d.h"
+#include "render/scene/scene_data.h"
+#include "render/trace/packet_rays.h"
+#include "render/vertex/vertex.h"
+
+enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_sensor_sums.sums */
+
+/* Of surfaces on which a sensor stands, the nearest: within what may be wrong of both by rounding. */
+typedef struct footing {
+    aur_vector normal;
+    float height, offset; /* of the sensor over it, along the normal; what may be wrong */
+} footing;
+
+/* Of a round shape: rays are exact to its place and size as floats, which are off by four roundings (its
+ * centre 1, its radius 1, or the normal of a disk 2). aur_surface_rounding counts 25. */
+static float shape_rounding(const aur_scene *scene, const aur_hit *hit, aur_vector normal) {
+    const aur_shape *const shape = scene->shapes[hit->shape];
+    if (shape->curved == NULL || hit->instance != AUR_NO_INSTANCE)
+        return 0.0f;
+    double lower[3], upper[3];
+    shape->curved->bounds(shape, hit->primitive, lower, upper);
+    const aur_vector reach = {(float)fmax(fabs(lower[0]), fabs(upper[0])),
+                              (float)fmax(fabs(lower[1]), fabs(upper[1])),
+                              (float)fmax(fabs(lower[2]), fabs(upper[2]))};
+    return 0.16f * aur_surface_rounding(reach, normal);
+}
+
+/* Looks from -reach to reach along an axis. What is met may be a lamp of no thickness above a ground that is
+ * not exact to that. */
+static void look_along(const aur_scene *scene, const aur_sensor_point *surface_point, aur_vector axis,
+                       float reach, const footing *before, footing *found) {
+    enum { MOST_HITS = 16 };
+    aur_ray ray = {aur_vector_add_scaled(surface_point->position, -reach, axis), 0.0f, axis, 2.0f * reach};
+    aur_hit hit;
+    for (size_t i = 0; i < MOST_HITS && aur_scene_intersect(scene, &ray, &hit); ++i) {
+        aur_surface surface;
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        const aur_vector normal = surface.geometric_normal;
+        const float height =
+            aur_vector_dot(normal, aur_vector_subtract(surface_point->position, surface.position));
+        const float offset = surface.offset + aur_surface_offset(surface_point->position, normal) +
+                             shape_rounding(scene, &hit, normal);
+        const bool parallel = fabsf(aur_vector_dot(normal, before->normal)) > 0.999f;
+        if (!parallel && fabsf(height) <= offset && fabsf(height) < fabsf(found->height))
+            *found = (footing){normal, height, offset};
+        ray.nearest = nextafterf(hit.distance, INFINITY);
+    }
+}
+
+/* Moves the place off a surface on which it stands; false where there is none but that of `before`. Along one
+ * of three axes every plane is near. */
+static bool move_off(const aur_scene *scene, float reach, footing *before, aur_sensor_point *surface_point) {
+    const aur_frame *const frame = &surface_point->frame;
+    const aur_vector axes[] = {frame->z, frame->x, frame->y};
+    footing found = {.height = INFINITY};
+    for (size_t i = 0; i < 3; ++i)
+        look_along(scene, surface_point, axes[i], reach, before, &found);
+    if (!(found.height < INFINITY))
+        return false;
+    const float side = aur_vector_dot(found.normal, frame->z) < -1e-3f ? -1.0f : 1.0f;
+    surface_point->position = aur_vector_add_scaled(surface_point->position,
+                                                    side * 2.0f * found.offset - found.height, found.normal);
+    *before = found;
+    return true;
+}
+
+/* How far before the place a triangle's plane is, along a unit direction, in doubles. */
+static double distance_to(const aur_mesh *mesh, size_t triangle, const double from[3],
+                          const double ahead[3]) {
+    aur_vector corner[3];
+    double corners[3][3], between[3];
+    aur_plane plane;
+    aur_mesh_corners(mesh, triangle, corner);
+    for (size_t c = 0; c < 3; ++c)
+        aur_vector_to_doubles(corner[c], corners[c]);
+    if (!(aur_polygon_plane(3, (const double(*)[3])corners, &plane) > 0.0))
+        return INFINITY;
+    for (int d = 0; d < 3; ++d)
+        between[d] = corners[0][d] - from[d];
+    return aur_dot3(plane.normal, between) / aur_dot3(plane.normal, ahead);
+}
+
+/* What is so near before a sensor on a surface that its rays, which begin off that, would begin beyond:
+ * doubles know it from the surface. Light that passes by its edges is less than rounding. Looks along the
+ * normal. */
+static void find_cover(const aur_scene *scene, const double from[3], aur_vector at, const footing *standing,
+                       aur_sensor_point *surface_point) {
+    enum { MOST_HITS = 16 };
+    const float sign = aur_vector_dot(standing->normal, surface_point->frame.z) < -1e-3f ? -1.0f : 1.0f;
+    const aur_vector axis = aur_vector_scale(standing->normal, sign);
+    double ahead[3], distances[MOST_HITS], nearest = INFINITY, cover = 2.0 * (double)standing->offset;
+    aur_vector_to_doubles(axis, ahead);
+    aur_surface surfaces[MOST_HITS];
+    size_t count = 0;
+    aur_ray ray = {aur_vector_add_scaled(at, -2.0f * standing->offset, axis), 0.0f, axis,
+                   5.0f * standing->offset};
+    for (aur_hit hit; count < MOST_HITS && aur_scene_intersect(scene, &ray, &hit);) {
+        ray.nearest = nextafterf(hit.distance, INFINITY);
+        if (hit.instance != AUR_NO_INSTANCE || scene->shapes[hit.shape]->curved != NULL)
+            continue;
+        aur_scene_surface(scene, &ray, &hit, &surfaces[count]);
+        distances[count] = distance_to(&scene->shapes[hit.shape]->mesh, hit.primitive, from, ahead);
+        if (!(fabsf(aur_vector_dot(surfaces[count].geometric_normal, axis)) > 0.99f))
+            continue;
+        nearest = fabs(distances[count]) < fabs(nearest) ? distances[count] : nearest;
+        ++count;
+    }
+    /* Corners that are rounded put the surface itself 2 of the 25 roundings off. */
+    const double least = nearest + 0.1 * (double)standing->offset;
+    for (size_t i = 0; i < count; ++i) {
+        const aur_bsdf *const bsdf = surfaces[i].bsdf;
+        if (!(distances[i] > least && distances[i] < cover) || bsdf->transmits || bsdf->passes)
+            continue;
+        cover = distances[i];
+        surface_point->covered = true;
+        const float cosine = aur_vector_dot(axis, surface_point->frame.z);
+        const aur_vector light = aur_surface_emission(scene, &surfaces[i], aur_vector_scale(axis, -1.0f));
+        aur_vector_to_doubles(aur_vector_scale(light, 0.5f * AUR_PI_F * (1.0f + cosine)),
+                              surface_point->closed);
+    }
+}
+
+/* Twice the largest offset there can be, as an axis may meet a surface at an angle. */
+static float reach_of(const aur_scene *scene, aur_vector at) {
+    const aur_vector low = scene->lower, high = scene->upper;
+    const aur_vector reach = {fabsf(at.x) + aur_larger(fabsf(low.x), fabsf(high.x)),
+                              fabsf(at.y) + aur_larger(fabsf(low.y), fabsf(high.y)),
+                              fabsf(at.z) + aur_larger(fabsf(low.z), fabsf(high.z))};
+    return 2.0f * aur_surface_offset(reach, (aur_vector){1.0f, 1.0f, 1.0f});
+}
+
+void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *lights,
+                             const double position[3], const double normal[3], uint64_t seed, float *shares,
+                             aur_sensor_point *surface_point) {
+    enum { MOST_SURFACES = 3 }; /* which meet in a corner */
+    *surface_point = (aur_sensor_point){.hash = seed};
+    double unit[3] = {normal[0], normal[1], normal[2]};
+    /* The square of a tiny or huge normal may leave the range of doubles. */
+    const double size = fmax(fabs(unit[0]), fmax(fabs(unit[1]), fabs(unit[2])));
+    for (size_t d = 0; d < 3; ++d)
+        unit[d] /= size;
+    aur_normalize3(unit);
+    double from[3];
+    for (size_t d = 0; d < 3; ++d) {
+        from[d] = position[d] - aur_scene_origin(scene)[d];
+        const double numbers[2] = {from[d] + 0.0, unit[d] + 0.0}; /* -0 becomes 0 */
+        uint64_t bits[2];
+        memcpy(bits, numbers, sizeof bits);
+        surface_point->hash = aur_hash3(surface_point->hash, bits[0], bits[1]);
+    }
+    const aur_vector z = {(float)unit[0], (float)unit[1], (float)unit[2]};
+    const aur_vector at = aur_place_from(aur_scene_origin(scene), position);
+    surface_point->frame = aur_frame_about(aur_vector_normalize(z));
+    surface_point->position = at;
+    footing before = {.height = 0.0f};
+    const float reach = reach_of(scene, at);
+    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, reach, &before, surface_point); ++i) {
+        surface_point->on_surface = true;
+        find_cover(scene, from, at, &before, surface_point);
+    }
+    if (lights->count == 0 || surface_point->covered)
+        return;
+    surface_point->shares = shares;
+    if (surface_point->on_surface)
+        aur_vector_to_doubles(surface_point->position, from);
+    aur_closed_lights_at(scene, lights, from, unit, surface_point->position, surface_point->hash, shares,
+                         surface_point->closed);
+}
+
+/* The radiance from a direction of disks of the sky that are small. */
+static aur_vector sun_from(const aur_scene *scene, aur_vector direction) {
+    static const double WIDEST = 2.0 * AUR_PI * AUR_PI * 3.8053e-3; /* extent of 5 degrees to its edge */
+    aur_vector sum = {0};
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        if (emitter->descriptor->adds && emitter->extent <= WIDEST)
+            sum = aur_vector_add(sum, emitter->descriptor->radiance_from(emitter, direction));
+    }
+    return sum;
+}
+
+/* Light of one direction from beyond the scene: the sun's part of it, and the rest. */
+static void add_beyond(const aur_scene *scene, aur_vector direction, const double light[3],
+                       double (*sums)[3]) {
+    const aur_vector sun = sun_from(scene, direction);
+    double part[3] = {0.0}, all[3] = {0.0};
+    if (!aur_vector_is_zero(sun)) {
+        aur_vector_to_doubles(sun, part);
+        aur_vector_to_doubles(aur_scene_environment(scene, direction), all);
+    }
+    for (size_t c = 0; c < 3; ++c) {
+        const double of_sun = part[c] > 0.0 ? light[c] * (part[c] / all[c]) : 0.0;
+        sums[SKY][c] += light[c] - of_sun;
+        sums[SUN][c] += of_sun;
+    }
+}
+
+/* The rays of direction `index`, from which light is to be found. */
+static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t index,
+                     const aur_sensor_point *surface_point, float (*shifts)[3]) {
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float height = rule->heights[index] + shifts[k][0];
+        const float square = aur_smaller(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);
+        const float radius = sqrtf(square), z = sqrtf(1.0f - square);
+        const float c = rule->cosines[index], s = rule->sines[index];
+        const aur_vector local = {radius * (c * shifts[k][1] - s * shifts[k][2]),
+                                  radius * (s * shifts[k][1] + c * shifts[k][2]), z};
+        const aur_ray ray = {surface_point->position, 0.0f, aur_frame_to_world(&surface_point->frame, local),
+                             INFINITY};
+        aur_packet_set(&g->packet, k, &ray);
+        aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
+        aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
+        aur_lane_set(&g->lanes.from, k, surface_point->position);
+        aur_lane_set(&g->lanes.from_normal, k, surface_point->frame.z);
+        g->lanes.pdf[k] = z / AUR_PI_F;
+    }
+    g->alive = UINT16_MAX;
+    g->sensor.unscattered = UINT16_MAX;
+    g->specular = 0;
+}
+
+/* The numbers of a pair, moved on each lane by a shift of its own. Where the edge of what is seen is parallel
+ * to that of the strata of scrambled points, all but one stratum count alike in all randomisations, and their
+ * spread says nothing when that one is met rarely; shifted strata differ. */
+static void draw_pair(const aur_path_group *g, uint32_t pair, float *u, float *v) {
+    aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const uint64_t words = aur_hash3(g->pixels[k], 0x7368696674, pair);
+        u[k] += aur_unit_float((uint32_t)words);
+        v[k] += aur_unit_float((uint32_t)(words >> 32));
+        u[k] -= u[k] < 1.0f ? 0.0f : 1.0f;
+        v[k] -= v[k] < 1.0f ? 0.0f : 1.0f;
+    }
+}
+
+/* A point on a light for each lane. */
+static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
+                       aur_sensor_sums *sensor_sums) {
+    float choice[AUR_PACKET_SIZE] = {0}, u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE];
+    double light[AUR_PACKET_SIZE][3], known[AUR_PACKET_SIZE];
+    uint32_t drawn_lanes = 0, sky = 0;
+    if (g->chooses)
+        draw_pair(g, AUR_PAIR_FILTER, choice, unused);
+    draw_pair(g, AUR_PAIR_LENS, u, v);
+    const aur_light_reference reference = {surface_point->position, surface_point->frame.z};
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        aur_light_sample drawn;
+        if (!aur_light_sample_direct(g->scene, &reference, (const float[3]){choice[k], u[k], v[k]}, &drawn) ||
+            !(drawn.pdf > 0.0f))
+            continue;
+        const float cosine = aur_vector_dot(surface_point->frame.z, drawn.direction);
+        if (!(cosine > 0.0f) || aur_vector_is_zero(drawn.radiance))
+            continue;
+        const float share =
+            surface_point->shares != NULL ? surface_point->shares[drawn.emitter] : AUR_LIGHT_OPEN;
+        const bool alone = share >= 0.0f; /* no direction brings this light */
+        const float weight = alone ? 1.0f : aur_light_weight(&drawn, AUR_VERTEX_ONE_EACH, cosine / AUR_PI_F);
+        known[k] = share > 0.0f ? (double)share : 0.0;
+        aur_vector_to_doubles(aur_vector_scale(drawn.radiance, weight * cosine / drawn.pdf), light[k]);
+        const aur_vector way = aur_vector_subtract(drawn.position, surface_point->position);
+        const float distance = aur_vector_length(way);
+        const aur_ray ray = {surface_point->position, 0.0f,
+                             aur_vector_scale(way, 1.0f / aur_larger(distance, 1e-30f)),
+                             distance * (1.0f - 1e-4f)};
+        aur_packet_set(&g->shadows, k, &ray);
+        drawn_lanes |= 1u << k;
+        sky |= (uint32_t)drawn.environment << k;
+    }
+    if (drawn_lanes == 0)
+        return;
+    aur_packet_set_lanes(&g->shadows, drawn_lanes);
+    float farthest[AUR_PACKET_SIZE];
+    memcpy(farthest, g->shadows.query.ray.tfar, sizeof farthest);
+    const uint32_t lit = drawn_lanes & ~aur_scene_occluded16(g->scene, AUR_EMBREE_INCOHERENT, &g->shadows);
+    for (uint32_t rest = drawn_lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        double left[3] = {1.0, 1.0, 1.0};
+        if (!aur_has_lane(lit, k))
+            aur_vector_to_doubles(aur_path_group_passed(g, k, farthest[k], 0), left);
+        double brought[3];
+        for (size_t c = 0; c < 3; ++c)
+            brought[c] = (left[c] - known[k]) * light[k][c];
+        if (aur_has_lane(sky, k))
+            add_beyond(g->scene, aur_packet_ray(&g->shadows, k).direction, brought, sensor_sums->sums[k]);
+        else
+            for (size_t c = 0; c < 3; ++c)
+                sensor_sums->sums[k][DIRECT][c] += brought[c];
+        if (g->sensor.from_sky == NULL || !aur_has_lane(sky, k))
+            continue;
+        const aur_vector told = {(float)(left[0] * light[k][0]), (float)(left[1] * light[k][1]),
+                                 (float)(left[2] * light[k][2])};
+        g->sensor.from_sky(g->sensor.from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
+                           aur_vector_scale(told, 1.0f / AUR_PI_F), true);
+    }
+}
+
+/* Whether the first surface of a lane is seen from behind, where it scatters nothing. */
+static bool is_dark(const aur_path_group *g, size_t lane) {
+    if (aur_has_lane(g->plain, lane))
+        return g->lanes.side[lane] < 0.0f && aur_vector_is_zero(aur_lane_vector(&g->lanes.albedo[1], lane));
+    const aur_surface *const surface = &g->surfaces[lane];
+    const aur_ray ray = aur_packet_ray(&g->packet, lane);
+    return !surface->bsdf->scatters_from_behind &&
+           aur_vector_dot(ray.direction, surface->geometric_normal) > 0.0f;
+}
+
+/* Adds what the lanes' sums have got more than `seen`, to the part of each lane. */
+static void add_parts(const aur_path_group *g, const size_t *parts, double (*seen)[3],
+                      aur_sensor_sums *sensor_sums) {
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        double light[3], more[3];
+        aur_vector_to_doubles(aur_lane_vector(&g->lanes.sum, k), light);
+        for (size_t c = 0; c < 3; ++c)
+            more[c] = light[c] - seen[k][c];
+        memcpy(seen[k], light, sizeof light);
+        if (parts[k] == SKY)
+            add_beyond(g->scene, aur_packet_ray(&g->packet, k).direction, more, sensor_sums->sums[k]);
+        else
+            for (size_t c = 0; c < 3; ++c)
+                sensor_sums->sums[k][parts[k]][c] += more[c];
+    }
+}
+
+/* What direction `index` brings; lanes begin with no light. What comes straight through panes counts as what
+ * comes without any. */
+static void add_direction(aur_path_group *g, const aur_sensor_point *surface_point,
+                          const aur_cached_light *known, aur_sensor_sums *sensor_sums) {
+    double seen[AUR_PACKET_SIZE][3] = {{0.0}};
+    size_t parts[AUR_PACKET_SIZE], reflected[AUR_PACKET_SIZE];
+    uint32_t unscattered = g->alive, pending = known != NULL ? g->alive : 0;
+    g->sensor.known = surface_point->shares;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        reflected[k] = REFLECTED;
+    for (uint32_t depth = 1;; ++depth) {
+        aur_path_group_meet(g, depth);
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            const bool met = aur_has_lane(g->alive, k);
+            parts[k] = !aur_has_lane(unscattered, k) ? REFLECTED : met ? DIRECT : SKY;
+            sensor_sums->dark += depth == 1 && met && is_dark(g, k);
+        }
+        add_parts(g, parts, seen, sensor_sums);
+        if (g->data->max_depth == depth || g->alive == 0)
+            break;
+        if (pending != 0)
+            aur_cached_light_add(known, g, depth, &pending);
+        if (g->alive == 0)
+            break;
+        aur_path_group_scatter(g, depth);
+        unscattered = g->sensor.unscattered & g->alive;
+        if (unscattered == 0 && (pending & g->alive) == 0) {
+            aur_path_group_trace(g, depth + 1);
+            break;
+        }
+    }
+    add_parts(g, reflected, seen, sensor_sums);
+    g->sensor.known = NULL;
+}
+
+void aur_sensor_trace(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_point *surface_point,
+                      const aur_cached_light *known, uint32_t level, aur_sensor_sums *sensor_sums) {
+    *sensor_sums = (aur_sensor_sums){0};
+    for (size_t k = 0; k < AUR_PACKET_SIZE && surface_point->covered; ++k)
+        memcpy(sensor_sums->sums[k][DIRECT], surface_point->closed, sizeof surface_point->closed);
+    if (surface_point->covered)
+        return;
+    aur_sensor_sums from_lights = {0};
+    float shifts[AUR_PACKET_SIZE][3]; /* of the height, and the turn's cosine and sine */
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        g->pixels[k] = aur_hash3(surface_point->hash, level, k);
+        const uint64_t words = aur_hash2(g->pixels[k], 0x7475726e);
+        const double turn = 2.0 * AUR_PI * aur_unit_double(words);
+        shifts[k][0] = aur_unit_float((uint32_t)aur_mix64(words));
+        shifts[k][1] = (float)cos(turn);
+        shifts[k][2] = (float)sin(turn);
+    }
+    for (size_t i = 0; i < rule->count; ++i) {
+        g->index = (uint32_t)i;
+        set_rays(g, rule, i, surface_point, shifts);
+        add_direction(g, surface_point, known, sensor_sums);
+        if (g->has_lights)
+            add_lights(g, surface_point, &from_lights);
+    }
+    /* Directions have the density cos / pi. */
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        for (size_t part = 0; part < AUR_IRRADIANCE_PARTS - 1; ++part)
+            for (size_t c = 0; c < 3; ++c)
+                sensor_sums->sums[k][part][c] =
+                    (part == DIRECT ? surface_point->closed[c] : 0.0) +
+                    (AUR_PI * sensor_sums->sums[k][part][c] + from_lights.sums[k][part][c]) /
+                        (double)rule->count;
+}

@@ -1,0 +1,16 @@
+/* Where a build has MPI, it is a module beside the library, which is looked for when several processes were
+ * started; where it has none, this file is the same and finds nothing. */
+#include "points/base/file.h"
+#include "points/base/ranks.h"
+
+aur_result aur_transport_find(aur_transport *transport, aur_error *error) {
+    /* MPI's own parts, which it loads itself, look for its names. */
+    const aur_transport_open_function open =
+        (aur_transport_open_function)aur_module_find(AUR_TRANSPORT_MODULE, "aur_transport_open", true);
+    if (open == NULL)
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "started with several ranks, but built without MPI: render parts by '--shard i/n' and put "
+            "them together by 'aureole merge'");
+    return open(transport, error);
+}

@@ -1,0 +1,162 @@
+
+#include <aureole/ranks.h>
+#include <aureole/text.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "program/cli/options.h"
+#include "program/cli/render/render_result.h"
+
+static aur_result parse_part(const char *option, const char *text, void *field, aur_error *error) {
+    static const cli_unit units[] = {{"%", 0.01}};
+    double *const value = field;
+    if (cli_parse_quantity(text, 1, units, value) && *value <= 1.0)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: expected 1%% or .01, from above 0 to 100%%, not '%s'",
+                    option, text);
+}
+
+static aur_result parse_error(const char *text, void *field, aur_error *error) {
+    return parse_part("error", text, field, error);
+}
+
+static aur_result parse_bias(const char *text, void *field, aur_error *error) {
+    return parse_part("bias", text, field, error);
+}
+
+static aur_result parse_time(const char *text, void *field, aur_error *error) {
+    return cli_parse_seconds("time", text, field, error);
+}
+
+static aur_result parse_rays(const char *text, void *field, aur_error *error) {
+    double value = 0.0;
+    if (!cli_parse_quantity(text, 0, NULL, &value) || value < 1.0 || value > 1e18)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--rays: expected a number such as 1e9, not '%s'", text);
+    *(uint64_t *)field = (uint64_t)value;
+    return AUR_OK;
+}
+
+const cli_option cli_target_options[] = {
+    {CLI_TEXT(cli_target, error, "error", "1%", NULL,
+              "render until the root mean square error is below this part of the picture's mean"),
+     .parse = parse_error},
+    {CLI_TEXT(
+         cli_target, bias, "bias", "1%", NULL,
+         "of --error: what the integrator of --integrator may be wrong by in the mean, as a picture to an "
+         "error says afterwards"),
+     .parse = parse_bias},
+    {CLI_TEXT(cli_target, seconds, "time", "30s", NULL,
+              "render for so long, and say the command that makes the same picture"),
+     .parse = parse_time},
+    {CLI_TEXT(cli_target, rays, "rays", "1e9", NULL, "render with so many rays"), .parse = parse_rays},
+    {CLI_INTEGER(cli_target, rounds, "rounds", "N", 1, 1000, NULL,
+                 "render so many rounds of samples, as --time says afterwards")},
+    {CLI_FLAG(cli_target, error_map, "error-map",
+              "the standard error of each pixel as channels error.R, error.G, error.B")},
+    {.key = {0}}};
+
+bool cli_is_target(const cli_target *target) {
+    return target->error > 0.0 || target->seconds > 0.0 || target->rays > 0 || target->rounds > 0;
+}
+
+/* An option with the fewest digits that mean the same number. */
+static void say_number(const char *option, double value) {
+    char text[40];
+    for (int digits = 15; digits <= 17; ++digits) {
+        aur_format(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    aur_print(stderr, " %s %s", option, text);
+}
+
+/* The command that makes the same bits without a choice and without a clock. */
+static void say_again(const aur_adaptive *adaptive, const cli_target *target,
+                      const aur_adaptive_report *report) {
+    aur_print(stderr, "aureole: the same picture again:");
+    if (*aur_adaptive_integrator(adaptive) != '\0')
+        aur_print(stderr, " --integrator '%s'", aur_adaptive_integrator(adaptive));
+    if (target->error > 0.0)
+        say_number("--error", target->error);
+    if (report->bias_high > 0.0)
+        say_number("--bias", report->bias_high);
+    if (target->rays > 0) /* the trials may have taken them all */
+        aur_print(stderr, " --rays %" PRIu64,
+                  target->rays > report->candidate_rays ? target->rays - report->candidate_rays : 1);
+    if (target->seconds > 0.0 || target->rounds > 0)
+        aur_print(stderr, " --rounds %" PRIu64, report->rounds);
+    aur_print(stderr, "\n");
+}
+
+static void say(const aur_adaptive *adaptive, const cli_target *target, const char *output) {
+    aur_adaptive_report report = {.size = sizeof report};
+    aur_adaptive_get_report(adaptive, &report, NULL);
+    const aur_render_statistics *const spent = &report.statistics;
+    if (!(report.mean > 0.0)) {
+        aur_print(stderr, "aureole: %s is black: no light of the scene reaches the camera\n", output);
+        return;
+    }
+    say_again(adaptive, target, &report);
+    char bias[64] = "";
+    if (report.bias_high > 0.0)
+        snprintf(bias, sizeof bias, ", of which at most %.3g %% are bias", 100.0 * report.bias_high);
+    aur_print(stderr,
+              "aureole: %s has an error of %.3g %% of its mean, between %.3g and %.3g (95 %%)%s, after %.4g "
+              "samples a pixel, %.3g rays, %.1f s by %s\n",
+              output, 100.0 * report.error, 100.0 * report.error_low, 100.0 * report.error_high, bias,
+              report.samples_per_pixel, (double)spent->rays, spent->prepare_seconds + spent->render_seconds,
+              aur_adaptive_integrator(adaptive));
+}
+
+static aur_result print_json(const aur_adaptive *adaptive, const char *output, aur_error *error) {
+    aur_adaptive_report report = {.size = sizeof report};
+    aur_adaptive_get_report(adaptive, &report, NULL);
+    const cli_render_summary summary = {.output = output,
+                                        .integrator = aur_adaptive_integrator(adaptive),
+                                        .error = report.error,
+                                        .error_low = report.error_low,
+                                        .error_high = report.error_high,
+                                        .bias_high = report.bias_high,
+                                        .mean = report.mean,
+                                        .rounds = (double)report.rounds,
+                                        .samples_per_pixel = report.samples_per_pixel,
+                                        .statistics = report.statistics};
+    return cli_print_json(&summary, error);
+}
+
+aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *options,
+                             const cli_target *target, const cli_surroundings *beside, aur_adaptive **made,
+                             aur_image **image, aur_error *error) {
+    aur_adaptive_options own = {.size = sizeof own};
+    aur_adaptive_options_init(&own, NULL);
+    own.error = target->error;
+    own.bias = target->bias;
+    own.seconds = target->seconds;
+    own.rays = target->rays;
+    own.rounds = target->rounds;
+    aur_adaptive *adaptive = NULL;
+    aur_result result = aur_adaptive_create(renderer, options, &own, &adaptive, error);
+    *made = adaptive;
+    if (result == AUR_OK)
+        result = cli_checkpoint_begin(beside->checkpoint, NULL, adaptive, beside->quiet, error);
+    const bool begun = result == AUR_OK;
+    if (begun) {
+        cli_watch_show(beside->watch, NULL, adaptive);
+        result = aur_adaptive_run(adaptive, error);
+        cli_watch_hide(beside->watch);
+    }
+    cli_progress_clear();
+    if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        cli_checkpoint_end(beside->checkpoint, false);
+    if (result == AUR_OK || (result == AUR_ERROR_CANCELLED && adaptive != NULL)) {
+        const aur_result developed = aur_adaptive_develop(adaptive, target->error_map, image, error);
+        result = developed != AUR_OK ? developed : result;
+    }
+    if (result == AUR_OK && !beside->quiet)
+        say(adaptive, target, beside->output);
+    if (result == AUR_OK && beside->json && aur_ranks_rank() == 0)
+        result = print_json(adaptive, beside->output, error);
+    return result;
+}

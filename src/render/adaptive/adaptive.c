@@ -1,0 +1,381 @@
+#include "render/adaptive/choose.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/error.h"
+#include "render/adaptive/comparison.h"
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
+
+static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
+    if (!(target->error >= 0.0 && target->error <= 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the target error must be above 0 and at most 1 (100 %%), not %g", target->error);
+    if (!(target->seconds >= 0.0 && target->seconds < INFINITY))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the time must be above 0 seconds, not %g",
+                        target->seconds);
+    if (!(target->bias >= 0.0 && target->bias < (target->error > 0.0 ? target->error : INFINITY)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the bias must be at least 0 and below the target error, not %g", target->bias);
+    if (target->confidence == 0.0)
+        target->confidence = 0.95;
+    if (!(target->confidence >= 0.5 && target->confidence <= 0.9999))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be from .5 to .9999, not %g",
+                        target->confidence);
+    if (target->replicas == 0)
+        target->replicas = 4;
+    if (target->replicas < 3 || target->replicas > AUR_REPLICAS_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 3 to %d replicas, not %zu",
+                        (int)AUR_REPLICAS_MAX, target->replicas);
+    if (target->error == 0.0 && target->seconds == 0.0 && target->rays == 0 && target->rounds == 0)
+        target->error = 0.01;
+    return AUR_OK;
+}
+
+/* --- progress: one bar over all rounds and replicas, to where the wish is thought to be met */
+
+/* Rays, of all integrators that are tried; infinitely many left: nobody knows. */
+typedef struct rays_on_the_way {
+    double done, left;
+} rays_on_the_way;
+
+/* On the way to an error, where `part` of a step is done. */
+static double left_to_error(const aur_candidate *candidate, double part) {
+    const double before = candidate->begun ? candidate->before : candidate->samples;
+    const double now = before + (candidate->begun ? part * (candidate->samples - before) : 0.0);
+    if (!(before > 0.0 && candidate->whole > 0.0))
+        return INFINITY;
+    /* A round that is planned is rendered to its end. */
+    const double whole = fmax(candidate->whole, candidate->begun ? candidate->samples : 0.0);
+    return aur_candidate_rays(candidate) * fmax(whole / now - 1.0, 0.0);
+}
+
+/* What is left by whatever ends the work first. */
+static rays_on_the_way find_rays(const aur_adaptive *adaptive, double done) {
+    const aur_adaptive_options *const target = &adaptive->target;
+    const aur_candidate *const candidate =
+        adaptive->choice != NULL ? &adaptive->choice->candidate : &adaptive->candidate;
+    const double part = ((double)candidate->replica + done) / (double)candidate->replicas.count;
+    aur_render_statistics spent;
+    aur_candidate_spent(candidate, &spent);
+    rays_on_the_way rays = {aur_candidate_rays(candidate) + (double)adaptive->others.rays, INFINITY};
+    if (adaptive->choice == NULL && target->error > 0.0) /* a choice takes what it finds out */
+        rays.left = left_to_error(candidate, part);
+    double share = 0.0;
+    if (target->rays > 0)
+        share = (aur_candidate_rays(candidate) +
+                 (double)(candidate->shared + candidate->alone + adaptive->others.budget)) /
+                (double)target->rays;
+    if (target->seconds > 0.0)
+        share = fmax(share, (spent.prepare_seconds + spent.render_seconds + adaptive->others.prepare_seconds +
+                             adaptive->others.render_seconds) /
+                                target->seconds);
+    if (target->rounds > 0)
+        share = fmax(share, ((double)candidate->rounds + part) / (double)target->rounds);
+    if (share > 0.0)
+        rays.left = fmin(rays.left, rays.done * fmax(1.0 / share - 1.0, 0.0));
+    rays.left = fmax(rays.left, 0.01 * rays.done); /* no estimate is surer than that */
+    return rays;
+}
+
+static int report(void *user, const char *what, uint64_t done, uint64_t total) {
+    aur_adaptive *const adaptive = user;
+    if (atomic_load_explicit(&adaptive->cancelled, memory_order_relaxed))
+        return 1;
+    if (adaptive->progress.function == NULL)
+        return 0;
+    if (adaptive->candidate.replicas.pixel_count == 0) /* it is being prepared */
+        return adaptive->progress.function(adaptive->progress.user, what, 0, 0);
+    const rays_on_the_way rays = find_rays(adaptive, total > 0 ? (double)done / (double)total : 0.0);
+    const bool renders = adaptive->choice == NULL && adaptive->candidate.rounds > 0;
+    return aur_progress_tell(&adaptive->progress, renders ? "rendering" : "planning", &adaptive->share,
+                             rays.done, rays.left);
+}
+
+/* --- making */
+
+static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
+                                const aur_render_options *options, aur_error *error) {
+    char *render, target[200];
+    const aur_adaptive_options *const w = &adaptive->target;
+    const aur_result result = aur_render_identify(scene, options, &render, error);
+    if (result != AUR_OK)
+        return result;
+    snprintf(target, sizeof target,
+             "error %.15g\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
+             "\nbias %.15g\nconfidence %.15g\nreplicas %zu\n",
+             w->error, w->seconds, w->rays, w->rounds, w->bias, w->confidence, w->replicas);
+    adaptive->identity = malloc(strlen(render) + strlen(target) + 1);
+    if (adaptive->identity != NULL)
+        strcat(strcpy(adaptive->identity, target), render);
+    free(render);
+    return adaptive->identity != NULL ? AUR_OK : aur_fail_memory(error);
+}
+
+/* A trial by `integrator`, a new text, in place of the asking's own, whose rays were traced for it. */
+static aur_result begin_candidate(aur_adaptive *adaptive, char *integrator, aur_error *error) {
+    aur_render_statistics spent;
+    aur_candidate_spent(&adaptive->candidate, &spent);
+    aur_candidate_release(&adaptive->candidate);
+    adaptive->candidate.integrator = integrator;
+    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
+    const aur_result result = aur_candidate_create(adaptive->renderer, &adaptive->options,
+                                                   adaptive->target.replicas, &adaptive->candidate, error);
+    aur_cache_count(cache, before);
+    adaptive->candidate.traced += spent.rays;
+    return result;
+}
+
+aur_result aur_adaptive_take_gather(aur_adaptive *adaptive, aur_gather_size size, aur_error *error) {
+    char *const integrator = aur_adaptive_gather(adaptive->candidate.integrator, size);
+    adaptive->gather = size;
+    adaptive->open = false;
+    return integrator != NULL ? begin_candidate(adaptive, integrator, error) : aur_fail_memory(error);
+}
+
+aur_result aur_adaptive_take_candidates(aur_adaptive *adaptive, size_t candidates, aur_error *error) {
+    char *const integrator = aur_adaptive_path(adaptive->candidate.integrator, candidates);
+    adaptive->candidates = candidates;
+    adaptive->open = false;
+    return integrator != NULL ? begin_candidate(adaptive, integrator, error) : aur_fail_memory(error);
+}
+
+/* What the rounds lead to. Rays of other trials, and those that prepared this one, are spent, and are no
+ * matter of its rounds, which are those of an asking that names its integrator. */
+static aur_goal goal_of(const aur_adaptive *adaptive) {
+    const aur_adaptive_options *const target = &adaptive->target;
+    const uint64_t spent = adaptive->others.budget + adaptive->candidate.shared + adaptive->candidate.alone;
+    return (aur_goal){.error = target->error,
+                      .bias = sqrt(adaptive->bias.high),
+                      .rays = target->rays > spent ? target->rays - spent : target->rays > 0};
+}
+
+/* Goes on with whichever integrator turns out best. What was tried before an interruption is tried anew, so
+ * that the picture is the same. */
+static aur_result choose(aur_adaptive *adaptive, aur_error *error) {
+    aur_result result = AUR_OK;
+    if (adaptive->candidate.rounds > 0 || adaptive->candidate.begun) {
+        char *const integrator = adaptive->candidate.integrator;
+        adaptive->candidate.integrator = NULL;
+        result = begin_candidate(adaptive, integrator, error);
+    }
+    if (result != AUR_OK)
+        return result;
+    aur_choice choice = {.goal = goal_of(adaptive),
+                         .seconds = adaptive->target.seconds,
+                         .confidence = adaptive->target.confidence,
+                         .replica_count = adaptive->target.replicas,
+                         .cancelled = &adaptive->cancelled,
+                         .others.rays = adaptive->others.rays,
+                         .candidate = adaptive->candidate};
+    aur_render_options own = adaptive->options;
+    own.warnings = (aur_warnings){0};
+    adaptive->choice = &choice;
+    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
+    result = aur_adaptive_try(adaptive->renderer, &own, &choice, error);
+    aur_cache_count(cache, before);
+    adaptive->choice = NULL;
+    adaptive->candidate = choice.candidate;
+    adaptive->bias = choice.bias;
+    adaptive->others = choice.others;
+    adaptive->others.budget += adaptive->uses.rays - adaptive->candidate.shared;
+    adaptive->gather = choice.gather;
+    adaptive->candidates = choice.candidates;
+    adaptive->open = result != AUR_OK;
+    return result;
+}
+
+/* Another trial may be made when the caller's texts are gone. */
+static aur_result keep_options(aur_adaptive *adaptive, aur_renderer *renderer,
+                               const aur_render_options *options, aur_error *error) {
+    adaptive->renderer = renderer;
+    adaptive->options = *options;
+    adaptive->sampler = strdup(options->sampler);
+    adaptive->filter = options->filter != NULL ? strdup(options->filter) : NULL;
+    adaptive->options.sampler = adaptive->sampler;
+    adaptive->options.filter = adaptive->filter;
+    adaptive->options.integrator = NULL;
+    const bool kept = adaptive->sampler != NULL && (options->filter == NULL || adaptive->filter != NULL);
+    return kept ? AUR_OK : aur_fail_memory(error);
+}
+
+static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const aur_render_options *given,
+                          aur_error *error) {
+    aur_render_options own = {.size = sizeof own};
+    aur_render_options_init(&own, NULL);
+    aur_result result = aur_options_read(given, sizeof own, &own, "aur_render_options", error);
+    if (result == AUR_OK)
+        result = aur_adaptive_choose(aur_renderer_scene(renderer), own.integrator,
+                                     &adaptive->candidate.integrator, &adaptive->open, error);
+    if (result != AUR_OK)
+        return result;
+    adaptive->progress = own.progress;
+    own.progress = (aur_progress){report, adaptive};
+    own.integrator = adaptive->candidate.integrator;
+    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    if (own.sampler == NULL)
+        own.sampler = "sobol";
+    if (own.shard_count != 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "an error, a time or a number of rays is of a whole picture: parts have none");
+    if (own.resumable)
+        result = make_identity(adaptive, aur_renderer_scene(renderer), &own, error);
+    own.resumable = false;
+    if (result != AUR_OK)
+        return result;
+    result = keep_options(adaptive, renderer, &own, error);
+    char *const integrator = adaptive->candidate.integrator;
+    adaptive->candidate.integrator = NULL;
+    result = result == AUR_OK ? begin_candidate(adaptive, integrator, error) : result;
+    if (result != AUR_OK)
+        return result;
+    if (aur_render_film(adaptive->candidate.replicas.renders[0])->layout.channel_count > 3)
+        aur_warn_at(
+            &own.warnings, (aur_location){0},
+            "a picture to an error, a time or a number of rays has R, G and B alone: the channels that "
+            "the integrator adds are left out");
+    adaptive->open = adaptive->open && (adaptive->target.error > 0.0 || adaptive->target.seconds > 0.0 ||
+                                        adaptive->target.rays > 0);
+    if (adaptive->open && adaptive->target.bias > 0.0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a bias of %g: it goes with an integrator that is named, else it is measured",
+                        adaptive->target.bias);
+    adaptive->bias.high = adaptive->target.bias * adaptive->target.bias;
+    return AUR_OK;
+}
+
+aur_result aur_adaptive_create(aur_renderer *renderer, const aur_render_options *render,
+                               const aur_adaptive_options *options, aur_adaptive **out, aur_error *error) {
+    *out = NULL;
+    aur_adaptive *const adaptive = calloc(1, sizeof *adaptive);
+    if (adaptive == NULL)
+        return aur_fail_memory(error);
+    atomic_init(&adaptive->cancelled, false);
+    adaptive->target.size = sizeof(aur_adaptive_options);
+    aur_adaptive_options_init(&adaptive->target, NULL);
+    aur_result result =
+        aur_options_read(options, sizeof adaptive->target, &adaptive->target, "aur_adaptive_options", error);
+    if (result == AUR_OK)
+        result = check_target(&adaptive->target, error);
+    if (result == AUR_OK)
+        result = prepare(adaptive, renderer, render, error);
+    if (result != AUR_OK) {
+        aur_adaptive_destroy(adaptive);
+        return result;
+    }
+    *out = adaptive;
+    return AUR_OK;
+}
+
+void aur_adaptive_destroy(aur_adaptive *adaptive) {
+    if (adaptive == NULL)
+        return;
+    aur_candidate_release(&adaptive->candidate);
+    aur_cache_uses_release(&adaptive->uses);
+    free(adaptive->identity);
+    free(adaptive->sampler);
+    free(adaptive->filter);
+    free(adaptive);
+}
+
+/* --- rounds */
+
+static void count_spent(const aur_adaptive *adaptive, aur_render_statistics *sum) {
+    aur_candidate_spent(&adaptive->candidate, sum);
+    sum->rays += adaptive->others.rays;
+    sum->prepare_seconds += adaptive->others.prepare_seconds;
+    sum->render_seconds += adaptive->others.render_seconds;
+    sum->cpu_seconds += adaptive->others.cpu_seconds;
+}
+
+/* The interval of noise and bias together; its ends are those of both. */
+static aur_error_interval whole_error(const aur_adaptive *adaptive) {
+    const aur_error_interval *const noise = &adaptive->candidate.interval;
+    return (aur_error_interval){
+        .estimate = sqrt(noise->estimate * noise->estimate + fmax(adaptive->bias.estimate, 0.0)),
+        .low = sqrt(noise->low * noise->low + adaptive->bias.low),
+        .high = sqrt(noise->high * noise->high + adaptive->bias.high),
+        .degrees = noise->degrees};
+}
+
+static bool is_met(const aur_adaptive *adaptive) {
+    const aur_adaptive_options *const target = &adaptive->target;
+    aur_render_statistics spent;
+    count_spent(adaptive, &spent);
+    const aur_goal goal = goal_of(adaptive);
+    return (target->error > 0.0 && adaptive->candidate.looked_at &&
+            adaptive->candidate.bound <= aur_goal_noise(&goal)) ||
+           (target->seconds > 0.0 && spent.prepare_seconds + spent.render_seconds >= target->seconds) ||
+           (target->rays > 0 && aur_candidate_rays(&adaptive->candidate) >= (double)goal.rays) ||
+           (target->rounds > 0 && adaptive->candidate.rounds >= target->rounds) ||
+           aur_candidate_is_black(&adaptive->candidate);
+}
+
+static double next_factor(const aur_adaptive *adaptive) {
+    const aur_goal goal = goal_of(adaptive);
+    return aur_candidate_factor(&adaptive->candidate, &goal);
+}
+
+static void look_ahead(aur_adaptive *adaptive) {
+    const aur_goal goal = goal_of(adaptive);
+    aur_candidate_look_ahead(&adaptive->candidate, &goal);
+}
+
+aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
+    aur_result result = adaptive->open ? choose(adaptive, error) : AUR_OK;
+    aur_candidate *const candidate = &adaptive->candidate;
+    while (result == AUR_OK && (candidate->rounds == 0 || candidate->begun || !is_met(adaptive))) {
+        if (!candidate->begun)
+            look_ahead(adaptive);
+        if (!candidate->begun &&
+            !aur_candidate_plan(candidate, candidate->rounds > 0 ? next_factor(adaptive) : 1.0))
+            break;
+        result = aur_candidate_render(candidate, adaptive->target.confidence, &adaptive->cancelled, error);
+    }
+    atomic_store(&adaptive->cancelled, false);
+    return result == AUR_ERROR_CANCELLED ? aur_fail(error, result, "rendering: %s", aur_result_string(result))
+                                         : result;
+}
+
+void aur_adaptive_cancel(aur_adaptive *adaptive) {
+    atomic_store_explicit(&adaptive->cancelled, true, memory_order_relaxed);
+}
+
+/* --- what came out */
+
+aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
+    const aur_error_interval interval = whole_error(adaptive);
+    aur_adaptive_report own = {.error = interval.estimate,
+                               .error_low = interval.low,
+                               .error_high = interval.high,
+                               .mean = adaptive->candidate.measure.mean,
+                               .degrees = interval.degrees,
+                               .rounds = adaptive->candidate.rounds,
+                               .samples_per_pixel = adaptive->candidate.begun ? adaptive->candidate.before
+                                                                              : adaptive->candidate.samples,
+                               .replicas = adaptive->candidate.replicas.count,
+                               .candidate_rays = adaptive->others.budget,
+                               .bias_high = sqrt(adaptive->bias.high)};
+    count_spent(adaptive, &own.statistics);
+    return aur_description_write(&own, sizeof own, out, "aur_adaptive_report", error);
+}
+
+const char *aur_adaptive_integrator(const aur_adaptive *adaptive) {
+    return adaptive->candidate.integrator != NULL ? adaptive->candidate.integrator : "";
+}
+
+aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
+                                aur_error *error) {
+    return aur_replicas_develop(&adaptive->candidate.replicas, errors, image, error);
+}
+
+aur_result aur_adaptive_options_init(aur_adaptive_options *options, aur_error *error) {
+    static const aur_adaptive_options defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, options, "aur_adaptive_options", error);
+}

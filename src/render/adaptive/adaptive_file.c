@@ -1,0 +1,145 @@
+/* An asking in a file: what the next round follows from, and the replicas' films. */
+#include <stdlib.h>
+
+#include "points/base/error.h"
+#include "points/base/words.h"
+#include "render/adaptive/choose.h"
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
+
+/* Numbers between rounds, before those of the tiles and of the replicas. */
+enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 10 };
+
+static size_t word_count(const aur_adaptive *adaptive) {
+    return STATE_WORDS + 3 * adaptive->candidate.value_count + 2 * adaptive->candidate.replicas.pixel_count +
+           adaptive->candidate.replicas.count * AUR_SPENT_WORDS;
+}
+
+aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur_error *error) {
+    if (adaptive->identity == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "an asking is saved whose options say 'resumable'");
+    if (adaptive->open) /* trials of integrators are short, and begin anew */
+        return AUR_OK;
+    uint64_t *const words = malloc(word_count(adaptive) * sizeof *words);
+    if (words == NULL)
+        return aur_fail_memory(error);
+    const double numbers[NUMBERS] = {adaptive->candidate.interval.estimate,
+                                     adaptive->candidate.interval.low,
+                                     adaptive->candidate.interval.high,
+                                     adaptive->candidate.interval.degrees,
+                                     adaptive->candidate.rate,
+                                     adaptive->candidate.begun ? adaptive->candidate.before
+                                                               : adaptive->candidate.samples,
+                                     adaptive->candidate.measure.mean,
+                                     adaptive->bias.estimate,
+                                     adaptive->bias.low,
+                                     adaptive->bias.high,
+                                     adaptive->others.prepare_seconds,
+                                     adaptive->others.render_seconds,
+                                     adaptive->others.cpu_seconds,
+                                     adaptive->candidate.bound};
+    size_t at = 0;
+    for (size_t i = 0; i < NUMBERS; ++i)
+        words[at++] = aur_word_of_double(numbers[i]);
+    words[at++] = adaptive->candidate.rounds;
+    words[at++] = (uint64_t)adaptive->candidate.begun + 2 * (uint64_t)adaptive->candidate.looked_at;
+    words[at++] = adaptive->gather.photons;
+    words[at++] = adaptive->gather.directions;
+    words[at++] = adaptive->gather.lights;
+    words[at++] = adaptive->gather.bright;
+    words[at++] = adaptive->candidates;
+    words[at++] = adaptive->others.rays;
+    words[at++] = adaptive->others.budget;
+    words[at++] = adaptive->candidate.traced;
+    for (size_t i = 0; i < adaptive->candidate.value_count; ++i) {
+        words[at++] = adaptive->candidate.targets[i];
+        words[at++] = adaptive->candidate.earlier[i];
+        words[at++] = aur_word_of_double(adaptive->candidate.variances[i]);
+    }
+    for (size_t i = 0; i < adaptive->candidate.replicas.pixel_count; ++i) {
+        words[at++] = aur_word_of_double(adaptive->candidate.pixels[i].variance);
+        words[at++] = aur_word_of_double(adaptive->candidate.pixels[i].spread);
+    }
+    const aur_film *films[AUR_REPLICAS_MAX];
+    for (size_t r = 0; r < adaptive->candidate.replicas.count; ++r, at += AUR_SPENT_WORDS) {
+        films[r] = aur_render_film(adaptive->candidate.replicas.renders[r]);
+        aur_render_put_spent(adaptive->candidate.replicas.renders[r], words + at);
+    }
+    const aur_result result = aur_checkpoint_save(path, adaptive->identity, at, words,
+                                                  adaptive->candidate.replicas.count, films, error);
+    free(words);
+    return result;
+}
+
+static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_checkpoint *kept,
+                            aur_error *error) {
+    double numbers[NUMBERS];
+    const uint64_t *word = kept->words;
+    for (size_t i = 0; i < NUMBERS; ++i)
+        numbers[i] = aur_double_of_word(*word++);
+    const aur_gather_size size = {kept->words[NUMBERS + 2], aur_adaptive_photon_seed(adaptive->options.seed),
+                                  kept->words[NUMBERS + 3], kept->words[NUMBERS + 4],
+                                  kept->words[NUMBERS + 5]};
+    const size_t candidates = kept->words[NUMBERS + 6];
+    aur_result result = AUR_OK;
+    if (size.photons > 0)
+        result = aur_adaptive_take_gather(adaptive, size, error);
+    else if (candidates > 1)
+        result = aur_adaptive_take_candidates(adaptive, candidates, error);
+    if (result != AUR_OK)
+        return result;
+    adaptive->open = false;
+    adaptive->candidate.interval = (aur_error_interval){
+        .estimate = numbers[0], .low = numbers[1], .high = numbers[2], .degrees = numbers[3]};
+    adaptive->candidate.rate = numbers[4];
+    adaptive->candidate.samples = adaptive->candidate.before = numbers[5];
+    adaptive->candidate.measure.mean = numbers[6];
+    adaptive->bias = (aur_bias){.estimate = numbers[7], .low = numbers[8], .high = numbers[9]};
+    adaptive->others.prepare_seconds = numbers[10];
+    adaptive->others.render_seconds = numbers[11];
+    adaptive->others.cpu_seconds = numbers[12];
+    adaptive->candidate.bound = numbers[13];
+    adaptive->candidate.rounds = *word++;
+    adaptive->candidate.begun = (*word & 1) != 0;
+    adaptive->candidate.looked_at = (*word++ & 2) != 0;
+    word += 5; /* of the integrator, see above */
+    adaptive->others.rays = *word++;
+    adaptive->others.budget = *word++;
+    adaptive->candidate.traced += *word++;
+    for (size_t i = 0; i < adaptive->candidate.value_count; ++i) {
+        adaptive->candidate.targets[i] = (uint32_t)*word++;
+        adaptive->candidate.earlier[i] = (uint32_t)*word++;
+        adaptive->candidate.variances[i] = aur_double_of_word(*word++);
+    }
+    for (size_t i = 0; i < adaptive->candidate.replicas.pixel_count; ++i) {
+        adaptive->candidate.pixels[i].variance = aur_double_of_word(*word++);
+        adaptive->candidate.pixels[i].spread = aur_double_of_word(*word++);
+    }
+    for (size_t r = 0; r < adaptive->candidate.replicas.count && result == AUR_OK;
+         ++r, word += AUR_SPENT_WORDS) {
+        aur_render_take_spent(adaptive->candidate.replicas.renders[r], word);
+        result = aur_fail_in(
+            error, aur_render_merge(adaptive->candidate.replicas.renders[r], kept->films[r], error), path);
+    }
+    return result;
+}
+
+aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error) {
+    if (adaptive->identity == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "an asking goes on whose options say 'resumable'");
+    aur_checkpoint kept;
+    aur_result result = aur_checkpoint_load(path, false, &kept, error);
+    if (result == AUR_OK && kept.film_count < 2)
+        result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
+                             "of another render: it was not made to an error, a time or a number of rays");
+    if (result == AUR_OK)
+        result = aur_identity_compare(path, kept.identity, adaptive->identity, NULL, error);
+    if (result == AUR_OK &&
+        (kept.film_count != adaptive->candidate.replicas.count || kept.word_count != word_count(adaptive)))
+        result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                             "a checkpoint of another form");
+    if (result == AUR_OK)
+        result = take_over(adaptive, path, &kept, error);
+    aur_checkpoint_release(&kept);
+    return result;
+}

@@ -1,0 +1,355 @@
+#include "render/adaptive/candidate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/error.h"
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
+#include "render/film/integrator.h"
+
+/* Lamps that the camera sees, as the integrator shows them. */
+static aur_result find_lamps(aur_candidate *candidate, const aur_scene *scene, uint64_t seed,
+                             aur_error *error) {
+    const aur_render *const render = candidate->replicas.renders[0];
+    const aur_integrator *const integrator = aur_render_integrator(render);
+    const aur_film_layout *const layout = &aur_render_film(render)->layout;
+    if (!integrator->descriptor->shows_lamps)
+        return AUR_OK;
+    const aur_result found =
+        aur_visible_emitters_find(scene, layout, AUR_EMITTER_POINTS, seed, &candidate->visible, error);
+    if (found != AUR_OK)
+        return found;
+    if (integrator->refines_lamp_edges)
+        aur_visible_emitters_leave_edges(layout, &candidate->visible);
+    aur_visible_emitters_take_probes(layout, integrator->lamp_looks, &candidate->visible);
+    return AUR_OK;
+}
+
+aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
+                                size_t replica_count, aur_candidate *candidate, aur_error *error) {
+    aur_render_options own = *options;
+    own.integrator = candidate->integrator;
+    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    candidate->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
+    candidate->bound = INFINITY;
+    candidate->rate = 1.0;
+    aur_cache *const cache = aur_renderer_cache(renderer);
+    aur_cache_uses uses = {.outer = aur_cache_count(cache, NULL)};
+    const uint64_t before = aur_rays_traced;
+    aur_cache_count(cache, &uses);
+    const aur_result result = aur_replicas_create(renderer, &own, replica_count, &candidate->replicas, error);
+    aur_cache_count(cache, uses.outer);
+    candidate->traced = aur_rays_traced - before;
+    candidate->shared = uses.rays;
+    aur_cache_uses_release(&uses);
+    if (result != AUR_OK)
+        return result;
+    const size_t pattern = aur_render_integrator(candidate->replicas.renders[0])->samples_a_pattern;
+    candidate->pattern_samples = pattern > 0 ? pattern : 1;
+    const size_t pixels = candidate->replicas.pixel_count;
+    candidate->value_count = replica_count * pixels;
+    candidate->targets = calloc(candidate->value_count, sizeof *candidate->targets);
+    candidate->earlier = calloc(candidate->value_count, sizeof *candidate->earlier);
+    candidate->variances = calloc(candidate->value_count, sizeof *candidate->variances);
+    candidate->measured = calloc(candidate->value_count, sizeof *candidate->measured);
+    candidate->pixels = calloc(pixels, sizeof *candidate->pixels);
+    candidate->spreads = calloc(pixels, sizeof *candidate->spreads);
+    candidate->scratch = calloc(2 * pixels, sizeof *candidate->scratch);
+    const bool made = candidate->targets != NULL && candidate->earlier != NULL &&
+                      candidate->variances != NULL && candidate->measured != NULL &&
+                      candidate->pixels != NULL && candidate->spreads != NULL && candidate->scratch != NULL;
+    if (!made)
+        return aur_fail_memory(error);
+    const uint64_t prepared = aur_rays_traced;
+    const aur_result found = find_lamps(candidate, aur_renderer_scene(renderer), options->seed, error);
+    candidate->alone = aur_rays_traced - prepared;
+    candidate->traced += candidate->alone;
+    return found;
+}
+
+void aur_candidate_release(aur_candidate *candidate) {
+    aur_replicas_release(&candidate->replicas);
+    free(candidate->targets);
+    free(candidate->earlier);
+    free(candidate->variances);
+    free(candidate->measured);
+    free(candidate->pixels);
+    free(candidate->spreads);
+    free(candidate->scratch);
+    aur_visible_emitters_release(&candidate->visible);
+    free(candidate->integrator);
+    *candidate = (aur_candidate){0};
+}
+
+void aur_candidate_spent(const aur_candidate *candidate, aur_render_statistics *sum) {
+    *sum = (aur_render_statistics){.size = sizeof *sum,
+                                   .rays = candidate->traced + (uint64_t)aur_candidate_rays(candidate)};
+    for (size_t r = 0; r < candidate->replicas.count; ++r) {
+        aur_render_statistics one = {.size = sizeof one};
+        aur_render_get_statistics(candidate->replicas.renders[r], &one, NULL);
+        sum->samples += one.samples;
+        sum->invalid_samples += one.invalid_samples;
+        sum->cut_paths += one.cut_paths;
+        sum->unsolved_weights += one.unsolved_weights;
+        for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+            sum->levels[l] += one.levels[l];
+        sum->prepare_seconds += one.prepare_seconds;
+        sum->render_seconds += one.render_seconds;
+        sum->cpu_seconds += one.cpu_seconds;
+    }
+}
+
+void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum) {
+    aur_render_statistics one;
+    aur_candidate_spent(candidate, &one);
+    sum->rays += one.rays;
+    sum->budget += one.rays - candidate->traced + candidate->alone;
+    sum->prepare_seconds += one.prepare_seconds;
+    sum->render_seconds += one.render_seconds;
+    sum->cpu_seconds += one.cpu_seconds;
+}
+
+double aur_candidate_rays(const aur_candidate *candidate) {
+    uint64_t rays = 0;
+    for (size_t r = 0; r < candidate->replicas.count; ++r)
+        rays += aur_film_counted(aur_render_film(candidate->replicas.renders[r])).rays;
+    return (double)rays;
+}
+
+double aur_goal_noise(const aur_goal *goal) {
+    return sqrt(fmax(goal->error * goal->error - goal->bias * goal->bias, 0.0));
+}
+
+/* The bound for the planning of the next round, whose variances take half the place of those of all before:
+ * of what these are above the ones seen now, half is left. */
+static double bound_expected(const aur_candidate *candidate) {
+    const double high = candidate->interval.high, bound = candidate->bound;
+    return bound > high && high > 0.0 ? sqrt(0.5 * (high * high + bound * bound)) : bound;
+}
+
+/* Where the error's square falls as samples^-rate. */
+static double factor_to_error(const aur_candidate *candidate, double error, double rate) {
+    if (!(candidate->bound < INFINITY))
+        return 1.0 / AUR_MOST_GROWTH;
+    const aur_error_interval *const seen = &candidate->interval;
+    const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
+    const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
+    const double wanted = fmin(margin * error / bound_expected(candidate), 1.0 - least_fall);
+    return pow(wanted * wanted, 1.0 / rate);
+}
+
+double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal) {
+    const double growth = 1.5, pilot = AUR_PILOT_ERROR * goal->error;
+    double factor = 1.0 / growth;
+    if (goal->error > 0.0)
+        factor = factor_to_error(candidate, candidate->bound > pilot ? pilot : aur_goal_noise(goal),
+                                 candidate->rate);
+    if (goal->rays > 0)
+        factor = fmax(factor, fmin(aur_candidate_rays(candidate) / (double)goal->rays, 1.0));
+    return factor;
+}
+
+/* The first samples may make the error fall faster than it does later: by the rate of six samples a pixel the
+ * statue to 4 % seemed to need a fifth of the samples that it takes. */
+double aur_candidate_growth(const aur_candidate *candidate, double error) {
+    const double most =
+        1.25; /* of path tracing by Sobol' points in the bundled scenes (bench/adaptive_speed.c) */
+    const double factor = factor_to_error(candidate, error, fmin(candidate->rate, most));
+    return aur_growth_to(candidate->value_count, candidate->variances, fmin(factor, 1.0), candidate->targets);
+}
+
+void aur_candidate_look_ahead(aur_candidate *candidate, const aur_goal *goal) {
+    const double noise = aur_goal_noise(goal);
+    const aur_integrator *const integrator = aur_render_integrator(candidate->replicas.renders[0]);
+    const bool lawful = !integrator->whole_tiles && candidate->pattern_samples == 1;
+    candidate->whole = 0.0;
+    if (candidate->bound < INFINITY && noise > 0.0 && lawful)
+        candidate->whole = candidate->samples * aur_candidate_growth(candidate, noise);
+}
+
+/* What the variances are thought to be with the samples that are planned. */
+static void predict(aur_candidate *candidate) {
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        if (candidate->targets[i] > candidate->earlier[i])
+            candidate->variances[i] *=
+                pow((double)candidate->earlier[i] / (double)candidate->targets[i], candidate->rate);
+}
+
+static uint32_t whole_patterns(const aur_candidate *candidate, size_t i, size_t more) {
+    const size_t rounded =
+        (candidate->targets[i] + more) / candidate->pattern_samples * candidate->pattern_samples;
+    return (uint32_t)fmin(fmax((double)rounded, candidate->earlier[i]), AUR_SAMPLES_PER_PIXEL_MAX);
+}
+
+/* Targets become the nearest numbers of whole patterns; up, where that would leave all as they were. */
+static void round_to_patterns(aur_candidate *candidate) {
+    size_t more = candidate->pattern_samples / 2;
+    bool raised = false;
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        raised = raised || whole_patterns(candidate, i, more) > candidate->earlier[i];
+    if (!raised)
+        more = candidate->pattern_samples - 1;
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        if (candidate->targets[i] > candidate->earlier[i])
+            candidate->targets[i] = whole_patterns(candidate, i, more);
+}
+
+bool aur_candidate_is_black(const aur_candidate *candidate) {
+    return candidate->rounds > 0 && !(candidate->bound > 0.0) && !(candidate->measure.mean > 0.0);
+}
+
+void aur_candidate_plan_evenly(aur_candidate *candidate, uint32_t samples) {
+    memcpy(candidate->earlier, candidate->targets, candidate->value_count * sizeof *candidate->targets);
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        candidate->targets[i] = samples;
+    predict(candidate);
+    candidate->begun = candidate->looked_at = true;
+}
+
+bool aur_candidate_plan(aur_candidate *candidate, double factor) {
+    if (candidate->rounds == 0) {
+        aur_candidate_plan_evenly(candidate, (uint32_t)candidate->pattern_samples);
+        return true;
+    }
+    const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
+    memcpy(candidate->earlier, candidate->targets, candidate->value_count * sizeof *candidate->targets);
+    candidate->looked_at = rounds == 1.0;
+    candidate->begun =
+        aur_raise_targets(candidate->value_count, candidate->variances, pow(factor, 1.0 / rounds),
+                          AUR_SAMPLES_PER_PIXEL_MAX, candidate->targets);
+    round_to_patterns(candidate);
+    predict(candidate);
+    return candidate->begun;
+}
+
+/* The rate at which the square error falls with samples, from the last round: 1 for random numbers, up to 2
+ * where quasi-Monte Carlo points do better. Rounds that added little tell little. */
+static void learn_rate(aur_candidate *candidate, double earlier_error) {
+    const double growth = log(candidate->samples / candidate->before);
+    if (!(earlier_error < INFINITY) || growth < log(1.5))
+        return;
+    const double rate = 2.0 * log(earlier_error / candidate->interval.estimate) / growth;
+    candidate->rate = fmin(fmax(rate, 1.0), 2.0);
+}
+
+/* The samples of a pixel in all replicas. */
+static double samples_in(const aur_candidate *candidate, const uint32_t *samples, size_t pixel) {
+    double sum = 0.0;
+    for (size_t r = 0; r < candidate->replicas.count; ++r)
+        sum += samples[r * candidate->replicas.pixel_count + pixel];
+    return sum;
+}
+
+/* Puts a pixel's variance and spread of now together with those of the rounds before, half and half. The
+ * spread is that of the variance so made: the square of a sum, whose own squares are told without bias. */
+static void pool_pixel(aur_pixel_spread *pool, double before, double variance, double spread) {
+    const double earlier = pool->variance * before;
+    pool->spread = 0.25 * (pool->spread * before * before + 2.0 * earlier * variance + spread);
+    pool->variance = 0.5 * (earlier + variance);
+}
+
+/* What all rounds say of how few pixels have the error. */
+static void pool_pixels(aur_candidate *candidate) {
+    const aur_replicas *const replicas = &candidate->replicas;
+    for (size_t i = 0; i < replicas->pixel_count; ++i) {
+        double now = 0.0;
+        for (size_t r = 0; r < replicas->count; ++r) {
+            const size_t value = r * replicas->pixel_count + i;
+            now += candidate->measured[value] / candidate->targets[value] / (double)replicas->count;
+        }
+        const double growth =
+            samples_in(candidate, candidate->earlier, i) / samples_in(candidate, candidate->targets, i);
+        if (candidate->rounds > 1)
+            pool_pixel(&candidate->pixels[i], pow(growth, candidate->rate), now, candidate->spreads[i]);
+        else
+            candidate->pixels[i] = (aur_pixel_spread){now, candidate->spreads[i]};
+    }
+    aur_deviations_pool(&candidate->measure.deviations, replicas->count, replicas->pixel_count,
+                        candidate->pixels);
+}
+
+/* What is thought of the variances. */
+typedef struct variance_sums {
+    double measured, pooled, visible; /* by the last round; by all; and of lamps that it need not have met */
+} variance_sums;
+
+/* Puts what the last round says of the variances together with what the rounds before led to expect. A
+ * variance seen in a few replicas has few degrees of freedom: where they agree by chance now, they did not
+ * always. */
+static variance_sums pool_variances(aur_candidate *candidate) {
+    const size_t pixels = candidate->replicas.pixel_count;
+    variance_sums sums = {.measured = 0.0};
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        const double now = candidate->measured[i];
+        const double all = candidate->rounds > 1 ? 0.5 * (candidate->variances[i] + now) : now;
+        const double visible =
+            aur_visible_emitters_variance(&candidate->visible, i % pixels, candidate->targets[i]);
+        candidate->variances[i] = fmax(all, visible);
+        sums.measured += now;
+        sums.pooled += candidate->variances[i];
+        sums.visible += visible;
+    }
+    return sums;
+}
+
+/* The interval's end where the rounds before told of more error, or lamps do that were not met. */
+static double bound_of(const aur_candidate *candidate, const variance_sums *sums) {
+    if (!(candidate->measure.mean > 0.0))
+        return sums->visible > 0.0 ? INFINITY : 0.0;
+    if (sums->measured > 0.0)
+        return candidate->interval.high * sqrt(fmax(sums->pooled / sums->measured, 1.0));
+    const double count = (double)candidate->replicas.count; /* each replica has one part of the mean */
+    return sqrt(sums->pooled / (count * 3.0 * (double)candidate->value_count)) / candidate->measure.mean;
+}
+
+static void plan_samples(aur_candidate *candidate) {
+    double sum = 0.0;
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        sum += candidate->targets[i];
+    candidate->before = candidate->samples;
+    candidate->samples = sum / (double)candidate->replicas.pixel_count;
+}
+
+aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
+                                aur_error *error) {
+    const double earlier_error = candidate->interval.estimate;
+    aur_replicas *const replicas = &candidate->replicas;
+    plan_samples(candidate);
+    for (candidate->replica = 0; candidate->replica < replicas->count; ++candidate->replica) {
+        aur_result result = atomic_load(cancelled) ? AUR_ERROR_CANCELLED : AUR_OK;
+        if (result == AUR_OK)
+            result = aur_render_step_pixels(replicas->renders[candidate->replica], replicas->pixel_count,
+                                            candidate->targets + candidate->replica * replicas->pixel_count,
+                                            error);
+        if (result != AUR_OK) {
+            candidate->samples = candidate->before;
+            return result;
+        }
+    }
+    candidate->begun = false;
+    ++candidate->rounds;
+    aur_render_statistics spent;
+    aur_candidate_spent(candidate, &spent);
+    candidate->samples = (double)spent.samples / (double)replicas->pixel_count;
+    const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
+    aur_replicas_measure(replicas, &candidate->measure, &pixels);
+    pool_pixels(candidate);
+    if (aur_render_integrator(replicas->renders[0])->whole_tiles)
+        aur_replicas_average_tiles(replicas, candidate->targets, candidate->measured);
+    else
+        aur_replicas_smooth(replicas, candidate->targets, candidate->measured, candidate->scratch);
+    const aur_error_interval absolute = aur_replica_interval(&candidate->measure.deviations, replicas->count,
+                                                             3 * replicas->pixel_count, confidence);
+    const double mean = candidate->measure.mean;
+    candidate->interval = (aur_error_interval){.estimate = mean > 0.0 ? absolute.estimate / mean : INFINITY,
+                                               .low = mean > 0.0 ? absolute.low / mean : INFINITY,
+                                               .high = mean > 0.0 ? absolute.high / mean : INFINITY,
+                                               .degrees = absolute.degrees};
+    const variance_sums sums = pool_variances(candidate);
+    candidate->bound = bound_of(candidate, &sums);
+    learn_rate(candidate, earlier_error);
+    return AUR_OK;
+}

@@ -1,0 +1,118 @@
+/* One way to render a picture, tried out or gone through with: replicas by one integrator, and what their
+ * samples say so far. */
+#pragma once
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "render/adaptive/replicas.h"
+#include "render/vertex/visible_emitters.h"
+
+typedef struct aur_candidate {
+    char *integrator; /* as aur_render_options take it; NULL: the scene's own */
+    aur_replicas replicas;
+    size_t value_count; /* replicas x pixels */
+    uint32_t *targets;  /* [value_count] samples of each replica's pixels after the round planned last */
+    uint32_t *earlier;  /* [value_count] before it */
+    double *variances;  /* [value_count] of the replicas' pixels, as the other replicas tell in all rounds */
+    double *measured;   /* the same of the last round alone */
+    aur_pixel_spread *pixels;     /* [pixel_count] as all rounds tell */
+    double *spreads;              /* [pixel_count] of the last round alone */
+    double *scratch;              /* [2 x pixel_count] */
+    aur_visible_emitters visible; /* where the integrator shows them */
+    aur_replica_measure measure;
+    aur_error_interval interval; /* relative to the mean */
+    double bound;           /* of the error, by the rounds before too: at least the interval's upper end */
+    double rate;            /* the error's square falls as samples^-rate */
+    double samples;         /* a pixel, all replicas together */
+    double before;          /* the same before the round that is planned or rendered */
+    size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
+    double whole;           /* and in the end, as aur_candidate_look_ahead thought last; 0: nobody knows */
+    uint64_t rounds;
+    uint64_t traced; /* rays that prepared it */
+    uint64_t shared; /* what it shares with other trials took so many, for whichever was first */
+    uint64_t alone;  /* and what it does not share */
+    bool begun;      /* a round is planned and not all rendered */
+    bool looked_at;  /* the round planned last was to end where it leads, and may be the last of all */
+    size_t replica;  /* replicas done of this round */
+} aur_candidate;
+
+/* `options` as for aur_render_create; the trial's integrator takes the place of theirs, and their samples a
+ * pixel are without meaning. The trial is to be released in every case. Errors as there. */
+aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
+                                size_t replica_count, aur_candidate *candidate, aur_error *error);
+void aur_candidate_release(aur_candidate *candidate);
+
+/* What all replicas have cost together. */
+void aur_candidate_spent(const aur_candidate *candidate, aur_render_statistics *sum);
+
+typedef struct aur_spent {
+    uint64_t rays;   /* traced */
+    uint64_t budget; /* of them, those that count whatever was there before: without what trials share */
+    double prepare_seconds, render_seconds, cpu_seconds;
+} aur_spent;
+
+/* Adds what a trial has cost that may not have been made. */
+void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
+
+/* What rounds lead to; all zero where nobody asks for any. */
+typedef struct aur_goal {
+    double error, bias; /* the noise is to leave room for the bias */
+    uint64_t rays;      /* of this trial's samples */
+} aur_goal;
+
+/* Noise in units of the error asked at which an integrator is compared with another one. At 20 times the
+ * error path tracing was thought to take 13 times its rays on the plates to 5 %, and 3.8 times in a room of
+ * lamps. */
+#define AUR_PILOT_ERROR 6.0
+
+/* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
+ * end comes to AUR_PILOT_ERROR times that, then to what the bias leaves of it, and below it by what the error
+ * seen varies, so that the last round is seldom followed by another. One that follows lowers the error by
+ * more than that: who looks again and again at nearly the same samples stops where the error looks small by
+ * chance. Without an error half as many samples again are taken, or fewer where the rays are spent then. It
+ * depends on the trial and its goal alone, so that a trial that was chosen can be made again by itself. */
+double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal);
+/* How many times as many samples, in all, a round that leads to an error is thought to leave. */
+double aur_candidate_growth(const aur_candidate *candidate, double error);
+/* What the bias leaves of the error. */
+double aur_goal_noise(const aur_goal *goal);
+/* Of its samples alone. */
+double aur_candidate_rays(const aur_candidate *candidate);
+
+/* Finds for progress what the trial will have come to in the end, from what it has before a round is planned.
+ * Of final gathering nobody knows: rounds that were each thought to be the last took three to six times the
+ * samples in the public Cornell box. */
+void aur_candidate_look_ahead(aur_candidate *candidate, const aur_goal *goal);
+
+/* No sample has met light, and none that the camera sees is known of. */
+bool aur_candidate_is_black(const aur_candidate *candidate);
+
+/* Plans the samples of a round; the first is one sample a pixel. Where more than one is needed to the factor,
+ * all grow alike, so that the last one is not a small one that sees nearly what the one before has seen.
+ * False when all pixels have all that they can have. */
+bool aur_candidate_plan(aur_candidate *candidate, double factor);
+/* Plans so many samples in all for every pixel, which none has more than yet. */
+void aur_candidate_plan_evenly(aur_candidate *candidate, uint32_t samples);
+/* Renders what is planned. Errors: CANCELLED, after which another call goes on with the round. */
+aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
+                                aur_error *error);
+
+/* How many samples each pixel of a picture is to have next. */
+
+enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
+
+/* `variances` of the pixels with `targets` samples each: what one more sample would bring falls as variance /
+ * samples^2. Raises the targets to whole numbers so that the sum of the variances falls to `factor` in (0,1)
+ * of what it is, at the least cost (samples in proportion to the root of a pixel's variance for one sample;
+ * Lagrange), but no pixel more than AUR_MOST_GROWTH times in one round, because a variance seen in few
+ * samples is only roughly known; and all of them to a quarter of the mean at least, and to half of it up to
+ * 32 samples. False when no target was raised: all pixels have `most` samples or no variance. */
+bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
+                       uint32_t *targets);
+
+/* How many times as many samples it takes in all to make the sum of variances `factor` in (0,1] of what it
+ * is, where they are spent best. */
+double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets);

@@ -1,0 +1,209 @@
+#include "render/gather/continuation.h"
+
+#include "points/base/random.h"
+#include "render/trace/packet_rays.h"
+#include "render/vertex/vertex.h"
+
+typedef struct continuation_walk {
+    aur_walk path;
+    uint64_t hash;
+    bool known; /* the map has answered for the rest of the path, which had this sum then */
+    aur_vector known_sum;
+} continuation_walk;
+
+/* The emission that the ray meets; `surface` NULL: the sky. Behind mirrors it is the caustic map's. */
+static void add_emission(const aur_continuation *continuation, const aur_surface *surface,
+                         continuation_walk *walk) {
+    if (!walk->path.bounce.specular_bounce || continuation->caustics == NULL)
+        aur_walk_add_emission(continuation->scene, surface, &walk->path);
+}
+
+/* Roulette. Where the map answers for all that the surface scatters, what a path that ends would still have
+ * brought is taken from it, and from one that goes on it is taken away again. */
+static bool survives(const aur_continuation *continuation, const aur_hit *hit, const aur_shading *shading,
+                     aur_vector view, continuation_walk *walk) {
+    const float go_on = continuation->share > 0.0f ? 0.5f : 0.0f;
+    const unsigned kinds = aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
+    aur_texel_view texel = {0};
+    bool known = (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0;
+    if (known) {
+        texel = aur_irradiance_view(continuation->map, continuation->scene, hit, shading->surface, view);
+        known = !aur_continuation_is_near(continuation, hit->distance, texel.area);
+    }
+    const float survival = known ? go_on : aur_survival(walk->path.beta);
+    aur_vector estimate = {0};
+    if (known)
+        estimate = aur_vector_multiply(walk->path.beta, texel.radiance);
+    walk->path.radiance = aur_vector_add(walk->path.radiance, estimate);
+    if (continuation->caustics != NULL) {
+        const aur_texel_view caustic =
+            aur_irradiance_view(continuation->caustics, continuation->scene, hit, shading->surface, view);
+        walk->path.radiance =
+            aur_vector_add(walk->path.radiance, aur_vector_multiply(walk->path.beta, caustic.radiance));
+    }
+    if (known && !walk->known) {
+        walk->known = true;
+        walk->known_sum = walk->path.radiance;
+    }
+    if (!aur_vertex_survives(survival, aur_draw_unit(&walk->hash), &walk->path.beta))
+        return false;
+    walk->path.radiance = aur_vector_add_scaled(walk->path.radiance, -1.0f / survival, estimate);
+    return true;
+}
+
+/* --- sixteen paths, bounce by bounce */
+
+typedef struct continuation_walks {
+    const aur_continuation *continuation;
+    uint32_t alive;
+    aur_vertex_lobes
+        lobes; /* of the surface that the path began at those that the map answers for, then all */
+    continuation_walk walk[AUR_PACKET_SIZE];
+    aur_surface met[AUR_PACKET_SIZE];
+    aur_vector view[AUR_PACKET_SIZE];
+    uint32_t edges[AUR_PACKET_SIZE];
+    aur_packet packet;
+} continuation_walks;
+
+/* Few rays are traced one by one: they would leave a packet nearly empty. */
+static bool is_packet(const aur_continuation *continuation, uint32_t lanes) {
+    return continuation->packets && aur_lane_count(lanes) >= AUR_PACKET_SIZE / 4;
+}
+
+/* A point on a light for each path. */
+static void draw_lights(continuation_walks *walks, aur_light_lanes *lights) {
+    aur_lane_vectors positions = {0}, normals = {0};
+    aur_lane_numbers choice = {0}, u = {0}, v = {0};
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_light_reference reference = aur_shading_reference(&shading);
+        float units[3];
+        aur_draw_units(&walks->walk[k].hash, units);
+        aur_lane_set(&positions, k, reference.position);
+        aur_lane_set(&normals, k, reference.normal);
+        choice[k] = units[0];
+        u[k] = units[1];
+        v[k] = units[2];
+    }
+    const aur_light_references references = {&positions, &normals};
+    aur_light_lanes_each(walks->continuation->scene, walks->alive, &references, choice, u, v, lights);
+}
+
+static void add_direct_light(continuation_walks *walks) {
+    const aur_scene *const scene = walks->continuation->scene;
+    aur_vector radiance[AUR_PACKET_SIZE];
+    aur_light_lanes lights;
+    uint32_t lit = 0;
+    if (aur_scene_emitter_count(scene) == 0)
+        return;
+    draw_lights(walks, &lights);
+    aur_packet_empty(&walks->packet);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_light_sample light = aur_light_lane(&lights, k);
+        aur_shadow shadow;
+        if (!aur_vertex_light(&shading, walks->lobes, AUR_VERTEX_ONE_EACH, &light, &shadow))
+            continue;
+        radiance[k] = shadow.radiance;
+        aur_packet_set(&walks->packet, k, &shadow.ray);
+        lit |= 1u << k;
+    }
+    if (lit == 0)
+        return;
+    lit &= ~(is_packet(walks->continuation, lit)
+                 ? aur_scene_occluded16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
+                 : aur_scene_occluded_each(scene, &walks->packet));
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
+        aur_walk *const path = &walks->walk[aur_first_lane(rest)].path;
+        path->radiance =
+            aur_vector_add(path->radiance, aur_vector_multiply(path->beta, radiance[aur_first_lane(rest)]));
+    }
+}
+
+/* The rays that go on; returns those that meet something. */
+static uint32_t trace(continuation_walks *walks) {
+    const aur_scene *const scene = walks->continuation->scene;
+    aur_packet_empty(&walks->packet);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        float u[3];
+        aur_draw_units(&walks->walk[k].hash, u);
+        if (aur_walk_scatter(&shading, walks->lobes, u, &walks->walk[k].path))
+            aur_packet_set(&walks->packet, k, &walks->walk[k].path.ray);
+        else
+            walks->alive &= ~(1u << k);
+    }
+    if (walks->alive == 0)
+        return 0;
+    return is_packet(walks->continuation, walks->alive)
+               ? aur_scene_intersect16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
+               : aur_scene_intersect_each(scene, &walks->packet);
+}
+
+/* The surface that a path meets; false where the path ends there. */
+static bool meet(continuation_walks *walks, size_t k) {
+    const aur_continuation *const continuation = walks->continuation;
+    continuation_walk *const walk = &walks->walk[k];
+    const aur_hit hit = aur_packet_hit(continuation->scene, &walks->packet, k);
+    aur_scene_surface(continuation->scene, &walk->path.ray, &hit, &walks->met[k]);
+    add_emission(continuation, &walks->met[k], walk);
+    walks->view[k] = aur_vector_scale(walk->path.ray.direction, -1.0f);
+    const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+    return ++walks->edges[k] < continuation->max_depth &&
+           survives(continuation, &hit, &shading, walks->view[k], walk);
+}
+
+static void bounce(continuation_walks *walks) {
+    const aur_continuation *const continuation = walks->continuation;
+    add_direct_light(walks);
+    const uint32_t found = trace(walks);
+    aur_packet_prefetch_indices(continuation->scene, &walks->packet, found);
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(continuation->scene, &walks->packet, aur_first_lane(rest));
+        __builtin_prefetch(
+            &continuation->map->texels.ranges[aur_element_of(&continuation->map->texels.elements, &hit)]);
+    }
+    aur_packet_prefetch_vertices(continuation->scene, &walks->packet, found);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        if (!aur_has_lane(found, k))
+            add_emission(continuation, NULL, &walks->walk[k]);
+        if (!aur_has_lane(found, k) || !meet(walks, k))
+            walks->alive &= ~(1u << k);
+    }
+}
+
+static aur_vector corrected(const aur_continuation *continuation, const aur_continuation_start *start,
+                            const continuation_walk *walk) {
+    if (start->near && continuation->single)
+        return walk->known ? aur_vector_subtract(walk->path.radiance, walk->known_sum) : (aur_vector){0};
+    if (start->near)
+        return walk->path.radiance;
+    return aur_vector_add_scaled(aur_continuation_kept(continuation, start->known),
+                                 1.0f / continuation->share,
+                                 aur_vector_subtract(walk->path.radiance, start->known));
+}
+
+void aur_continuation_correct(const aur_continuation *continuation, size_t count,
+                              const aur_continuation_start *starts, aur_vector *radiance) {
+    continuation_walks walks;
+    walks.continuation = continuation;
+    walks.alive = 0;
+    aur_packet_clear(&walks.packet);
+    for (size_t k = 0; k < count; ++k) {
+        walks.walk[k] =
+            (continuation_walk){.path = {.beta = {1.0f, 1.0f, 1.0f}}, .hash = aur_mix64(~starts[k].hash)};
+        walks.met[k] = starts[k].surface;
+        walks.view[k] = starts[k].view;
+        walks.edges[k] = starts[k].edges;
+        if (starts[k].edges < continuation->max_depth)
+            walks.alive |= 1u << k;
+    }
+    for (walks.lobes = AUR_VERTEX_MAPPED; walks.alive != 0; walks.lobes = AUR_VERTEX_ALL)
+        bounce(&walks);
+    for (size_t k = 0; k < count; ++k)
+        radiance[k] = corrected(continuation, &starts[k], &walks.walk[k]);
+}

@@ -1,0 +1,364 @@
+/* Rendering to a wish: what stops it, that threads change nothing, and that what it says of its error is so.
+ */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <aureole-render/adaptive.h>
+
+typedef struct fixture {
+    aur_scene *scene;
+    aur_renderer *renderer;
+} fixture;
+
+static int set_up(void **state) {
+    static fixture f;
+    assert_int_equal(
+        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f.scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f.scene, &f.renderer, NULL), AUR_OK);
+    *state = &f;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    const fixture *const f = *state;
+    aur_renderer_destroy(f->renderer);
+    aur_scene_destroy(f->scene);
+    return 0;
+}
+
+static aur_render_options small(size_t threads) {
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
+    options.width = 40;
+    options.height = 24;
+    options.threads = threads;
+    options.use_cache = 0; /* rays that were traced by an earlier run would not be counted */
+    return options;
+}
+
+static aur_adaptive *adaptive(const fixture *f, const aur_render_options *render,
+                              const aur_adaptive_options *target) {
+    aur_adaptive *made = NULL;
+    assert_int_equal(aur_adaptive_create(f->renderer, render, target, &made, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(made, NULL), AUR_OK);
+    return made;
+}
+
+/* By a renderer that has nothing prepared. */
+static aur_adaptive *ask_anew(fixture *fresh, const fixture *f, const aur_render_options *render,
+                              const aur_adaptive_options *target) {
+    fresh->scene = f->scene;
+    assert_int_equal(aur_renderer_create(f->scene, &fresh->renderer, NULL), AUR_OK);
+    return adaptive(fresh, render, target);
+}
+
+static aur_adaptive_report report_of(const aur_adaptive *asked) {
+    aur_adaptive_report report = {.size = sizeof report};
+    assert_int_equal(aur_adaptive_get_report(asked, &report, NULL), AUR_OK);
+    return report;
+}
+
+static aur_image *picture_of(const aur_adaptive *asked) {
+    aur_image *image = NULL;
+    assert_int_equal(aur_adaptive_develop(asked, true, &image, NULL), AUR_OK);
+    return image;
+}
+
+static void assert_same_picture(const aur_adaptive *a, const aur_adaptive *b) {
+    aur_image *const x = picture_of(a), *const y = picture_of(b);
+    assert_int_equal(aur_image_channel_count(x), 6);
+    assert_memory_equal(aur_image_data(x), aur_image_data(y),
+                        aur_image_width(x) * aur_image_height(x) * 6 * sizeof(float));
+    aur_image_destroy(x);
+    aur_image_destroy(y);
+}
+
+/* The upper end of the interval is below what was asked, and one thread makes the bits of three. */
+static void test_error(void **state) {
+    const fixture *const f = *state;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.2;
+    aur_render_options one = small(1), three = small(3);
+    one.integrator = three.integrator = "path";
+    aur_adaptive *const a = adaptive(f, &one, &target), *const b = adaptive(f, &three, &target);
+    const aur_adaptive_report report = report_of(a);
+    assert_true(report.error_low < report.error && report.error < report.error_high);
+    assert_true(report.error_high <= 0.2);
+    assert_true(report.rounds > 1 && report.degrees >= 1.0);
+    assert_true(report.statistics.samples == (uint64_t)(report.samples_per_pixel * 40 * 24 + 0.5));
+    assert_same_picture(a, b);
+    assert_string_equal(aur_adaptive_integrator(a), "path");
+    assert_true(report.bias_high == 0.0);
+    aur_adaptive_destroy(a);
+    aur_adaptive_destroy(b);
+}
+
+static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
+    aur_image *const x = picture_of(a), *const y = picture_of(b);
+    const size_t pixels = aur_image_width(x) * aur_image_height(x);
+    double sum = 0.0;
+    for (size_t i = 0; i < 6 * pixels; ++i)
+        if (i % 6 < 3) {
+            const double difference = (double)aur_image_data(x)[i] - (double)aur_image_data(y)[i];
+            sum += difference * difference / (double)(3 * pixels);
+        }
+    aur_image_destroy(x);
+    aur_image_destroy(y);
+    return sum;
+}
+
+/* Where nobody names an integrator, final gathering is found to be the better one in this box. Its picture is
+ * as far from path tracing's as the two intervals allow, and who names it with its bias has the same bits. */
+static void test_choice(void **state) {
+    const fixture *const f = *state;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.02;
+    aur_render_options chosen = small(1), named = small(3), paths = small(0);
+    chosen.width = named.width = paths.width = 96;
+    chosen.height = named.height = paths.height = 72;
+    chosen.filter = named.filter = paths.filter = "box"; /* by the wider one paths are as good here */
+    chosen.seed = named.seed = 6; /* with some seeds the bias is not known soon enough, and paths go on */
+    paths.integrator = "path";
+    paths.seed = 7;
+    fixture first, second;
+    aur_adaptive *const a = ask_anew(&first, f, &chosen, &target);
+    aur_adaptive_options again = target;
+    again.bias = report_of(a).bias_high;
+    named.integrator = aur_adaptive_integrator(a);
+    aur_adaptive *const b = ask_anew(&second, f, &named, &again);
+    aur_adaptive *const truth = adaptive(f, &paths, &target);
+    const aur_adaptive_report report = report_of(a), about_truth = report_of(truth);
+    assert_same_picture(a, b);
+    assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
+    assert_non_null(strstr(aur_adaptive_integrator(a), ",max_depth=-1"));
+    assert_true(report.error_high <= target.error);
+    /* That of the 125,000 photons which so few rays pay for is wrong by nearly as much as may be left. */
+    assert_non_null(strstr(aur_adaptive_integrator(a), ",photons=500000,"));
+    /* Of the error .6 may be the map's bias, which leaves .8 of it to the noise (.6^2 + .8^2 = 1). Pixels
+     * that share light would add what that is wrong by; these have too many directions to share. */
+    assert_null(strstr(aur_adaptive_integrator(a), "share="));
+    assert_true(report.bias_high > 0.0 && report.bias_high <= 0.6 * target.error);
+    assert_true(report.candidate_rays > 0 && report_of(b).candidate_rays == 0);
+    assert_true(report.statistics.rays == report_of(b).statistics.rays + report.candidate_rays);
+    assert_true(square_distance(a, truth) <=
+                (report.error_high * report.error_high + about_truth.error_high * about_truth.error_high) *
+                    report.mean * report.mean);
+    aur_adaptive_destroy(a);
+    aur_adaptive_destroy(b);
+    aur_adaptive_destroy(truth);
+    aur_renderer_destroy(first.renderer);
+    aur_renderer_destroy(second.renderer);
+}
+
+/* What the progress callback was told, and the rays then. */
+typedef struct progress_record {
+    aur_adaptive *asked;
+    size_t count, unknown; /* reports of how much is done; and those that nobody knows */
+    double shares[2048], rays[2048];
+} progress_record;
+
+static int keep_progress(void *user, const char *what, uint64_t done, uint64_t total) {
+    progress_record *const record = user;
+    if (record->asked == NULL) /* it is being prepared */
+        return 0;
+    assert_true(strcmp(what, "rendering") == 0 || strcmp(what, "planning") == 0);
+    assert_true(total == 0 ? done == 0 : done < total); /* the work is not over */
+    record->unknown += total == 0;
+    if (total == 0)
+        return 0;
+    if (record->count > 0 && record->count < 2048)
+        assert_true((double)done / (double)total >= record->shares[record->count - 1]);
+    if (record->count < 2048) {
+        record->shares[record->count] = (double)done / (double)total;
+        record->rays[record->count++] = (double)report_of(record->asked).statistics.rays;
+    }
+    return 0;
+}
+
+/* One bar leads to the error asked, and says about which part of the rays is spent: the pilot rounds are
+ * none of their own. Rounds that follow one that missed the error are not foreseen. */
+static void test_progress(void **state) {
+    const fixture *const f = *state;
+    static progress_record record;
+    aur_render_options options = small(1);
+    options.integrator = "path";
+    options.progress = (aur_progress){keep_progress, &record};
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.06;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &record.asked, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(record.asked, NULL), AUR_OK);
+    const double all = (double)report_of(record.asked).statistics.rays;
+    double off = 0.0;
+    for (size_t i = 0; i < record.count; ++i)
+        off += fabs(record.shares[i] - record.rays[i] / all) / (double)record.count;
+    print_message("%zu reports, %.3f off in the mean\n", record.count, off);
+    assert_true(record.count > 50 && record.count < 2048);
+    assert_true(off < 0.1);
+    /* After a tenth of the work, the rate since half of it tells what is left to a factor of two until little
+     * is. */
+    for (size_t i = 0, half = 0; i < record.count; ++i) {
+        while (record.rays[half] < 0.5 * record.rays[i])
+            ++half;
+        const double done = record.rays[i] / all, rise = record.shares[i] - record.shares[half];
+        const double left = (1.0 - record.shares[i]) * (record.rays[i] - record.rays[half]) / all / rise;
+        if (done > 0.1 && done < 0.9)
+            assert_true(left > 0.5 * (1.0 - done) && left < 2.0 * (1.0 - done));
+    }
+    aur_adaptive_destroy(record.asked);
+}
+
+/* Nobody knows how many rounds final gathering takes: no time left is invented. */
+static void test_unknown_progress(void **state) {
+    const fixture *const f = *state;
+    static progress_record record;
+    aur_render_options options = small(1);
+    options.integrator = "finalgather:photons=2000,diffuse_samples=8,glossy_samples=4";
+    options.progress = (aur_progress){keep_progress, &record};
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.06;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &record.asked, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(record.asked, NULL), AUR_OK);
+    assert_true(record.unknown > 5 && record.count == 0);
+    aur_adaptive_destroy(record.asked);
+}
+
+/* Rounds that a clock would have stopped are made again without one. */
+static void test_rounds_and_rays(void **state) {
+    const fixture *const f = *state;
+    aur_render_options options = small(0);
+    options.integrator = "path:max_depth=-1";
+    aur_adaptive_options rounds = {.size = sizeof rounds}, seconds = rounds, rays = rounds;
+    seconds.seconds = 0.05;
+    aur_adaptive *const by_clock = adaptive(f, &options, &seconds);
+    rounds.rounds = report_of(by_clock).rounds;
+    aur_adaptive *const by_rounds = adaptive(f, &options, &rounds);
+    assert_same_picture(by_clock, by_rounds);
+    rays.rays = 400000;
+    aur_adaptive *const by_rays = adaptive(f, &options, &rays);
+    const uint64_t traced = report_of(by_rays).statistics.rays;
+    assert_in_range(traced, 400000, 600000); /* a round adds at most a half */
+    assert_string_equal(aur_adaptive_integrator(by_rays), "path:max_depth=-1"); /* as the scene says */
+    aur_adaptive_destroy(by_clock);
+    aur_adaptive_destroy(by_rounds);
+    aur_adaptive_destroy(by_rays);
+}
+
+/* For as many rays final gathering is chosen and told how large it is to be: path tracing has an error of 3.2
+ * % then, final gathering at most 1.8 % with its bias. */
+static void test_rays_make_the_pattern(void **state) {
+    const fixture *const f = *state;
+    aur_render_options chosen = small(0), paths = small(0);
+    chosen.width = chosen.height = paths.width = paths.height = 96;
+    chosen.filter = paths.filter = "box";
+    paths.integrator = "path";
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.rays = 8000000;
+    fixture fresh, other;
+    aur_adaptive *const a = ask_anew(&fresh, f, &chosen, &target), *const b = adaptive(f, &paths, &target);
+    const aur_adaptive_report own = report_of(a), path = report_of(b);
+    print_message("%g to %g by %s; path: %g to %g\n", own.error_low, own.error_high,
+                  aur_adaptive_integrator(a), path.error_low, path.error_high);
+    assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
+    assert_true(own.error_high < path.error_low);
+    assert_in_range(own.statistics.rays, target.rays, target.rays * 3 / 2);
+    /* Maps that are there already change no decision, and are not traced. */
+    aur_adaptive *const again = adaptive(&fresh, &chosen, &target);
+    assert_same_picture(a, again);
+    assert_true(report_of(again).candidate_rays == own.candidate_rays);
+    assert_true(report_of(again).statistics.rays < own.statistics.rays);
+    aur_render_options named = chosen;
+    named.integrator = aur_adaptive_integrator(a);
+    target.rays -= own.candidate_rays;
+    aur_adaptive *const alone = ask_anew(&other, f, &named, &target);
+    assert_same_picture(a, alone);
+    assert_true(report_of(alone).statistics.rays + own.candidate_rays == own.statistics.rays);
+    aur_adaptive *const asked[] = {a, b, again, alone};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i)
+        aur_adaptive_destroy(asked[i]);
+    aur_renderer_destroy(fresh.renderer);
+    aur_renderer_destroy(other.renderer);
+}
+
+static int stop_at_once(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    size_t *const calls = user;
+    ++*calls;
+    return *calls < 1000 && done > total / 2;
+}
+
+/* What there is stays, and going on afterwards makes the bits of a run that nobody stopped. */
+static void test_cancelled_picture_is_kept(void **state) {
+    const fixture *const f = *state;
+    aur_render_options options = small(1);
+    size_t calls = 0;
+    options.progress = (aur_progress){stop_at_once, &calls};
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.1;
+    aur_adaptive *asked = NULL;
+    aur_error error = {0};
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &asked, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(asked, &error), AUR_ERROR_CANCELLED);
+    assert_true(calls > 0);
+    aur_image *const image = picture_of(asked);
+    double sum = 0.0;
+    for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image) * 6; ++i)
+        sum += (double)aur_image_data(image)[i];
+    assert_true(sum > 0.0);
+    aur_image_destroy(image);
+    calls = 1000; /* from here on nothing is stopped */
+    assert_int_equal(aur_adaptive_run(asked, NULL), AUR_OK);
+    const aur_render_options plain = small(3);
+    aur_adaptive *const whole = adaptive(f, &plain, &target);
+    assert_same_picture(asked, whole);
+    assert_true(report_of(asked).error == report_of(whole).error);
+    aur_adaptive_destroy(whole);
+    aur_adaptive_destroy(asked);
+}
+
+static void test_bad_wishes(void **state) {
+    const fixture *const f = *state;
+    static const aur_adaptive_options bad[] = {
+        {.size = sizeof bad[0], .error = -0.1},
+        {.size = sizeof bad[0], .error = 1.5},
+        {.size = sizeof bad[0], .seconds = -1.0},
+        {.size = sizeof bad[0], .confidence = 1.0},
+        {.size = sizeof bad[0], .error = 0.1, .bias = 0.05}, /* nobody names the integrator */
+        {.size = sizeof bad[0], .error = 0.1, .bias = 0.1},
+        {.size = sizeof bad[0], .replicas = 2},
+        {.size = sizeof bad[0], .replicas = 17},
+        {.size = 0},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        aur_adaptive *asked = NULL;
+        aur_error error = {0};
+        assert_int_equal(aur_adaptive_create(f->renderer, NULL, &bad[i], &asked, &error), AUR_ERROR_ARGUMENT);
+        assert_null(asked);
+        assert_true(error.message[0] != '\0');
+    }
+    aur_render_options options = small(1);
+    options.integrator = "finalgahter";
+    aur_adaptive *asked = NULL;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, NULL, &asked, NULL), AUR_ERROR_NAME);
+    assert_null(asked);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),
+                                       cmocka_unit_test(test_choice),
+                                       cmocka_unit_test(test_progress),
+                                       cmocka_unit_test(test_unknown_progress),
+                                       cmocka_unit_test(test_rounds_and_rays),
+                                       cmocka_unit_test(test_rays_make_the_pattern),
+                                       cmocka_unit_test(test_cancelled_picture_is_kept),
+                                       cmocka_unit_test(test_bad_wishes)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

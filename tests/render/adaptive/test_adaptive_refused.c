@@ -1,0 +1,90 @@
+/* Where final gathering cannot be made, or is stopped while it is made, asking goes on or ends in order. */
+#include "render/scene/scene_text.h"
+
+#include "render/adaptive/candidate.h"
+
+#include <aureole-render/adaptive.h>
+
+/* A lamp that shines at nothing but the camera: no photon is stored. */
+static const char lone_lamp[] =
+    "<shape type='rectangle'><transform name='to_world'><rotate x='1' angle='180'/><rotate z='1' "
+    "angle='20'/><translate z='4'/></transform><emitter type='area'><rgb name='radiance' "
+    "value='5'/></emitter>"
+    "</shape><shape type='rectangle'><transform name='to_world'><translate z='6'/></transform></shape>";
+
+static void paths_go_on_where_no_photon_is_stored(void **state) {
+    (void)state;
+    aur_renderer *renderer = NULL;
+    aur_scene *const scene = must_load_body(lone_lamp);
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
+    options.width = options.height = 72;
+    options.filter = "box";
+    aur_error error = {0};
+    options.integrator = "finalgather:photons=1000";
+    aur_render *refused = NULL;
+    assert_int_equal(aur_render_create(renderer, &options, &refused, &error), AUR_ERROR_UNSUPPORTED);
+    options.integrator = NULL;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.001; /* so small that final gathering is tried */
+    aur_adaptive *asked = NULL;
+    assert_int_equal(aur_adaptive_create(renderer, &options, &target, &asked, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(asked, &error), AUR_OK);
+    assert_int_equal(strncmp(aur_adaptive_integrator(asked), "path", 4), 0);
+    aur_adaptive_report report = {.size = sizeof report};
+    assert_int_equal(aur_adaptive_get_report(asked, &report, NULL), AUR_OK);
+    assert_true(report.error_high <= target.error);
+    aur_adaptive_destroy(asked);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
+/* Calls that are left until it stops. */
+static int count_down(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what, (void)done, (void)total;
+    size_t *const left = user;
+    return *left == 0 || --*left == 0;
+}
+
+/* After each call, until nothing is left to be stopped: what was made is counted, and released. */
+static void a_trial_is_stopped_while_it_is_made(void **state) {
+    (void)state;
+    aur_scene *scene = NULL;
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    enum { REPLICAS = 4 };
+    size_t stopped = 0, calls = 1, left = 0;
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
+    options.width = options.height = 16;
+    options.sampler = "sobol";
+    options.progress = (aur_progress){count_down, &left};
+    for (aur_result result = AUR_ERROR_CANCELLED; result != AUR_OK; ++calls) {
+        aur_candidate candidate = {.integrator = strdup("finalgather:split=1,photons=20000")};
+        aur_spent spent = {.rays = 0};
+        left = calls;
+        result = aur_candidate_create(renderer, &options, REPLICAS, &candidate, NULL);
+        assert_true(result == AUR_OK || result == AUR_ERROR_CANCELLED);
+        stopped += result == AUR_ERROR_CANCELLED;
+        assert_true(candidate.replicas.count <= REPLICAS);
+        assert_int_equal(candidate.replicas.count == REPLICAS, result == AUR_OK);
+        for (size_t r = 0; r < candidate.replicas.count; ++r)
+            assert_non_null(candidate.replicas.renders[r]);
+        aur_candidate_add_spent(&candidate, &spent);
+        aur_candidate_release(&candidate);
+    }
+    print_message("stopped after each of %zu calls\n", stopped);
+    assert_true(stopped >= REPLICAS); /* each replica's map calls at least once */
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(paths_go_on_where_no_photon_is_stored),
+                                       cmocka_unit_test(a_trial_is_stopped_while_it_is_made)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
