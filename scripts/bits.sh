@@ -3,7 +3,7 @@
 # was: scripts/bits.sh PROGRAM > before; ...; scripts/bits.sh PROGRAM > after; diff before after
 # The sums of pictures are of this machine: Embree's hits differ in the last bits between processors. The others, which
 # scripts/bits.sh PROGRAM numbers gives alone, are those of every processor. COUNT is the number of points a set (64).
-#   scripts/bits.sh PROGRAM record            keeps all of them, pictures by AVX2, in scripts/bits.txt with the processor's name
+#   scripts/bits.sh PROGRAM record [numbers]  stores all of them, or numbers alone, in scripts/bits.txt; pictures by AVX2, with the processor's name
 #   scripts/bits.sh PROGRAM check [numbers]   counts how many are as recorded, perhaps by another processor; exit status 1 where numbers are not
 set -euo pipefail
 export AUREOLE_CACHE= # everything is made anew
@@ -98,8 +98,13 @@ case ${2:-} in
   record)
     export AUREOLE_ISA=avx2
     COUNT=64
-    { echo "# scripts/bits.sh PROGRAM record: $(getconf GNU_LIBC_VERSION), pictures by AVX2 on: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)"
-      pictures; numbers; } >recorded
+    if [ "${3:-}" = numbers ]; then
+      grep -vE '^[0-9a-f]+  (points|measure|weights)' "$record" >recorded
+      numbers >>recorded
+    else
+      { echo "# scripts/bits.sh PROGRAM record: $(getconf GNU_LIBC_VERSION), pictures by AVX2 on: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)"
+        pictures; numbers; } >recorded
+    fi
     cp recorded "$record" ;;
   check)
     COUNT=64
@@ -112,7 +117,7 @@ case ${2:-} in
       echo "$kind: $same of $(wc -l <kept) as recorded"
     done
     [ "$(grep -cE '^[0-9a-f]*  (points|measure|weights)' found)" = "$(grep -cE '^[0-9a-f]*  (points|measure|weights)' "$record")" ] ||
-      { echo "other sets or measures than recorded: scripts/bits.sh PROGRAM record"; status=1; } ;;
+      { echo "other sets or measures than recorded: scripts/bits.sh PROGRAM record numbers"; status=1; } ;;
   *) sed -n '2,8p' "$0" >&2; exit 2 ;;
 esac
 exit $status

@@ -102,7 +102,7 @@ typedef struct aur_gather_settings {
     uint32_t max_depth;             /* edges of a light path; UINT32_MAX: no limit [that] */
     /* Camera rays. */
     aur_gather_pixel pixel; /* [FILTER] */
-    uint32_t edge_samples;  /* camera rays more where a pixel sees several things [128] */
+    uint32_t edge_samples;  /* extra camera rays at edges of objects [128] */
     bool packets;           /* sixteen rays at a time, else one: the same image to rounding [true] */
 } aur_gather_settings;
 

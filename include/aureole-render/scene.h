@@ -40,15 +40,16 @@ AUR_EXPERIMENTAL const char *aur_model_light_name(aur_model_light light);
 typedef struct aur_scene_options {
     size_t size; /* of the caller's struct, so that it can grow */
     size_t definition_count;
-    const aur_definition *definitions; /* they beat the scene's <default>s; an unused one is an error */
-    aur_warnings warnings;             /* legacy parameters and the like */
+    const aur_definition
+        *definitions;      /* they override <default> values of the scene; an unused one is an error */
+    aur_warnings warnings; /* legacy parameters and the like */
     bool confine; /* no file is read that lies outside of the scene's folder, by whatever name or link */
     /* Paths of more files of the scene, read in this order as if it included them at its end. Beside a file
      * of Radiance's all are such; materials of one are known in those after it, as by oconv. */
     size_t further_count;
     const char *const *further;
-    /* That build the tree which rays are traced against, where it has a million primitives or more; below,
-     * one does. 0: all that there are. The tree does not depend on it. */
+    /* Threads that build the acceleration structure of scenes with a million primitives or more (smaller
+     * ones use one thread). 0: all processors. The result does not depend on it. */
     size_t threads;
     aur_model_light model_light;
     /* Asked, while a model is read, whether to stop. Those that assimp reads are read by a process of their

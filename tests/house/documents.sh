@@ -26,6 +26,7 @@ while IFS='|' read -r _ what write table _; do
   grep -qE "\b$type\b" "$table" || wrong "CONTRIBUTING.md:$what: $table knows no $type"
   place=$(dirname "$table")/$header
   [ -e "$place" ] || place=$folder/$header
+  [ -e "$place" ] || place=$header
   grep -qE "\b$type\b" "$place" || wrong "CONTRIBUTING.md:$what: $place knows no $type"
 done < <(grep -E '^\| an? ' CONTRIBUTING.md)
 [ "$rows" -ge 7 ] || wrong "CONTRIBUTING.md has lost its table"

@@ -12,8 +12,8 @@ static bool begin(const aur_exchange *g, aur_upper_walk *walk) {
     return aur_upper_walk_begin(g->rows, g->starts, g->columns, walk);
 }
 
-/* lacks[randomizations][rows]: what rows lack in each randomisation more than in the mean. What has been cut
- * at 0 is 0 in all. */
+/* lacks[randomizations][rows]: residual of each row's sum in each randomisation, minus its mean over the
+ * randomisations. Entries that were cut at 0 are 0 in all randomisations. */
 static bool find_deficits(const aur_row_system *s, double *deficits) {
     const aur_exchange *const g = s->exchange;
     const size_t width = g->randomizations, rows = g->rows;

@@ -1,5 +1,5 @@
-/* Things that are costly to make and that several renders of one scene may share, found by a text that says
- * all that they depend on. Not for two threads at once. */
+/* Cache of expensive objects that several renders of a scene share, keyed by a string of everything that they
+ * depend on. Not thread-safe. */
 #pragma once
 
 #include <aureole/core.h>

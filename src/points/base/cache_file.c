@@ -13,7 +13,7 @@
 #include "points/base/words.h"
 
 /* A file is the data, the key, and three words of 8 bytes in the machine's own order: the key's length, a
- * hash of both, and a mark, by which a machine with another order of bytes knows that it is none of its own.
+ * hash of both, and a magic number, which also detects files of the other byte order.
  */
 enum { PATH_CAPACITY = 4096, WORDS = 3, DEFAULT_MEBIBYTES = 1024 };
 

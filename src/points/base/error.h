@@ -24,7 +24,7 @@ void aur_warn_at(const aur_warnings *warnings, aur_location location, const char
 /* Warns of what an error says, where there is one: others like it are to be told of too. */
 void aur_warn_error(const aur_warnings *warnings, const aur_error *error);
 
-/* The one wording for memory that is not to be had. */
+/* Out-of-memory error. */
 aur_result aur_fail_memory(aur_error *error);
 aur_result aur_fail_memory_at(aur_error *error, aur_location location);
 

@@ -96,9 +96,9 @@ uint64_t aur_build_identity(void);
 /* Modules: what stands beside the libraries in a file of its own, so that only those who need it pay for what
  * it links. A build may lack one. */
 
-/* The function `symbol` of the module `file`, which is looked for in the folder of the library and then where
- * the system looks; NULL where there is none. `global`: what the module loads itself looks for its names. A
- * module stays loaded until the process ends. */
+/* The function `symbol` of the module `file`, searched for in the folder of the library and then in the
+ * system's path; NULL if it is not found. `global`: RTLD_GLOBAL, so that libraries that the module loads see
+ * its symbols. A module stays loaded until the process ends. */
 void (*aur_module_find(const char *file, const char *symbol, bool global))(void);
 
 /* The path of a program of ours that stands beside the library; false where there is none. */

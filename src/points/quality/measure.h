@@ -27,7 +27,7 @@ typedef struct aur_measure_request {
 typedef struct aur_measure_row {
     aur_measure_description description;
     size_t minimum_count; /* 0 stands for 1 */
-    bool masses;          /* weights must not be negative */
+    bool masses;          /* weights come normalised, 1/N where none are given; negative ones are refused */
     size_t variant;       /* tells rows apart that share a function */
     /* One of the two, as description.series says. */
     aur_result (*compute)(const aur_measure_request *request, double *value, aur_error *error);

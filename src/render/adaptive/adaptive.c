@@ -36,7 +36,7 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
     return AUR_OK;
 }
 
-/* --- progress: one bar over all rounds and replicas, to where the wish is thought to be met */
+/* --- progress: one bar over all rounds and replicas, up to the predicted stopping point */
 
 /* Rays, of all integrators that are tried; infinitely many left: nobody knows. */
 typedef struct rays_on_the_way {
@@ -145,8 +145,8 @@ aur_result aur_adaptive_take_candidates(aur_adaptive *adaptive, size_t candidate
     return integrator != NULL ? begin_candidate(adaptive, integrator, error) : aur_fail_memory(error);
 }
 
-/* What the rounds lead to. Rays of other trials, and those that prepared this one, are spent, and are no
- * matter of its rounds, which are those of an asking that names its integrator. */
+/* Stopping target of the rounds. Rays spent on rejected candidates and on preparation do not count, so the
+ * result equals a run that names the integrator. */
 static aur_goal goal_of(const aur_adaptive *adaptive) {
     const aur_adaptive_options *const target = &adaptive->target;
     const uint64_t spent = adaptive->others.budget + adaptive->candidate.shared + adaptive->candidate.alone;
@@ -191,7 +191,7 @@ static aur_result choose(aur_adaptive *adaptive, aur_error *error) {
     return result;
 }
 
-/* Another trial may be made when the caller's texts are gone. */
+/* Copy the strings: later candidates outlive the caller's. */
 static aur_result keep_options(aur_adaptive *adaptive, aur_renderer *renderer,
                                const aur_render_options *options, aur_error *error) {
     adaptive->renderer = renderer;

@@ -57,10 +57,10 @@ typedef struct aur_spent {
 /* Adds what a trial has cost that may not have been made. */
 void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
-/* What rounds lead to; all zero where nobody asks for any. */
+/* Stopping target; all zero: none. */
 typedef struct aur_goal {
-    double error, bias; /* the noise is to leave room for the bias */
-    uint64_t rays;      /* of this trial's samples */
+    double error, bias; /* the noise must leave room for the bias */
+    uint64_t rays;      /* for this candidate's samples */
 } aur_goal;
 
 /* Noise in units of the error asked at which an integrator is compared with another one. At 20 times the
@@ -71,9 +71,9 @@ typedef struct aur_goal {
 /* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
  * end comes to AUR_PILOT_ERROR times that, then to what the bias leaves of it, and below it by what the error
  * seen varies, so that the last round is seldom followed by another. One that follows lowers the error by
- * more than that: who looks again and again at nearly the same samples stops where the error looks small by
- * chance. Without an error half as many samples again are taken, or fewer where the rays are spent then. It
- * depends on the trial and its goal alone, so that a trial that was chosen can be made again by itself. */
+ * more than that: repeated tests on nearly the same samples bias the stopping time. Without an error half as
+ * many samples again are taken, or fewer where the rays are spent then. It depends on the trial and its goal
+ * alone, so that a trial that was chosen can be made again by itself. */
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal);
 /* How many times as many samples, in all, a round that leads to an error is thought to leave. */
 double aur_candidate_growth(const aur_candidate *candidate, double error);

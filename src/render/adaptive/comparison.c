@@ -92,9 +92,9 @@ static bool pays(const aur_choice *choice, const aur_comparison *comparison) {
 
 /* How many times as many rays show that a squared bias is no more than `most`, if its estimate is too large
  * by chance: a little beyond that, and a step that is worth a look. Infinite where the estimate is too much
- * by more than chance. Who goes on loses little before a part of all rays is spent, and who gives up takes
- * paths: until then the estimate may be wrong by more, as the first few samples are where few of them have
- * most of the square (one sample of the room told at least .055 where .016 is true). */
+ * by more than chance. Continuing is cheap early, and giving up commits to path tracing: until then the
+ * estimate may be wrong by more, as the first few samples are where few of them have most of the square (one
+ * sample of the room told at least .055 where .016 is true). */
 static double growth_needed(const aur_bias *bias, double most, double part_spent) {
     const double probability = part_spent < LEAST_PART ? 2.0 : 0.5;
     const double room = most - fmax(bias->estimate - probability * uncertain(bias), 0.0);

@@ -54,7 +54,7 @@ aur_result aur_comparison_create(const aur_comparison *comparison, const aur_cho
                                  const aur_render_options *options, char *integrator,
                                  aur_candidate *candidate, aur_error *error);
 
-/* The next round, as whoever goes on with the trial would plan it. False where no pixel can have more. */
+/* Plans and renders one round exactly as the final render would. False at the sample cap. */
 aur_result aur_comparison_round(const aur_choice *choice, const aur_goal *goal, aur_candidate *candidate,
                                 bool *more, aur_error *error);
 

@@ -38,7 +38,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     (void)parameters;
     occlusion_data *const data = integrator->data;
     aur_gather_rule_options *const pattern = &data->pattern;
-    /* Who does not know how many samples there will be says the most that there can be. They share long
+    /* AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. Many samples share long
      * patterns, whose heights, which no rotation changes, lie close; a sample has an eighth of `samples`. */
     enum { SAMPLES_KNOWN = 1 << 16, SAMPLES_A_PATTERN = 128, PATTERN_LENGTH = 16 };
     data->occlusion.renews = context->samples_per_pixel > SAMPLES_KNOWN;

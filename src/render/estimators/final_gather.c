@@ -55,7 +55,7 @@ static const aur_key keys[] = {
         aur_gather_settings, "max_depth", max_depth, -1, 1 << 20, "-1",
         "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "edges", edge_samples, 0, 65536, "128",
-                        "camera rays more where a pixel sees several things")},
+                        "extra camera rays at edges of objects")},
     {AUR_KEY_OF_CHOICE(aur_gather_settings, "pixel", pixel, "filter",
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
 };

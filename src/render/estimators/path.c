@@ -20,8 +20,7 @@ static const aur_key keys[] = {
                         "points on lights at each surface, of which one gets the shadow ray, chosen by what "
                         "it would bring: less noise under skies for more time")},
     {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
-                     "camera rays that a sample has more in the picture's mean, where lamps have edges: they "
-                     "tell how much of a lamp a pixel sees"),
+                     "extra camera rays per sample at edges of visible lights (image average)"),
      .computed = true},
 };
 
@@ -33,8 +32,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "integrator 'path': 'interleaved' goes neither with 'packets=false' nor with "
                            "'hide_emitters=true'");
-    /* The noise of lamps seen straight is what keeps the rounds of pictures to an error going until rare
-     * reflections of lamps are met, too. */
+    /* Keep the noise of directly visible lights: otherwise --error stops before rare reflections of lights
+     * are sampled. */
     if (aur_parameters_find(parameters, "lamp_rays") == NULL)
         data->lamp_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
     return aur_path_prepare(data, context->scene, error);

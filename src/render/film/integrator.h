@@ -71,7 +71,7 @@ typedef struct aur_integrator_descriptor {
 
 enum { AUR_EXTRA_CHANNELS_MAX = 64 };
 
-/* Who does not know how many samples a pixel will have says the most that there can be. */
+/* False where samples_per_pixel is AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. */
 static inline bool aur_integrator_knows_samples(const aur_integrator_context *context) {
     return context->samples_per_pixel < AUR_SAMPLES_PER_PIXEL_MAX;
 }
@@ -85,7 +85,7 @@ struct aur_integrator {
     bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
     bool whole_tiles;           /* all pixels of a tile have as many samples */
     bool refines_lamp_edges;    /* where neighbours see the edge of a lamp a pixel has more rays */
-    uint32_t samples_a_pattern; /* of a pixel that complete one another, and then the next ones; 0: none do */
+    uint32_t samples_a_pattern; /* samples of a pixel that form one pattern; 0: no patterns */
     const uint16_t
         *lamp_looks;    /* of each pixel of the picture: rays of a sample for lamps alone; NULL: none */
     size_t extra_count; /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */

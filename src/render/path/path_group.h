@@ -7,15 +7,15 @@
 #include "render/path/path.h"
 #include "render/trace/packet_rays.h"
 
-/* Is told of light that a lane finds in the sky: from where, how much, and whether it came straight. */
+/* Callback per environment hit: direction, radiance, and whether the path is unscattered. */
 typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vector light, bool unscattered);
 
 /* What irradiance at a sensor has of its paths beside their sums; all 0 for paths of the camera. */
 typedef struct aur_path_sensor {
-    /* By emitter, those that are below 0 shine on straight lanes that meet them, as all do where this is
-     * NULL: the light of the others is known. */
+    /* Per emitter: >= 0 if unscattered light was already counted analytically; < 0, or NULL here: add the
+     * emission that is hit. */
     const float *known;
-    /* Is told, beside the sums, of all that environments send, in scenes without another light; or NULL. */
+    /* Called for each environment hit, in addition to the sums, in scenes without other lights; or NULL. */
     aur_path_sky *from_sky;
     void *from_sky_user;
     bool panes; /* rays to lights go straight through surfaces that let them */

@@ -71,7 +71,7 @@ struct aur_emitter {
 
 extern const aur_table aur_emitter_table;
 
-/* Whether it is a surface that shines to all sides, so that rays find it. */
+/* Diffuse area light, reachable by BSDF sampling. */
 static inline bool aur_emitter_glows(const aur_emitter *emitter) {
     return emitter->descriptor->pdf_seen != NULL;
 }

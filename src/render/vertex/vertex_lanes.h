@@ -10,7 +10,7 @@ typedef struct aur_vertex_lanes {
     aur_lane_vectors sum; /* radiance found so far */
     /* Where the ray began: the last surface, and its normal as aur_light_reference has it. */
     aur_lane_vectors from, from_normal;
-    aur_lane_numbers pdf; /* with which its direction was drawn, a steradian */
+    aur_lane_numbers pdf; /* of its direction, per steradian */
 
     /* Numbers of the bounce, in [0,1). */
     aur_lane_numbers choice, roulette, light_u, light_v, lobe, selection, direction_u, direction_v;

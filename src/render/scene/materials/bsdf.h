@@ -25,7 +25,6 @@ typedef struct aur_bsdf_point {
     aur_vector vertex_color, face_color; /* the mesh's, 0 where it has none */
 } aur_bsdf_point;
 
-/* What of that a material or texture asks for, a bit each. */
 /* The attributes of meshes that a material reads: one of vertices and one of faces are what a shape can have.
  */
 typedef struct aur_attributes {
