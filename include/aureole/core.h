@@ -4,8 +4,9 @@
  *     aur_weights_options options = {.size = sizeof options};
  *     aur_weights_options_init(&options, NULL);
  * aur_..._init fills the struct with its defaults. Its only error is ARGUMENT: `size` is not set. Structs
- * without `size` never grow: errors, callbacks, rotations, lobes, outputs, reports of weights. Rows of tables
- * are read by pointer; elements of arrays of results grow where the function takes the size of one.
+ * without `size` never grow: errors, callbacks, vectors, rotations, lobes, outputs, moments, hours and notes
+ * of weather, reports of weights. Rows of tables are read by pointer; elements of arrays of results grow
+ * where the function takes the size of one.
  *
  * An enumeration whose values a user names in text has aur_..._from_name and aur_..._name. */
 #ifndef AUREOLE_CORE_H

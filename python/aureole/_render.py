@@ -212,10 +212,10 @@ def render(
         if error is None:
             library.call(library.lib.aur_renderer_render, renderer, options, image, ffi.NULL)
         else:
-            wish = library.options("ask_options", error=error)
-            ask = library.make("ask", renderer, options, wish, keep=(renderer, call))
-            library.call(library.lib.aur_adaptive_run, ask)
-            library.call(library.lib.aur_adaptive_develop, ask, False, image)
+            target = library.options("adaptive_options", error=error)
+            adaptive = library.make("adaptive", renderer, options, target, keep=(renderer, call))
+            library.call(library.lib.aur_adaptive_run, adaptive)
+            library.call(library.lib.aur_adaptive_develop, adaptive, False, image)
     array, names = _picture(library.own("image", image))
     return _select(array, names, channels or ("R", "G", "B"))
 
