@@ -64,10 +64,10 @@ static aur_result render(const bench_adaptive_scene *self, const char *integrato
     own.threads = self->options->threads;
     own.integrator = integrator;
     own.seed = seed;
-    aur_adaptive_options wish = {.size = sizeof wish};
-    aur_adaptive_options_init(&wish, NULL);
-    wish.error = asked;
-    aur_result result = aur_adaptive_create(self->renderer, &own, &wish, adaptive, error);
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = asked;
+    aur_result result = aur_adaptive_create(self->renderer, &own, &target, adaptive, error);
     if (result == AUR_OK)
         result = aur_adaptive_run(*adaptive, error);
     return result == AUR_OK ? aur_adaptive_develop(*adaptive, false, image, error) : result;

@@ -50,7 +50,7 @@ endforeach()
 # Names that headers had before each library had a folder of them, for one version.
 set(moved_headers)
 if(AUREOLE_RENDER)
-    list(APPEND moved_headers render/ask.h render/film.h render/image.h render/radiosity.h render/render.h render/render.hpp render/scene.h)
+    list(APPEND moved_headers render/film.h render/image.h render/radiosity.h render/render.h render/render.hpp render/scene.h)
 endif()
 if(TARGET aureole-lighting)
     list(APPEND moved_headers lighting/daylight.h lighting/irradiance.h lighting/view_factors.h)

@@ -1,7 +1,7 @@
-/* Rendering until a picture is good enough: to an error, for a time, for a number of rays. Several
- * independent renderings of the scene with different random numbers are made side by side; their mean is the
- * picture, and their differences say how far it is from the truth. More samples go to the parts of the
- * picture that need them. The picture is a function of scene, options and seed, on any number of threads. */
+/* Rendering to a target error or within a budget of time or rays. Several independent replicas of the scene,
+ * with different random numbers, are rendered side by side; their mean is the image, and their spread gives
+ * its error. Pixels with more variance receive more samples. The image is a function of scene, options and
+ * seed, on any number of threads. */
 #ifndef AUREOLE_ADAPTIVE_H
 #define AUREOLE_ADAPTIVE_H
 
@@ -11,20 +11,19 @@
 extern "C" {
 #endif
 
-/* `size` is the caller's. Rendering ends after the first round of samples that meets one of the wishes that
- * are not zero; with none, after the round that brings the error below one per cent. */
+/* `size` is the caller's. Rendering stops after the first round of samples that meets one of the targets that
+ * are not zero; with none, after the round that brings the error below 1 %. */
 typedef struct aur_adaptive_options {
     size_t size;
-    /* The root mean square error over all pixels and the channels R, G, B, divided by their mean; the upper
-     * end of its interval is to be below. In (0, 1]. */
+    /* Target of the root mean square error over all pixels and channels R, G, B, relative to their mean:
+     * rendering stops when the upper confidence bound is below this. In (0, 1]. */
     double error;
-    double
-        seconds; /* by the clock, preparation included: the only wish whose picture depends on the machine */
+    double seconds; /* wall clock, with preparation: the only target whose image depends on the machine */
     uint64_t rays;
     uint64_t rounds;
-    /* What the named integrator may be wrong by in the mean, relative as `error` and below it where that is
-     * not zero: the noise is to leave room for it, and it is part of what is said. 0 where an integrator is
-     * chosen, for its bias is then measured. */
+    /* Systematic error to allow for the named integrator, relative as `error` and below it if that is not
+     * zero: the target of the noise leaves room for it, and the reported error includes it. 0 where the
+     * integrator is chosen: its bias is measured then. */
     double bias;
     double confidence; /* of the interval, in [.5, .9999]; 0: .95 */
     size_t replicas;   /* independent renderings, 3 to 16; 0: 4 */
@@ -39,23 +38,23 @@ typedef struct aur_adaptive aur_adaptive;
  * for Owen-scrambled Sobol points, and `integrator` NULL for the scene's own where that is one that looks at
  * a scene in its own way (`ao`, `direct`, `radiosity`, `depth`, `aov`), else for `path` or `finalgather` with
  * the scene's max_depth, whichever is found to need less for an error, a time or a number of rays. Both
- * options may be NULL. The renderer must outlive the asking. Errors: those of aur_render_create, ARGUMENT for
- * a wish out of range. */
+ * options may be NULL. The renderer must outlive it. Errors: those of aur_render_create, ARGUMENT for
+ * a target out of range. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_create(aur_renderer *renderer, const aur_render_options *render,
                                                 const aur_adaptive_options *options, aur_adaptive **adaptive,
                                                 aur_error *error) AUR_NONNULL(1, 4);
 AUR_EXPERIMENTAL void aur_adaptive_destroy(aur_adaptive *adaptive); /* NULL is allowed */
 
-/* Renders rounds until the wish is met. Errors: CANCELLED by aur_adaptive_cancel or the progress callback:
+/* Renders rounds until the target is met. Errors: CANCELLED by aur_adaptive_cancel or the progress callback:
  * the picture keeps the samples of tiles that were finished, the report is that of the last whole round, and
- * another call goes on to the same picture as if nothing had been; MEMORY and others, after which the asking
+ * another call goes on to the same picture as if nothing had been; MEMORY and others, after which it
  * can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) AUR_NONNULL(1);
 /* Stops aur_adaptive_run in another thread; may be called from a signal handler. */
 AUR_EXPERIMENTAL void aur_adaptive_cancel(aur_adaptive *adaptive) AUR_NONNULL(1);
 
-/* As aur_render_save and aur_render_resume, for an asking whose render options say `resumable`: the rounds go
- * on as if nothing had been. */
+/* As aur_render_save and aur_render_resume, where the render options say `resumable`: the rounds
+ * continue as if there had been no interruption. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path,
                                               aur_error *error) AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error)
@@ -76,8 +75,8 @@ typedef struct aur_adaptive_report {
     size_t replicas;
     aur_render_statistics
         statistics; /* of all replicas together, and of what was tried; its size is set here */
-    /* Of the rays, those of trials that are not in the picture, and of what only these needed. Also where
-     * that was there already: in the renderer, or in a file of the cache. */
+    /* Rays of rejected candidates and of their preparation, counted also where the preparation was found in
+     * the renderer or in a file of the cache. */
     uint64_t candidate_rays;
     double
         bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
@@ -87,7 +86,7 @@ typedef struct aur_adaptive_report {
 AUR_EXPERIMENTAL aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *report,
                                                     aur_error *error) AUR_NONNULL(1, 2);
 
-/* The integrator with its keys, as aur_render_options take it. The asking owns the text. */
+/* The integrator with its keys, as aur_render_options take it. `adaptive` owns the text. */
 AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);
 
 /* The picture, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard

@@ -338,7 +338,7 @@ AUR_EXPERIMENTAL aur_result aur_weight_table_look_up(const aur_weight_table *tab
 AUR_EXPERIMENTAL double aur_weight_table_mass(const aur_weight_table *table, double radians, double alpha)
     AUR_NONNULL(1);
 
-/* --- the rivals: no system to solve */
+/* --- weights without a system to solve */
 
 /* Veach's heuristics for samples drawn by several strategies: BALANCE in proportion to n q, POWER to its
  * square. */

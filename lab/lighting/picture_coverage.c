@@ -26,20 +26,20 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     options.filter = "box";
     options.seed = seed;
     options.threads = lab_run_options(run)->threads;
-    aur_adaptive_options wish = {.size = sizeof wish};
-    aur_adaptive_options_init(&wish, NULL);
-    wish.error = asked;
-    wish.rounds = asked > 0.0 ? 0 : 2;
-    aur_adaptive *ask = NULL;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = asked;
+    target.rounds = asked > 0.0 ? 0 : 2;
+    aur_adaptive *adaptive = NULL;
     aur_image *image = NULL;
     aur_adaptive_report report = {.size = sizeof report};
-    aur_result result = aur_adaptive_create(renderer, &options, &wish, &ask, error);
+    aur_result result = aur_adaptive_create(renderer, &options, &target, &adaptive, error);
     if (result == AUR_OK)
-        result = aur_adaptive_run(ask, error);
+        result = aur_adaptive_run(adaptive, error);
     if (result == AUR_OK)
-        result = aur_adaptive_get_report(ask, &report, error);
+        result = aur_adaptive_get_report(adaptive, &report, error);
     if (result == AUR_OK)
-        result = aur_adaptive_develop(ask, false, &image, error);
+        result = aur_adaptive_develop(adaptive, false, &image, error);
     if (result == AUR_OK) {
         memcpy(made->values, aur_image_data(image), sizeof made->values);
         made->low = report.error_low;
@@ -48,7 +48,7 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
         made->samples = report.samples_per_pixel;
     }
     aur_image_destroy(image);
-    aur_adaptive_destroy(ask);
+    aur_adaptive_destroy(adaptive);
     return result;
 }
 

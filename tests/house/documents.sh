@@ -14,6 +14,14 @@ while IFS= read -r document; do
   done < <(grep -oE '\]\([^)]+\)' "$document" | sed -E 's/^\]\(//; s/\)$//' | grep -vE '^(https?|mailto):')
 done < <(find . -name '*.md' -not -path './build/*' -not -path './out/*' -not -path './.git/*')
 
+shopt -s globstar
+# So does every file of ours that a comment names, by its path or alone in brackets.
+while IFS=: read -r file name; do
+  name=${name#\(}
+  name=${name%)}
+  [ -e "src/$name" ] || [ -e "$name" ] || compgen -G "src/**/$name" >/dev/null || compgen -G "include/*/$name" >/dev/null || wrong "$file names $name, which is not there"
+done < <(grep -roE '\((points|render|lighting|program)?[a-z0-9_/]+\.[ch]\)' src --include='*.[ch]' | sort -u)
+
 rows=0
 while IFS='|' read -r _ what write table _; do
   rows=$((rows + 1))

@@ -51,6 +51,10 @@ CMAKE
 cmake -S consumer -B consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 || { cat cmake.log; exit 1; }
 cmake --build consumer/build >cmake.log 2>&1 || { cat cmake.log; exit 1; }
 [ "$(consumer/build/consumer)" = "$version" ] || { echo "the CMake consumer does not run"; exit 1; }
+# Every header of every library compiles by itself, those under old names too.
+for header in "$prefix"/include/*/*.h; do
+  printf '#include "%s"\n' "$header" | cc -std=c17 -fsyntax-only -I"$prefix/include" -x c - || { echo "$header does not compile"; exit 1; }
+done
 
 
 # Whether find_package takes components: finds PREFIX COMPONENT...

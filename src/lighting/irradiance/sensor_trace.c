@@ -292,10 +292,10 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
                 sensor_sums->sums[k][DIRECT][c] += brought[c];
         if (g->sensor.from_sky == NULL || !aur_has_lane(sky, k))
             continue;
-        const aur_vector told = {(float)(left[0] * light[k][0]), (float)(left[1] * light[k][1]),
-                                 (float)(left[2] * light[k][2])};
+        const aur_vector sky_light = {(float)(left[0] * light[k][0]), (float)(left[1] * light[k][1]),
+                                      (float)(left[2] * light[k][2])};
         g->sensor.from_sky(g->sensor.from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
-                           aur_vector_scale(told, 1.0f / AUR_PI_F), true);
+                           aur_vector_scale(sky_light, 1.0f / AUR_PI_F), true);
     }
 }
 

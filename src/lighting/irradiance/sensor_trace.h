@@ -13,7 +13,7 @@
 
 /* What is known beforehand of the light that surfaces reflect: a photon map, or a radiosity solution. Where a
  * path meets such a surface for the first time it takes what is known, and goes on now and then to take away
- * what that is wrong by, as render/gather/onward.h has it for pictures. So the mean is that of paths,
+ * what that is wrong by, as render/gather/continuation.h has it for images. So the mean is that of paths,
  * whatever is known. */
 
 typedef struct aur_cached_light {

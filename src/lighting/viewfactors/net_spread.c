@@ -61,9 +61,9 @@ static double find_rate(size_t count, size_t parts, const double *values) {
     if (!(paired > 0.0))
         return USUAL_RATE;
     /* Numbers that vary more tell more: so many alike ones would tell as much. */
-    const double told = single * single / squares / variance_of_rate((double)parts),
+    const double measured = single * single / squares / variance_of_rate((double)parts),
                  usual = 1.0 / USUAL_VARIANCE;
-    return (told * rate_of(single / paired, (double)parts) + usual * USUAL_RATE) / (told + usual);
+    return (measured * rate_of(single / paired, (double)parts) + usual * USUAL_RATE) / (measured + usual);
 }
 
 double aur_net_spread_settle(size_t count, size_t parts, double *values) {

@@ -20,7 +20,7 @@ aur_result aur_sky_slices_create(const aur_facets *facets, const char *set, size
 void aur_sky_slices_destroy(aur_sky_slices *slices); /* NULL is allowed */
 
 /* sky[patch_count][randomizations]: the part of the view that is the sky; 0 for patches without area. The
- * randomisations spread as independent ones whose mean errs as the whole set does (net_spread.h). Errors:
+ * randomisations spread as independent ones whose mean errs as the whole set does (net_spread.c). Errors:
  * CANCELLED, MEMORY. */
 aur_result aur_sky_slices_measure(const aur_sky_slices *slices, const aur_parallel_options *parallel,
                                   double *sky, aur_error *error);

@@ -31,7 +31,7 @@ typedef struct aur_transport {
 /* What the module for a carrier shows, by the name "aur_transport_open". Starts it, or says why not. */
 typedef aur_result (*aur_transport_open_function)(aur_transport *transport, aur_error *error);
 
-/* Finds and starts the carrier that this build has (carrier.c). Errors: UNSUPPORTED. */
+/* Finds and starts the transport that this build has (transport.c). Errors: UNSUPPORTED. */
 aur_result aur_transport_find(aur_transport *transport, aur_error *error);
 
 typedef enum aur_message_kind {

@@ -22,7 +22,8 @@ const char *aur_scramble_name(aur_scramble scramble) {
     return (size_t)scramble < SCRAMBLE_COUNT ? scramble_names[scramble] : NULL;
 }
 
-uint64_t aur_size_limit(const aur_set_description *set, size_t dimension) {
+/* The most points that such a set has. */
+static uint64_t size_limit(const aur_set_description *set, size_t dimension) {
     return set->counts_coordinates && dimension > 0 ? set->maximum_size / dimension : set->maximum_size;
 }
 
@@ -38,7 +39,7 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
                         most, set->dimension);
     if (set->size == 0 && !kind->sized_by_file)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s': the number of points must be at least 1", name);
-    const uint64_t limit = aur_size_limit(kind, set->dimension);
+    const uint64_t limit = size_limit(kind, set->dimension);
     if (set->size > limit)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has at most %" PRIu64 " points, not %" PRIu64,
                         name, limit, set->size);

@@ -64,9 +64,6 @@ struct aur_pointset {
     void *data;                          /* the generator's own, one allocation; NULL when it needs none */
 };
 
-/* The most points that such a set has. */
-uint64_t aur_size_limit(const aur_set_description *set, size_t dimension);
-
 /* Size, dimension and scrambling against what the kind of set has. */
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);
 

@@ -11,7 +11,7 @@ typedef struct watch_session watch_session;
 /* Both may be asked for; NULL: it is not. */
 typedef struct watch_options {
     const char *serve;   /* "", PORT or HOST:PORT: where the page is, on this machine alone without a host */
-    const char *display; /* PORT or HOST:PORT of a display server (program/watch/display.h) */
+    const char *display; /* PORT or HOST:PORT of a display server (display.c) */
     const char *title;   /* the page's, and the picture's name */
 } watch_options;
 

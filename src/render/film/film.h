@@ -127,7 +127,7 @@ typedef struct aur_checkpoint {
 aur_result aur_checkpoint_save(const char *path, const char *identity, size_t word_count,
                                const uint64_t *words, size_t film_count, const aur_film *const *films,
                                aur_error *error);
-/* To be released in every case. `input`: what must not be replaced (points/base/file_roles.h), unlike a
+/* To be released in every case. `input`: what must not be replaced (points/base/file.h), unlike a
  * checkpoint to go on from. Errors: OPEN, FORMAT, MEMORY; ARGUMENT for an input that is an output. */
 aur_result aur_checkpoint_load(const char *path, bool input, aur_checkpoint *checkpoint, aur_error *error);
 aur_result aur_checkpoint_load_memory(const char *name, size_t size, const void *data,

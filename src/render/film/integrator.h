@@ -26,7 +26,7 @@ struct aur_integrator_context {
     uint64_t seed;
     size_t threads;
     aur_cache *cache; /* what renders of one scene share */
-    bool use_cache; /* ... and what later runs may take from files of the cache (points/base/cache_file.h) */
+    bool use_cache;   /* ... and what later runs may take from files of the cache (points/base/file.h) */
     aur_progress progress;
     aur_warnings warnings;
     const aur_gather_integrator *gather; /* the caller's own; or NULL */

@@ -167,8 +167,8 @@ void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_g
     }
 }
 
-/* Direction `index` in the frames of all lanes, with its weights and the densities that rivals are weighed
- * against. */
+/* Direction `index` in the frames of all lanes, with its weights and the densities that other strategies are
+ * weighed against. */
 static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane_vectors *local,
                            float weight[AUR_PACKET_SIZE], float density[AUR_PACKET_SIZE]) {
     const aur_gather_rule *const rule = &sweep->rule->rule;

@@ -95,7 +95,7 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
                                               .direction = aur_vector_normalize(way),
                                               .radiance = aur_lane_vector(&drawn.radiance, lane),
                                               .pdf = drawn.pdf[lane] * (float)draws,
-                                              .delta = drawn.rivals[lane] == 0.0f};
+                                              .delta = drawn.reachable[lane] == 0.0f};
         }
         add_lights(surface_points, surface_points->order, lights, sums);
     }

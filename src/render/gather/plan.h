@@ -3,8 +3,8 @@
  *     rules.c                   what gathers each kind of lobe, of rule.c and rule_*.c
  *     plan.c                    these rules, maps of photons, and what the keys ask for
  *
- * What happens at sixteen pixels at a time takes the plan, the places that the pixels see (places.h), the
- * sums to add to and working memory (sums.h):
+ * What happens at sixteen pixels at a time takes the plan, the surface points that the pixels see (points.h),
+ * the sums to add to and working memory (sums.h):
  *
  *     incident.c                radiance along gather rays
  *     aim.c                     directions of a rule made into rays at the places, and traced
@@ -14,7 +14,7 @@
  *     strata.c, pooling.c       what a pixel's samples have seen, where edges are, and irradiance that
  *                               neighbouring pixels have in common
  *     tile.c                    what the eye sees, also through mirrors and glass: sixteen groups of sixteen
- *                               pixels (packets/interleave.h)
+ *                               pixels (render/trace/interleave.h)
  */
 #pragma once
 

@@ -29,7 +29,7 @@ typedef struct aur_gather_points {
     uint32_t bounces;       /* specular ones on the way from the eye */
     aur_embree_order order; /* of packets of rays that leave the places in one direction each */
     uint32_t group, index;  /* of the tile's sixteen groups; of the samples of a pixel */
-    uint64_t arrangement;   /* of the tile's pixels in groups (packets/interleave.h) */
+    uint64_t arrangement;   /* of the tile's pixels in groups (render/trace/interleave.h) */
     uint64_t tile;          /* hash of the tile's corner */
     const aur_sampler *sampler;
     uint64_t pixels[AUR_PACKET_SIZE]; /* hashes of the pixels, for their streams of numbers */

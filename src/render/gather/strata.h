@@ -66,8 +66,8 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
  * 4 x 4 window it has each part of the pattern once, and its middle is the pixel: light that changes linearly
  * over it is not blurred. Windows at the tile's rim are 4 wide and lie beside their pixel.
  *
- * `near`: every pixel has a pattern of its own, which those of its neighbours complete (nested.h), and its
- * pool are the 3 x 3 pixels about it.
+ * `near`: every pixel has a pattern of its own, which those of its neighbours complete (aur_nested_shift),
+ * and its pool are the 3 x 3 pixels about it.
  *
  * Adds to every stratum of a tile, AUR_TILE_PIXELS row by row, its diffuse light by the irradiance that
  * neighbouring pixels pool. False: out of memory. */

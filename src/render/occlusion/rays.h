@@ -5,8 +5,8 @@
 #include "render/trace/interleave.h"
 #include "render/trace/packet.h"
 
-/* The 16 pixels of a group (packets/interleave.h) share a rotation of the pattern, so the rays of a packet
- * are one direction of it at 16 places, almost parallel where the surface is flat. */
+/* The 16 pixels of a group (render/trace/interleave.h) share a rotation of the pattern, so the rays of a
+ * packet are one direction of it at 16 places, almost parallel where the surface is flat. */
 enum { AUR_OCCLUSION_POINTS = AUR_TILE_PIXELS };
 
 typedef struct aur_occlusion {

@@ -1,8 +1,8 @@
 /* Path tracing of sixteen pixels at a time.
  *
  * The pixels are those of one 4 x 4 block of a tile, neighbours. Interleaved (Keller and Heidrich 2001) they
- * are those of one group (packets/interleave.h), one of each block, and share all numbers but the camera's:
- * paths on flat walls run in parallel, and their packets stay coherent. */
+ * are those of one group (render/trace/interleave.h), one of each block, and share all numbers but the
+ * camera's: paths on flat walls run in parallel, and their packets stay coherent. */
 #include "render/path/path_group.h"
 #include "render/trace/interleave.h"
 

@@ -19,7 +19,8 @@ typedef struct aur_gather_rule_options {
     aur_scramble scramble;
     bool optimal_density; /* directions follow lobe^{2/(s+1)} and carry the weights p/q */
     double smoothness;    /* s, in (1, 2) */
-    bool nested; /* randomisations are those of nested.h; for spherical Fibonacci sets that are rotated */
+    bool nested;       /* randomisations are those of aur_nested_shift; for spherical Fibonacci sets that are
+                          rotated */
     size_t rotations;  /* so many randomisations, prepared once; 0: a new one at every shading point */
     uint64_t seed;     /* of the prepared randomisations */
     uint64_t set_seed; /* of sets that are random themselves */

@@ -13,7 +13,7 @@ static void light_lane(const aur_scene *scene, const aur_light_references *refer
     aur_lane_set(&lights->direction, lane, one.direction);
     aur_lane_set(&lights->radiance, lane, one.radiance);
     lights->pdf[lane] = one.pdf;
-    lights->rivals[lane] = one.delta ? 0.0f : 1.0f;
+    lights->reachable[lane] = one.delta ? 0.0f : 1.0f;
 }
 
 /* The lanes whose light is an environment that no other one stands beside, and which draws them together. */

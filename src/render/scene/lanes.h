@@ -32,7 +32,7 @@ typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;
     aur_lane_vectors direction; /* set by aur_light_lanes_each only */
     aur_lane_numbers pdf;       /* 0: no light from there */
-    aur_lane_numbers rivals;    /* 1, or 0 for lights that no ray finds */
+    aur_lane_numbers reachable; /* 1, or 0 for lights that no BSDF sample can hit */
 } aur_light_lanes;
 
 /* One of them, drawn by aur_light_lanes_each. */
@@ -41,7 +41,7 @@ static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, siz
                               .direction = aur_lane_vector(&lights->direction, lane),
                               .radiance = aur_lane_vector(&lights->radiance, lane),
                               .pdf = lights->pdf[lane],
-                              .delta = lights->rivals[lane] == 0.0f};
+                              .delta = lights->reachable[lane] == 0.0f};
 }
 
 /* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless

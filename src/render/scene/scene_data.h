@@ -27,7 +27,7 @@ typedef struct aur_instance {
         to_local; /* between coordinates that count from the two origins, when recentred */
 } aur_instance;
 
-/* What becomes of surfaces in one plane (overlap_cut.h). */
+/* What becomes of surfaces in one plane (overlaps.h). */
 typedef enum aur_overlap_rule {
     AUR_OVERLAPS_CUT,       /* the first one covers the others */
     AUR_OVERLAPS_OF_FRONTS, /* only what looks the same way covers each other: back to back they are a sheet

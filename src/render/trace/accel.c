@@ -197,7 +197,7 @@ static bool attach_all(aur_scene *scene) {
 
 /* Any number of threads builds the same tree: Embree sorts the primitives of each leaf again after it has
  * divided them in parallel, so which of two hits at one distance wins is settled
- * (tests/render/scene/test_accel.c). Small trees are not worth the threads, and few triangles not the time
+ * (tests/render/trace/test_accel.c). Small trees are not worth the threads, and few triangles not the time
  * that asking the system for huge pages takes, as much as building a tree of 200 triangles. Embree obeys the
  * limit of AUREOLE_ISA too, so that a test on one machine meets the kernels that others have. */
 void aur_embree_configuration(size_t primitives, size_t threads,

@@ -181,9 +181,9 @@ static double variance_seen(const survey *s, size_t x, size_t y) {
 static aur_result survey_row(void *context, size_t y) {
     const survey *const s = context;
     for (size_t x = 0; x < s->view->width; ++x) {
-        double told;
-        if (is_near(s, x, y, &told))
-            s->deviations[y * s->view->width + x] = (float)sqrt(fmax(told, variance_seen(s, x, y)));
+        double expected;
+        if (is_near(s, x, y, &expected))
+            s->deviations[y * s->view->width + x] = (float)sqrt(fmax(expected, variance_seen(s, x, y)));
     }
     return AUR_OK;
 }

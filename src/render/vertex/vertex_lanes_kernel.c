@@ -62,7 +62,7 @@ static void lanes_shadow(aur_vertex_lanes *restrict lanes, aur_packet *restrict 
         const float cosine = aur_vector_dot(aur_lane_vector(&lanes->normal, k), way) * lanes->side[k] * scale;
         const float pdf = lanes->light.pdf[k];
         const float bsdf_pdf = cosine / AUR_PI_F;
-        const float weight = aur_power_heuristic(pdf, bsdf_pdf * lanes->light.rivals[k]) * bsdf_pdf / pdf;
+        const float weight = aur_power_heuristic(pdf, bsdf_pdf * lanes->light.reachable[k]) * bsdf_pdf / pdf;
         const aur_vector light = aur_vector_multiply(aur_lane_vector(&lanes->reflectance, k),
                                                      aur_lane_vector(&lanes->light.radiance, k));
         const float any = light.x + light.y + light.z;

@@ -23,10 +23,10 @@ size_t aur_emitter_points(size_t pixels);
 bool aur_visible_emitters_can_be_found(const aur_view *view);
 aur_result aur_visible_emitters_find(const aur_scene *scene, const aur_film_layout *layout, size_t points,
                                      uint64_t seed, aur_visible_emitters *visible, aur_error *error);
-/* Where a sample of a pixel has several rays for lamps (looks.h), of all pixels of the picture; NULL: none.
- * Their mean takes the place of what the sample's own ray meets: of n rays that are uniform in the pixel n
- * times as many are expected to meet a lamp, and the variance is the n-th part (at most: they are a
- * sequence's points, not random). */
+/* Where a sample of a pixel has several rays for emitters (edge_probes.c), of all pixels of the picture;
+ * NULL: none. Their mean takes the place of what the sample's own ray meets: of n rays that are uniform in
+ * the pixel n times as many are expected to meet a lamp, and the variance is the n-th part (at most: they are
+ * a sequence's points, not random). */
 void aur_visible_emitters_take_probes(const aur_film_layout *layout, const uint16_t *probes,
                                       aur_visible_emitters *visible);
 /* Leaves out pixels beside one that is covered by half at least: an integrator that looks again where

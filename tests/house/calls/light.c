@@ -1,5 +1,5 @@
-/* Calls each function of image.h, scene.h, film.h, render.h, ask.h, radiosity.h, irradiance.h and daylight.h,
- * most of them with bad input too.
+/* Calls each function of image.h, scene.h, film.h, render.h, adaptive.h, radiosity.h, irradiance.h and
+ * daylight.h, most of them with bad input too.
  */
 #include <aureole-lighting/daylight.h>
 #include <aureole-lighting/view_factors.h>
@@ -171,16 +171,16 @@ static void renders(const aur_scene *scene) {
     aur_renderer_destroy(renderer);
 }
 
-static void asks(const aur_scene *scene) {
+static void adaptive_renders(const aur_scene *scene) {
     aur_renderer *renderer = NULL;
     accept(aur_renderer_create(scene, &renderer, &error), &error);
-    aur_adaptive_options wish = {.size = sizeof wish};
-    aur_adaptive_options_init(&wish, NULL);
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
     aur_adaptive *adaptive = NULL;
-    wish.error = -1.0;
-    refuse(aur_adaptive_create(renderer, NULL, &wish, &adaptive, &error), AUR_ERROR_ARGUMENT, &error);
-    wish.error = 0.5;
-    accept(aur_adaptive_create(renderer, NULL, &wish, &adaptive, &error), &error);
+    target.error = -1.0;
+    refuse(aur_adaptive_create(renderer, NULL, &target, &adaptive, &error), AUR_ERROR_ARGUMENT, &error);
+    target.error = 0.5;
+    accept(aur_adaptive_create(renderer, NULL, &target, &adaptive, &error), &error);
     require(strcmp(aur_adaptive_integrator(adaptive), "path") == 0, "aur_adaptive_integrator");
     aur_adaptive_cancel(adaptive);
     refuse(aur_adaptive_run(adaptive, &error), AUR_ERROR_CANCELLED, &error);
@@ -297,7 +297,7 @@ int main(void) {
     pictures();
     aur_scene *const scene = scenes();
     renders(scene);
-    asks(scene);
+    adaptive_renders(scene);
     radiosity_solutions(scene);
     irradiances(scene);
     years(scene);

@@ -5,7 +5,7 @@
 
 #include "render/adaptive/gather_model.h"
 
-/* As in gather_law.c: of the squares of errors, and the price of a ray to a light. */
+/* As in gather_model.c: of the squares of errors, and the price of a ray to a light. */
 static const double POWER = 1.5, POWER_OF_PLACES = 1.25, LIGHT_PRICE = 0.5;
 
 /* Squares of the error by directions, one point on lights, and the camera's ray; rays of a pattern without

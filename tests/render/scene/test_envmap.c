@@ -69,7 +69,7 @@ static void draws_agree(const aur_scene *scene, uint64_t seed, uint32_t lanes) {
         const aur_vector position = aur_lane_vector(&drawn.position, k);
         const aur_vector radiance = aur_lane_vector(&drawn.radiance, k);
         if (found) {
-            assert_true(drawn.pdf[k] == one.pdf && drawn.rivals[k] == (one.delta ? 0.0f : 1.0f));
+            assert_true(drawn.pdf[k] == one.pdf && drawn.reachable[k] == (one.delta ? 0.0f : 1.0f));
             const aur_vector direction = aur_lane_vector(&drawn.direction, k);
             assert_true(memcmp(&direction, &one.direction, sizeof direction) == 0);
             assert_true(memcmp(&position, &one.position, sizeof position) == 0);

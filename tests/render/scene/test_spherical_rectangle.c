@@ -220,7 +220,7 @@ static void lanes_are_the_single_samples(void **state) {
         const double pdf =
             (double)density * (seen.by_area ? squared * sqrt(squared) / (2.0 * (double)way.y) : 1.0);
         assert_relative(drawn.pdf[k], k == 3 ? 0.0 : 0.25 * pdf, 1e-5);
-        assert_true(drawn.radiance.x[k] == 3.0f && drawn.radiance.z[k] == 1.0f && drawn.rivals[k] == 1.0f);
+        assert_true(drawn.radiance.x[k] == 3.0f && drawn.radiance.z[k] == 1.0f && drawn.reachable[k] == 1.0f);
         solid += !seen.by_area && k != 3;
         flat += seen.by_area;
     }

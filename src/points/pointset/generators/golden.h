@@ -44,11 +44,6 @@ typedef struct aur_recurrence {
     aur_fraction128 steps[AUR_R2_DIMENSIONS];
 } aur_recurrence;
 
-/* The golden ratio sequence from s in [0,1), one dimension. */
-void aur_recurrence_golden(double s, aur_recurrence *recurrence);
-/* Roberts' sequence in 1 to 64 dimensions. */
-void aur_recurrence_r2(size_t dimension, aur_recurrence *recurrence);
-
 /* Rank-1 lattices and the golden-ratio limit of Fibonacci ones. */
 
 enum { AUR_LATTICE_CAPACITY = 256 };
@@ -58,5 +53,3 @@ typedef struct aur_lattice {
     bool golden;   /* the second coordinate is i / Phi */
     uint64_t vector[AUR_LATTICE_CAPACITY];
 } aur_lattice;
-
-void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice);

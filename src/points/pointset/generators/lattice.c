@@ -146,7 +146,7 @@ static aur_result prepare_rank1(aur_pointset *set, aur_parameters *parameters, a
     return AUR_OK;
 }
 
-void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice) {
+static void lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice) {
     uint64_t before = 1;
     uint64_t number = 1;
     while (number < size && number <= AUR_INDEX_LIMIT) {
@@ -168,7 +168,7 @@ static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *parameter
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
-    aur_lattice_make_fibonacci(set->size, p.offset, data);
+    lattice_make_fibonacci(set->size, p.offset, data);
     if (data->golden)
         aur_warn_at(
             &set->options->warnings, (aur_location){0},

@@ -36,12 +36,14 @@ static aur_wide root(size_t dimension) {
     return t;
 }
 
-void aur_recurrence_golden(double s, aur_recurrence *recurrence) {
+/* The golden ratio sequence from s in [0,1), one dimension. */
+static void recurrence_golden(double s, aur_recurrence *recurrence) {
     recurrence->start = aur_golden_start(s);
     recurrence->steps[0] = aur_golden_fraction;
 }
 
-void aur_recurrence_r2(size_t dimension, aur_recurrence *recurrence) {
+/* Roberts' sequence in 1 to 64 dimensions. */
+static void recurrence_r2(size_t dimension, aur_recurrence *recurrence) {
     const aur_wide t = root(dimension);
     aur_wide power = t;
     recurrence->start = UINT64_C(1) << 63;
@@ -68,7 +70,7 @@ static aur_result prepare_golden(aur_pointset *set, aur_parameters *parameters, 
     set->data = malloc(sizeof(aur_recurrence));
     if (set->data == NULL)
         return aur_fail_memory(error);
-    aur_recurrence_golden(p.seed, set->data);
+    recurrence_golden(p.seed, set->data);
     return AUR_OK;
 }
 
@@ -77,7 +79,7 @@ static aur_result prepare_r2(aur_pointset *set, aur_parameters *parameters, aur_
     set->data = malloc(sizeof(aur_recurrence));
     if (set->data == NULL)
         return aur_fail_memory(error);
-    aur_recurrence_r2(set->dimension, set->data);
+    recurrence_r2(set->dimension, set->data);
     return AUR_OK;
 }
 

@@ -47,7 +47,7 @@ typedef struct aur_relaxation {
 } aur_relaxation;
 
 /* Makes set->data a table of the points that are computed from the seed, or takes it from what an earlier
- * call has kept (points/base/cache_file.h). */
+ * call has kept (points/base/file.h). */
 aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error);
 
 /* Blue noise by optimal transport on the torus. */

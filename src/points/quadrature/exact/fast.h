@@ -1,6 +1,6 @@
 /* The transforms of transform.h for the whole sphere in O(points + degree^3): a function of degree L is a
  * trigonometric polynomial on the torus (theta, phi), which is known from a grid by Fourier transforms and
- * carried between grid and points by the window of window.h (non-uniform Fourier transforms: Dutt and Rokhlin
+ * carried between grid and points by the window of window.c (non-uniform Fourier transforms: Dutt and Rokhlin
  * 1993, Barnett, Magland and af Klinteberg 2019; on spheres Kunis and Potts 2003). It is good to some 1e-11
  * of the largest value, and both directions are adjoint to rounding. */
 #pragma once

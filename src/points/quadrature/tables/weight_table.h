@@ -91,7 +91,7 @@ aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weigh
                                 uint64_t build, char key[AUR_WEIGHT_TABLE_KEY_CAPACITY]);
 
 /* Builds a table as aur_weight_table_build does, or takes it from the cache of earlier runs
- * (points/base/cache_file.h), where it is left otherwise. Exported for the renderer, but no part of the
+ * (points/base/file.h), where it is left otherwise. Exported for the renderer, but no part of the
  * interface.
  */
 AUR_INTERNAL aur_result aur_weight_table_find(const aur_oswa_options *options,

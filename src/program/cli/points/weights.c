@@ -1,4 +1,4 @@
-/* aureole weights: optimal and exact weights of samples, their rivals, and what they gain. */
+/* aureole weights: optimal, exact and other weights of samples, and what they gain. */
 #include "program/cli/points/weights.h"
 
 #include <math.h>

@@ -232,7 +232,7 @@ static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
         const aur_vector direction = aur_lane_vector(&directions, k);
-        drawn->rivals[k] = 1.0f;
+        drawn->reachable[k] = 1.0f;
         drawn->pdf[k] = 0.0f;
         if (aur_vector_dot(aur_lane_vector(references->normal, k), direction) < 0.0f)
             continue;

@@ -186,7 +186,7 @@ static void rectangle_lanes(const aur_rectangle_light *given, const aur_light_re
         aur_lane_set(&drawn->position, k, point);
         aur_lane_set(&drawn->radiance, k, light.radiance);
         drawn->pdf[k] = height > 0.0f ? pdf : 0.0f;
-        drawn->rivals[k] = 1.0f;
+        drawn->reachable[k] = 1.0f;
     }
 }
 
