@@ -12,6 +12,7 @@ program/cli/render
 program/cli/points
 program/cli
 program/lab
+program/serve
 program/watch
 program/report/page
 program/report
@@ -108,7 +109,7 @@ points/base
       if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
       if (here ~ /^program\/cli/ && there !~ /^program\/(cli|lab|watch|report)/) bad("the program uses <aureole/...> only")
       if (here == "program/lab" && there !~ /^program\/(lab|report)/) bad("the lab uses <aureole/...> only")
-      if (here == "program/watch" && there !~ /^program\/(watch|report)/) bad("watching uses <aureole/...> only")
+      if (here ~ /^program\/(watch|serve)$/ && there !~ /^program\/(watch|report)/) bad("watching uses <aureole/...> only")
       if (here ~ /^program\/report/ && there !~ /^program\/report/) bad("tables of results use <aureole/...> only")
     }
     END { exit status }

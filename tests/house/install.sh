@@ -16,6 +16,11 @@ for page in man1/aureole.1 man1/aureole-render.1 man5/aureole-scene.5 man7/aureo
   grep -q '^\.TH' "$prefix/share/man/$page" || { echo "no manual page share/man/$page"; exit 1; }
 done
 
+# The module of --serve is found from wherever the program is called.
+scene=$(realpath "$2/scenes/cornell-box/cornell-box.xml")
+(cd / && "$prefix/bin/aureole" render "$scene" --width 8 --spp 1 --serve=0 -o "$OLDPWD/served.exr") 2>served.txt && grep -q 'http://127' served.txt ||
+  { cat served.txt; echo "the installed program does not serve"; exit 1; }
+
 # So may the program that reads models.
 cat >model.gltf <<'GLTF'
 {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],

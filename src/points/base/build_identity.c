@@ -5,7 +5,6 @@
 #include <stdbool.h>
 
 #include "points/base/file.h"
-#include "points/base/ranks.h"
 
 #if defined(__linux__)
 #include <link.h>
@@ -35,18 +34,25 @@ static bool find_identity(const char *notes, size_t size, size_t alignment, uint
 
 typedef struct identity {
     uint64_t sum;
-    bool of_transport, failed;
+    bool of_module, failed;
 } identity;
 
+/* A file of the name aureole-*.so. */
+static bool is_module(const char *path) {
+    const char *const slash = strrchr(path, '/');
+    const char *const name = slash != NULL ? slash + 1 : path;
+    const size_t length = strlen(name);
+    return strncmp(name, "aureole-", 8) == 0 && strcmp(name + length - 3, ".so") == 0;
+}
+
 /* Summed, so that the order in which libraries were loaded does not matter. They come in that order, and what
- * follows the module of MPI is MPI's own, until another module of ours: it carries results and makes none, so
- * that one process and several ranks share what is kept. TBB loads its allocator late, which makes none
- * either. */
+ * follows one of our modules was loaded for it: modules carry results and make none, so that what is kept is
+ * the same for one process and several ranks, with a server and without. TBB loads its allocator late, which
+ * makes none either. */
 static int add_object(struct dl_phdr_info *object, size_t size, void *context) {
     identity *const all = context;
-    if (strstr(object->dlpi_name, "/aureole-") != NULL)
-        all->of_transport = strstr(object->dlpi_name, "/" AUR_TRANSPORT_MODULE) != NULL;
-    if (all->of_transport || strstr(object->dlpi_name, "/libtbbmalloc") != NULL)
+    all->of_module = all->of_module || is_module(object->dlpi_name);
+    if (all->of_module || strstr(object->dlpi_name, "/libtbbmalloc") != NULL)
         return 0;
     uint64_t hash = 0;
     bool found = strncmp(object->dlpi_name, "linux-vdso", 10) == 0; /* the kernel's: no file */

@@ -89,8 +89,9 @@ char *aur_cache_file_read(const char *kind, const char *key, size_t *size);
  */
 void aur_cache_file_write(const char *kind, const char *key, size_t size, const void *data);
 
-/* Stands for this build of the program and of every library that is loaded, but for those of MPI, for keys of
- * what follows from their code; 0 where the system does not tell: then nothing that does may be kept. */
+/* Stands for this build of the program and of every library that is loaded, but for those of modules, for
+ * keys of what follows from their code; 0 where the system does not tell: then nothing that does may be kept.
+ */
 uint64_t aur_build_identity(void);
 
 /* Modules: what stands beside the libraries in a file of its own, so that only those who need it pay for what

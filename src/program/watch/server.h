@@ -1,5 +1,5 @@
-/* A small server of HTTP/1.1 by GNU libmicrohttpd, in a thread of its own: one request per connection, few
- * connections at once, each bounded in size and time. */
+/* A small server of HTTP/1.1, in a thread of its own: one request per connection, few connections at once,
+ * each bounded in size and time. */
 #pragma once
 
 #include <aureole/core.h>
@@ -43,10 +43,22 @@ typedef bool watch_handler(void *user, const char *method, const char *target, b
 
 typedef struct watch_server watch_server;
 
-/* Begins to serve at `place`, whose port 0 becomes a free one. Errors: OPEN, MEMORY. */
+/* Begins to serve at `place`, whose port 0 becomes a free one. Errors: OPEN, UNSUPPORTED (an installation
+ * without the module). */
 aur_result watch_server_create(const char *option, watch_place *place, watch_handler *handler, void *user,
                                watch_server **server, aur_error *error);
-/* Calls the handler again for the requests that wait. From any thread. */
+/* Calls the handler again for the requests that wait. From any thread. NULL is allowed. */
 void watch_server_wake(watch_server *server);
 /* Drops all connections. NULL is allowed. */
 void watch_server_destroy(watch_server *server);
+
+/* What the module (src/program/serve) has under the name `aureole_serve`; it stands beside the libraries and
+ * is loaded when somebody asks for a server. */
+typedef struct watch_server_module {
+    /* Takes the listening socket over; false where it cannot serve, with errno. */
+    bool (*create)(int listener, watch_handler *handler, void *user, watch_server **server);
+    void (*wake)(watch_server *server);
+    void (*destroy)(watch_server *server);
+} watch_server_module;
+
+extern __attribute__((visibility("default"))) const watch_server_module aureole_serve;

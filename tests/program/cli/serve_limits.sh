@@ -10,7 +10,7 @@ for _ in $(seq 300); do grep -qs 'http.*/$' address.txt && break; sleep 0.1; don
 python3 - "$pid" address.txt <<'PY'
 import os, re, signal, socket, sys, threading, time
 pid, port, token = int(sys.argv[1]), *re.search(r":(\d+)/(\w+)/", open(sys.argv[2]).read()).groups()
-MOST, READING, WAITING = 32, 10.0, 15.0  # connections, and seconds, of src/program/watch/server.c
+MOST, READING, WAITING = 32, 10.0, 15.0  # connections, and seconds, of src/program/serve/serve.c
 
 def connect(text=b""):
     connection = socket.create_connection(("127.0.0.1", int(port)), timeout=40.0)
