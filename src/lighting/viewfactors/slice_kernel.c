@@ -76,24 +76,27 @@ APART void cut_edge(const float *restrict along0, const float *restrict along1, 
     }
 }
 
-/* The polygon's part in each half plane is a segment, seen under the angles between its ends. Whether the
- * floor rises anywhere. */
-APART bool hide(const aur_slice_view *view, const aur_slice_polygon *polygon, const aur_slices *restrict s,
-                hidden_cells *restrict hidden) {
-    const size_t count = polygon->count;
-    const float(*const corners)[3] = polygon->corners;
+/* Whether the polygon reaches above the plane of the patch. */
+static inline bool rises_above(const aur_slice_view *view, const aur_slice_polygon *polygon) {
     double height = -INFINITY;
-    for (size_t c = 0; c < count; ++c) {
-        const double h = view->normal[0] * (double)corners[c][0] + view->normal[1] * (double)corners[c][1] +
-                         view->normal[2] * (double)corners[c][2];
+    for (size_t c = 0; c < polygon->count; ++c) {
+        const float *const corner = polygon->corners[c];
+        const double h = view->normal[0] * (double)corner[0] + view->normal[1] * (double)corner[1] +
+                         view->normal[2] * (double)corner[2];
         height = h > height ? h : height;
     }
-    if (height - view->offset <= view->slack)
-        return false;
-    float along[AUR_SLICE_CORNERS][LANES], across[AUR_SLICE_CORNERS][LANES];
+    return height - view->offset > view->slack;
+}
+
+/* Finds the corners' distances along and across the half planes, and which half planes the polygon cuts
+ * (crossed[l] is 0 or 1). Whether one of these can be hidden further. */
+APART bool find_crossings(const aur_slice_polygon *polygon, const aur_slices *restrict s,
+                          const hidden_cells *restrict hidden, float along[restrict AUR_SLICE_CORNERS][LANES],
+                          float across[restrict AUR_SLICE_CORNERS][LANES], int *restrict crossed) {
     int left[LANES] = {0}, right[LANES] = {0}, open[LANES] = {0}, ahead[LANES] = {0};
-    for (size_t i = 0; i < count; ++i) {
-        const float x = corners[i][0], y = corners[i][1], z = corners[i][2];
+    for (size_t i = 0; i < polygon->count; ++i) {
+        const float *const corner = polygon->corners[i];
+        const float x = corner[0], y = corner[1], z = corner[2];
         for (unsigned l = 0; l < LANES; ++l) {
             const float c = s->way[0][l], d = s->way[1][l];
             const float dx = x - s->origin[0][l], dy = y - s->origin[1][l];
@@ -107,34 +110,34 @@ APART bool hide(const aur_slice_view *view, const aur_slice_polygon *polygon, co
             ahead[l] |= forward > 0.0f;
         }
     }
-    int crossed = 0;
+    int any = 0;
     for (unsigned l = 0; l < LANES; ++l) {
-        left[l] &= right[l];
-        crossed |= left[l] & open[l] & ahead[l];
+        crossed[l] = left[l] & right[l];
+        any |= crossed[l] & open[l] & ahead[l];
     }
-    if (crossed == 0)
-        return false;
-    cut_points enter = {{0.0f}, {0.0f}}, leave = {{0.0f}, {0.0f}};
-    for (size_t i = 0; i < count; ++i) {
-        const size_t k = i + 1 < count ? i + 1 : 0;
-        cut_edge(along[i], along[k], across[i], across[k], corners[i][2], corners[k][2], s->origin[2], &enter,
-                 &leave);
-    }
+    return any != 0;
+}
+
+/* The first cell that the segment from `enter` to `leave` hides, and the one after the last; as floats. In
+ * half planes that it does not reach, `crossed` becomes 0. */
+APART void find_hidden_cells(const aur_slice_view *view, const aur_slices *restrict s,
+                             const cut_points *restrict enter, const cut_points *restrict leave,
+                             int *restrict crossed, float *restrict lower, float *restrict upper) {
     /* Loops without branches: compilers make one of a quotient that is chosen later in the same loop. */
-    float lower[LANES], upper[LANES], turn[LANES];
+    float turn[LANES];
     for (unsigned l = 0; l < LANES; ++l) {
-        const float s0 = enter.along[l], h0 = enter.height[l], s1 = leave.along[l], h1 = leave.height[l];
+        const float s0 = enter->along[l], h0 = enter->height[l], s1 = leave->along[l], h1 = leave->height[l];
         lower[l] = h0 / sqrtf(s0 * s0 + h0 * h0);
         upper[l] = h1 / sqrtf(s1 * s1 + h1 * h1);
         /* Where the segment goes on behind the line that ends the half plane, it hides that end. */
         turn[l] = copysignf(1.0f, (s1 - s0) * (s1 * h0 - s0 * h1));
-        left[l] &= (s0 > 0.0f) | (s1 > 0.0f);
+        crossed[l] &= (s0 > 0.0f) | (s1 > 0.0f);
     }
     const float scale = 1.0f / view->width, lowest = view->lowest;
     AUR_INDEPENDENT_LOOP
     for (unsigned l = 0; l < LANES; ++l) {
-        const float x0 = enter.along[l] > 0.0f ? lower[l] : turn[l],
-                    x1 = leave.along[l] > 0.0f ? upper[l] : turn[l];
+        const float x0 = enter->along[l] > 0.0f ? lower[l] : turn[l],
+                    x1 = leave->along[l] > 0.0f ? upper[l] : turn[l];
         const float from = ((x0 < x1 ? x0 : x1) - lowest) * scale - s->jitter[l] + (1.0f - ROUNDING);
         const float to = ((x0 < x1 ? x1 : x0) - lowest) * scale - s->jitter[l] + (1.0f + ROUNDING);
         const float begun = from < (float)LAST ? from : (float)LAST,
@@ -142,11 +145,27 @@ APART bool hide(const aur_slice_view *view, const aur_slice_polygon *polygon, co
         lower[l] = begun > 0.0f ? begun : 0.0f;
         upper[l] = ended > 0.0f ? ended : 0.0f;
     }
-    /* The first cell that the segment hides, and the one after the last. */
+}
+
+/* The polygon's part in each half plane is a segment, seen under the angles between its ends. Whether the
+ * floor rises anywhere. */
+APART bool hide(const aur_slice_view *view, const aur_slice_polygon *polygon, const aur_slices *restrict s,
+                hidden_cells *restrict hidden) {
+    float along[AUR_SLICE_CORNERS][LANES], across[AUR_SLICE_CORNERS][LANES], lower[LANES], upper[LANES];
+    int crossed[LANES];
+    if (!rises_above(view, polygon) || !find_crossings(polygon, s, hidden, along, across, crossed))
+        return false;
+    cut_points enter = {{0.0f}, {0.0f}}, leave = {{0.0f}, {0.0f}};
+    for (size_t i = 0; i < polygon->count; ++i) {
+        const size_t k = i + 1 < polygon->count ? i + 1 : 0;
+        cut_edge(along[i], along[k], across[i], across[k], polygon->corners[i][2], polygon->corners[k][2],
+                 s->origin[2], &enter, &leave);
+    }
+    find_hidden_cells(view, s, &enter, &leave, crossed, lower, upper);
     int32_t begin[LANES], end[LANES], rises = 0;
     for (unsigned l = 0; l < LANES; ++l) {
         begin[l] = (int32_t)lower[l];
-        end[l] = (int32_t)upper[l] & -left[l];
+        end[l] = (int32_t)upper[l] & -crossed[l];
         const int32_t floor = (int32_t)hidden->cells[l];
         rises |= (begin[l] <= floor) & (end[l] > floor);
     }

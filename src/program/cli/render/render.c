@@ -237,20 +237,29 @@ static void say_end(render_command *command, const aur_image *image) {
         cli_say_picture(command->output, image, &command->end);
 }
 
-static int render(const char *path, render_command *command, cli_errors *errors) {
-    aur_error error = {0};
-    if (command->checkpoint.path != NULL &&
-        aur_render_check_checkpoint(command->checkpoint.path, &error) != AUR_OK)
-        return cli_fail(&error);
-    if (cli_denoise_begin(&command->denoise, &error) != AUR_OK)
-        return cli_fail(&error);
-    if (cli_watch_begin(&command->watch, command->output, &error) != AUR_OK) {
+/* Opens what a render writes to before anything is computed, so that a mistake is told at once. */
+static aur_result begin(render_command *command, aur_error *error) {
+    aur_result result = command->checkpoint.path != NULL
+                            ? aur_render_check_checkpoint(command->checkpoint.path, error)
+                            : AUR_OK;
+    if (result == AUR_OK)
+        result = cli_denoise_begin(&command->denoise, error);
+    if (result != AUR_OK)
+        return result;
+    result = cli_watch_begin(&command->watch, command->output, error);
+    if (result != AUR_OK)
         cli_denoise_end(&command->denoise);
-        return cli_fail(&error);
-    }
     command->options.progress = cli_checkpoint_progress(
         &command->checkpoint,
         cli_watch_progress(&command->watch, cli_progress_of_kept(command->common.quiet)));
+    return result;
+}
+
+static int render(const char *path, render_command *command, cli_errors *errors) {
+    aur_error error = {0};
+    aur_result result = begin(command, &error);
+    if (result != AUR_OK)
+        return cli_fail(&error);
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
@@ -264,7 +273,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     aur_render *work = NULL;
     aur_adaptive *adaptive = NULL;
     aur_image *image = NULL;
-    aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
+    result = aur_scene_load(path, &scene_options, &scene, &error);
     command->scene = scene;
     if (result == AUR_OK && !cli_is_target(&command->target)) /* whose progress is one phase */
         plan(command);
