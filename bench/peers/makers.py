@@ -125,12 +125,20 @@ def _(n, seed):
     return importlib.import_module("qmcpy").Halton(2, seed=seed)(n)
 
 
+def lebedev_sizes():
+    """The degree and the number of points of each of the 32 rules."""
+    degrees = list(range(3, 32, 2)) + list(range(35, 132, 6))
+    sizes = [6, 14, 26, 38, 50, 74, 86, 110, 146, 170, 194, 230, 266, 302, 350, 434, 590, 770, 974, 1202, 1454, 1730,
+             2030, 2354, 2702, 3074, 3470, 3890, 4334, 4802, 5294, 5810]
+    return list(zip(degrees, sizes))
+
+
 for _set in "spherical-fibonacci esfg:base=147 electrostatic r2".split():
     ours("sphere", _set, [_set])
 ours("sphere", "sobol, Owen", ["sobol", "--scramble", "owen"], True)
 ours("sphere", "random", ["random"], True)
 ours("sphere", "healpix", ["healpix"], sizes=[12 * k * k for k in range(1, 300)])
-ours("sphere", "lebedev", ["lebedev"], sizes=[6, 14, 26, 38, 50, 86, 110, 146, 170, 194])
+ours("sphere", "lebedev", ["lebedev"], sizes=[n for _, n in lebedev_sizes()])
 ours("sphere", "t-design", ["t-design"], sizes=[4, 8, 18, 32, 48, 70, 94, 122, 156, 192, 234, 278, 328])
 
 
@@ -138,14 +146,6 @@ ours("sphere", "t-design", ["t-design"], sizes=[4, 8, 18, 32, 48, 70, 94, 122, 1
 def _(n, seed):
     side = max(1, round(np.sqrt(n / 12)))
     return np.array(importlib.import_module("healpy").pix2vec(side, np.arange(12 * side * side))).T
-
-
-def lebedev_sizes():
-    """The degree and the number of points of each of the 32 rules."""
-    degrees = list(range(3, 32, 2)) + list(range(35, 132, 6))
-    sizes = [6, 14, 26, 38, 50, 74, 86, 110, 146, 170, 194, 230, 266, 302, 350, 434, 590, 770, 974, 1202, 1454, 1730,
-             2030, 2354, 2702, 3074, 3470, 3890, 4334, 4802, 5294, 5810]
-    return list(zip(degrees, sizes))
 
 
 def lebedev_degree(n):

@@ -1,7 +1,8 @@
-/* Quadrature of the sphere with octahedral symmetry and positive weights (Lebedev 1976), about a third fewer
- * points than plain means of the same degree need. scripts/lebedev_table.py solves for the orbits. */
+/* Quadrature of the sphere with octahedral symmetry (Lebedev 1976; Lebedev and Laikov 1999), about a third
+ * fewer points than plain means of the same degree need. scripts/lebedev_table.py solves for the orbits. */
 #include "points/sphere/sets/reference.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,8 +59,15 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     if (nodes == NULL)
         return aur_fail_memory(error);
     node *to = nodes;
-    for (size_t r = 0; r < rule->rows; ++r)
+    double least = INFINITY;
+    for (size_t r = 0; r < rule->rows; ++r) {
         to = unfold(orbits[rule->first + r], to);
+        least = fmin(least, orbits[rule->first + r][3]);
+    }
+    if (least < 0.0)
+        aur_warn_at(request->warnings, (aur_location){0},
+                    "set 'lebedev': the rule of %u points has negative weights, the least %.4g/N",
+                    (unsigned)rule->count, least * rule->count);
     *data = nodes;
     return AUR_OK;
 }
@@ -83,13 +91,13 @@ static uint64_t size_at(size_t index) {
 const aur_native_set aur_native_lebedev = {
     .description = {.row = {.name = "lebedev",
                             .summary =
-                                "points with positive weights that are exact for polynomials of degree "
-                                "3 to 23, octahedral symmetry",
-                            .source = "Lebedev 1976"},
+                                "points with weights that are exact for polynomials of degree 3 to 131, "
+                                "octahedral symmetry; some weights of 74, 230 and 266 points are negative",
+                            .source = "Lebedev 1976; Lebedev, Laikov 1999"},
                     .domains = AUR_ON_SPHERE,
                     .dimensions = {3, 3},
                     .size_at = size_at,
-                    .maximum_size = 194},
+                    .maximum_size = 5810},
     .prepare = prepare,
     .fill = fill,
     .weigh = weigh,

@@ -20,7 +20,7 @@ aur_result aur_reference_find(const char *set, size_t size, const aur_reference 
 
 /* The table of Lebedev's rules by their orbits. */
 
-enum { AUR_LEBEDEV_COUNT = 10 };
+enum { AUR_LEBEDEV_COUNT = 32 };
 
 /* Their rows are orbits. */
 extern const aur_reference aur_lebedev_rules[AUR_LEBEDEV_COUNT];
