@@ -16,3 +16,29 @@ static inline void aureole_rotation_quaternions(size_t count, const aur_rotation
     for (size_t i = 0; i < count; ++i)
         aur_rotation_to_quaternion(matrices + i, wxyz + 4 * i);
 }
+/* Points first .. first+count-1 of a digital sequence in base 2 in Gray code's order (Antonov, Saleev 1979),
+ * points[count][columns]. Numbers are binary digits after the point: numbers[bits][columns] those of each bit
+ * of an index, state[columns] point `first`. */
+static inline void aureole_gray_code(uint64_t first, size_t count, size_t columns, const uint64_t *numbers,
+                                     uint64_t *state, double *points) {
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t j = 0; j < columns; ++j)
+            points[columns * i + j] = (double)(int64_t)(state[j] >> 11) * 0x1p-53;
+        const uint64_t next = first + i + 1;
+        for (size_t j = 0; i + 1 < count && j < columns; ++j)
+            state[j] ^= numbers[columns * (size_t)__builtin_ctzll(next) + j];
+    }
+}
+/* The first log(denominator) digits of coordinates through tables[groups][size], the parts that a group of
+ * digits gives to the result, from the last group on: column[count], `stride` apart, in place. `size` is a
+ * power of the base. */
+static inline void aureole_digit_tables(size_t count, size_t stride, double denominator, size_t groups,
+                                        uint64_t size, const double *tables, double *column) {
+    for (size_t i = 0; i < count; ++i) {
+        uint64_t digits = (uint64_t)(column[stride * i] * denominator + 0.5);
+        double sum = 0.0;
+        for (size_t group = 0; group < groups; ++group, digits /= size)
+            sum += tables[size * group + digits % size];
+        column[stride * i] = sum < 1.0 ? sum : 1.0 - 0x1p-53;
+    }
+}

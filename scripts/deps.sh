@@ -13,7 +13,7 @@ packages=(
   libcmocka-dev
 )
 # many machines; the Python package and engines for SciPy; the pages for a browser; tests of the binary interface, of terminals
-[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev python3-scipy python3-markdown-it
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev python3-scipy python3-pytest python3-markdown-it
   chromium abigail-tools xz-utils bsdutils)
 
 command -v dpkg-query >/dev/null || {

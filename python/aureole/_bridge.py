@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import functools
+import operator
 import os
 import warnings
-from typing import Any, Callable, Optional, TypeVar
+from typing import Any, Callable, Optional, TypeVar, Union
 
 import numpy as np
 
 Progress = Callable[[str, int, int], Any]
+Seed = Union[None, int, np.integer, np.random.SeedSequence, np.random.BitGenerator, np.random.Generator, np.random.RandomState]
 _Self = TypeVar("_Self", bound="Call")
+_Made = TypeVar("_Made", bound="Rebuilt")
 
 
 class Error(Exception):
@@ -134,7 +138,7 @@ class Bridge:
     def fill(self, struct: Any, **fields: Any) -> Any:
         for name, value in fields.items():
             try:
-                setattr(struct, name, value)
+                setattr(struct, name, seed_number(value) if name == "seed" else value)
             except OverflowError as error:
                 raise ArgumentError(f"{name}: {value} is out of range") from error
         return struct
@@ -181,6 +185,69 @@ class Call:
             warnings.warn(message, AureoleWarning, stacklevel=3)
 
 
+class Rebuilt:
+    """Pickled, copied and printed by the arguments that it was made with; what the library has of it is made again."""
+
+    _arguments: tuple[tuple[Any, ...], dict[str, Any]]
+
+    def __new__(cls: type[_Made], *arguments: Any, **named: Any) -> _Made:
+        made = super().__new__(cls)
+        made._arguments = arguments, named
+        return made
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        arguments, named = self._arguments
+        return functools.partial(type(self), **named), arguments
+
+    def __repr__(self) -> str:
+        arguments, named = self._arguments
+        texts = [*map(repr, arguments), *(f"{name}={value!r}" for name, value in named.items())]
+        return f"{type(self).__name__}({', '.join(texts)})"
+
+    def _reseed(self, seed: Seed) -> int:
+        """The number that `seed` gives now, which copies are made with too."""
+        number = seed_number(seed)
+        if "seed" in self._arguments[1]:
+            self._arguments[1]["seed"] = number
+        return number
+
+
+def seed_number(seed: Seed) -> int:
+    """A seed as the library takes it, 64 bits. Integers below 2^64 are themselves, larger ones are hashed.
+
+    A Generator or RandomState draws a number, so that each use gives another one; None takes one of the system's.
+    """
+    try:
+        number = operator.index(seed)  # type: ignore[arg-type]
+    except TypeError:
+        return _draw(seed)
+    if number < 0:
+        raise ArgumentError(f"seed must be at least 0, not {number}")
+    return number if number < 2**64 else _draw(np.random.SeedSequence(number))
+
+
+def _draw(seed: Any) -> int:
+    if isinstance(seed, np.random.BitGenerator):
+        seed = np.random.Generator(seed)
+    if isinstance(seed, np.random.Generator):
+        return int(seed.integers(2**63))
+    if isinstance(seed, np.random.RandomState):
+        return int(seed.randint(2**63, dtype=np.int64))
+    if seed is None or isinstance(seed, np.random.SeedSequence):
+        return int((seed or np.random.SeedSequence()).generate_state(1, np.uint64)[0])
+    raise TypeError(f"seed must be an integer, None or one of NumPy's random generators, not {type(seed).__name__} {seed!r}")
+
+
+def as_array(array: Any, dtype: Any = np.float64) -> np.ndarray:
+    """An array of NumPy's of what is one, is like one, or exports one by DLPack; without a copy where the type is right."""
+    if not hasattr(array, "__array__") and hasattr(array, "__dlpack__"):
+        try:
+            array = np.from_dlpack(array)
+        except (BufferError, RuntimeError, TypeError, ValueError) as error:
+            raise ArgumentError(f"{type(array).__name__}: not in the memory of this processor ({error}): copy it first") from error
+    return np.asarray(array, dtype=dtype)
+
+
 def encode(text: Any) -> bytes:
     """A text or path as the library takes it."""
     if not isinstance(text, (str, bytes, os.PathLike)):
@@ -193,7 +260,7 @@ def encode(text: Any) -> bytes:
 
 def rows(array: Any, dimension: int = 0, name: str = "points") -> np.ndarray:
     """An array of double precision with a row a point; it is copied only where its type or layout asks for it."""
-    made = np.asarray(array, dtype=np.float64)
+    made = as_array(array)
     if made.ndim == 1 and dimension == 1:
         made = made[:, np.newaxis]
     if made.ndim != 2 or (dimension and made.shape[1] != dimension):
@@ -203,7 +270,7 @@ def rows(array: Any, dimension: int = 0, name: str = "points") -> np.ndarray:
 
 
 def vector(array: Any, count: int, name: str) -> np.ndarray:
-    made = np.ascontiguousarray(array, dtype=np.float64)
+    made = np.ascontiguousarray(as_array(array))
     if made.shape != (count,):
         raise ArgumentError(f"{name} must have the shape ({count},), not {made.shape}")
     return made

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import ArgumentError, rows
+from ._bridge import ArgumentError, Seed, as_array, rows, seed_number
 from ._core import core, ffi, lib
 from ._points import Array, Map, parse_lobe
 
@@ -126,7 +126,7 @@ def rotation_matrices(wxyz: ArrayLike) -> NDArray[np.float64]:
 
 def rotation_quaternions(matrices: ArrayLike) -> Array:
     """Rotation matrices (n, 3, 3) to unit quaternions w, x, y, z (n, 4) (Shepperd 1978)."""
-    array = np.ascontiguousarray(matrices, dtype=np.float64)
+    array = np.ascontiguousarray(as_array(matrices))
     if array.ndim != 3 or array.shape[1:] != (3, 3):
         raise ArgumentError(f"matrices must have the shape (n, 3, 3), not {array.shape}")
     wxyz = np.empty((len(array), 4))
@@ -134,14 +134,14 @@ def rotation_quaternions(matrices: ArrayLike) -> Array:
     return wxyz
 
 
-def rotate(xyz: ArrayLike, seed: int, *, about_z: bool = False) -> Array:
+def rotate(xyz: ArrayLike, seed: Seed, *, about_z: bool = False) -> Array:
     """Unit vectors (n, 3) turned by one random rotation, uniform over seeds (Shoemake 1992), or about +z alone.
 
     The same rotation for the same seed: one set turned many times is randomised without being made again.
     """
     array = np.array(rows(xyz, 3, "xyz"))
     rotation = ffi.new("aur_rotation *")
-    (lib.aur_rotation_axial if about_z else lib.aur_rotation_uniform)(seed, rotation)
+    (lib.aur_rotation_axial if about_z else lib.aur_rotation_uniform)(seed_number(seed), rotation)
     lib.aur_rotation_apply(rotation, len(array), core.output(array))
     return array
 

@@ -7,7 +7,7 @@ from typing import Iterable, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import Progress, encode, kept, rows, vector
+from ._bridge import Progress, Rebuilt, Seed, encode, kept, rows, vector
 from ._core import CoreCall, core, ffi, lib
 from ._points import Array, Domain, View, domain_of, parse_lobe
 
@@ -15,7 +15,7 @@ Series = dict[str, Array]
 
 
 def _measure_options(
-    call: CoreCall, threads: int = 0, fast: bool = False, seed: int = 0, accuracy: float = 0.0, cap: float = 0.0
+    call: CoreCall, threads: int = 0, fast: bool = False, seed: Seed = 0, accuracy: float = 0.0, cap: float = 0.0
 ) -> object:
     options = core.options(
         "measure_options", threads=threads, fast=fast, seed=seed, accuracy=accuracy, cap_degrees=cap
@@ -26,18 +26,18 @@ def _measure_options(
 @overload
 def measure(  # type: ignore[overload-overlap]  # a text is an Iterable of texts too, but comes first
     points: ArrayLike, names: str, *, weights: Optional[ArrayLike] = ..., domain: Optional[Domain] = ...,
-    cap: float = ..., fast: bool = ..., accuracy: float = ..., seed: int = ..., threads: int = ...,
+    cap: float = ..., fast: bool = ..., accuracy: float = ..., seed: Seed = ..., threads: int = ...,
     progress: Optional[Progress] = ...,
 ) -> Union[float, Series]: ...  # fmt: skip
 @overload
 def measure(
     points: ArrayLike, names: Iterable[str], *, weights: Optional[ArrayLike] = ..., domain: Optional[Domain] = ...,
-    cap: float = ..., fast: bool = ..., accuracy: float = ..., seed: int = ..., threads: int = ...,
+    cap: float = ..., fast: bool = ..., accuracy: float = ..., seed: Seed = ..., threads: int = ...,
     progress: Optional[Progress] = ...,
 ) -> dict[str, Union[float, Series]]: ...  # fmt: skip
 def measure(
     points: ArrayLike, names: Union[str, Iterable[str]], *, weights: Optional[ArrayLike] = None,
-    domain: Optional[Domain] = None, cap: float = 0.0, fast: bool = False, accuracy: float = 0.0, seed: int = 0,
+    domain: Optional[Domain] = None, cap: float = 0.0, fast: bool = False, accuracy: float = 0.0, seed: Seed = 0,
     threads: int = 0, progress: Optional[Progress] = None,
 ) -> Union[float, Series, dict[str, Union[float, Series]]]:  # fmt: skip
     """How even points are: one measure of `measures()`, or several.
@@ -91,7 +91,7 @@ def _measure(name: str, view: object, options: object) -> Union[float, Series]:
     return {core.text(lib.aur_series_column(series, column)) or "": table[:, column] for column in range(shape[1])}
 
 
-class Nearest:
+class Nearest(Rebuilt):
     """A tree over points of any domain, for queries in batches. `domain` as for `measure`.
 
     >>> xyz = points("spherical-fibonacci", 1000, domain="sphere")
@@ -101,9 +101,14 @@ class Nearest:
     """
 
     def __init__(self, points: ArrayLike, *, domain: Optional[Domain] = None):
-        with View(points, None, domain) as view:
+        looked = View(points, None, domain)
+        self._arguments = (looked.array.copy(),), {"domain": looked.domain}  # the caller's array may change
+        with looked as view:
             self._dimension = view.dimension
             self._tree = core.make("nearest", view)
+
+    def __repr__(self) -> str:
+        return f"<Nearest of {len(self._arguments[0][0])} points, domain {self._arguments[1]['domain']!r}>"
 
     def find(
         self, queries: ArrayLike, neighbours: int = 1, *, threads: int = 0, progress: Optional[Progress] = None

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import warnings
-from typing import Any, Literal, Optional, Union, overload
+from typing import Any, Callable, Iterator, Literal, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._bridge import ArgumentError, AureoleWarning, domain_kept, encode, kept, vector
+from ._bridge import ArgumentError, AureoleWarning, Rebuilt, Seed, as_array, domain_kept, encode, kept, seed_number, vector
 from ._core import CoreCall, core, ffi, lib
 
 Array = NDArray[np.float64]
@@ -28,7 +29,7 @@ def parse_lobe(lobe: str) -> Any:
 
 def directions_options(
     call: CoreCall, n: int, domain: str, map: str, lobe: str, density: str, smoothness: float, cap: float,
-    scramble: str, seed: int,
+    scramble: str, seed: Seed,
 ) -> Any:  # fmt: skip
     if density not in ("same", "optimal"):
         raise ArgumentError(f"density must be 'same' or 'optimal', not {density!r}")
@@ -54,20 +55,21 @@ def look(made: Any) -> tuple[Array, Optional[Array], str]:
 @overload
 def points(
     set: str, n: int = ..., *, domain: Optional[Domain] = ..., dimension: int = ..., map: Map = ..., lobe: str = ...,
-    density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: int = ...,
-    first: int = ..., count: int = ..., weights: Literal[False] = ...,
-) -> Array: ...  # fmt: skip
+    density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: Seed = ...,
+    first: int = ..., count: int = ..., weights: Literal[False] = ..., out: Any = ..., dtype: DTypeLike = ...,
+) -> np.ndarray: ...  # fmt: skip
 @overload
 def points(
     set: str, n: int = ..., *, domain: Optional[Domain] = ..., dimension: int = ..., map: Map = ..., lobe: str = ...,
-    density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: int = ...,
-    first: int = ..., count: int = ..., weights: Literal[True],
-) -> tuple[Array, Array]: ...  # fmt: skip
+    density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: Seed = ...,
+    first: int = ..., count: int = ..., weights: Literal[True], out: Any = ..., dtype: DTypeLike = ...,
+) -> tuple[np.ndarray, Array]: ...  # fmt: skip
 def points(
     set: str, n: int = 0, *, domain: Optional[Domain] = None, dimension: int = 0, map: Map = "lambert",
     lobe: str = "uniform", density: Density = "same", smoothness: float = 1.5, cap: float = 0.0,
-    scramble: Scramble = "none", seed: int = 0, first: int = 0, count: int = 0, weights: bool = False,
-) -> Union[Array, tuple[Array, Array]]:  # fmt: skip
+    scramble: Scramble = "none", seed: Seed = 0, first: int = 0, count: int = 0, weights: bool = False,
+    out: Any = None, dtype: DTypeLike = np.float64,
+) -> Union[np.ndarray, tuple[np.ndarray, Array]]:  # fmt: skip
     """Points of a set, one a row.
 
     Parameters
@@ -87,13 +89,16 @@ def points(
     cap : degrees; not 0: the points fill the cap of this polar angle about +z.
     scramble : "digit" (Kollig, Keller 2002), "owen" (Owen 1995), "shift" (Cranley, Patterson 1976), "rotate" (about z),
         "rotate3d" (a uniformly random rotation).
-    seed : of scrambling and of random sets, from 0 to 2^64 - 1.
+    seed : of scrambling and of random sets: an integer from 0, the same points for the same one; None or a generator
+        of NumPy's for other points in each call. The default is 0, so that two calls give the same points.
     first, count : the part of the set that is wanted; count 0: all from `first` on.
     weights : whether to return also the weights, (n,): 1/n each where the density is the lobe itself.
+    out : an array to write the points into and to return, of float64 or float32 and any strides.
+    dtype : float64 or float32, where there is no `out`. Of square and cube float32 are the doubles cut to 24 binary digits.
 
     Returns
     -------
-    An array of float64, or a pair of it and the weights. The arrays are the library's own, without a copy.
+    An array, or a pair of it and the weights. Without `out` arrays of float64 are the library's own, without a copy.
 
     >>> points("hammersley", 4)
     array([[0.  , 0.  ],
@@ -115,7 +120,12 @@ def points(
         core.fill(request, natural_domain=domain is None, dimension=dimension, first=first, count=count)
         made = ffi.new("aur_points **")
         core.call(lib.aur_points_generate, encode(set), request, made)
-        found, found_weights, _ = look(core.own("points", made))
+        found, found_weights, of = look(core.own("points", made))
+    if out is not None or np.dtype(dtype) != np.float64:
+        target = target_array(len(found), found.shape[1], out, dtype)
+        cut = target.dtype == np.float32 and of in ("square", "cube")
+        target[...] = np.floor(found * 2.0**24) * 2.0**-24 if cut else found
+        found = target if out is None else out
     if not weights:
         return found
     return found, np.full(len(found), 1.0 / len(found)) if found_weights is None else found_weights
@@ -164,7 +174,7 @@ class View:
     """The library's view of a caller's array, without a copy where rows of doubles lie apart evenly."""
 
     def __init__(self, points: ArrayLike, weights: Optional[ArrayLike] = None, domain: Optional[Domain] = None):
-        array = np.asarray(points, dtype=np.float64)
+        array = as_array(points)
         if array.ndim == 1:
             array = array[:, np.newaxis]
         if array.ndim != 2:
@@ -235,63 +245,110 @@ def domain_of(array: NDArray[np.float64]) -> Domain:
     return found
 
 
-class PointSet:
-    """A set on the unit cube made ready: any part of it, in any order, into any array, from any thread.
+class _Rows(Rebuilt):
+    """A set made ready as a sequence of its points: its length, its rows by index, and all of it as an array."""
 
-    Parameters as for `points`; n must be given unless the set is a file.
-
-    >>> sobol = PointSet("sobol", 2**20, dimension=3, scramble="owen", seed=7)
-    >>> len(sobol), sobol.dimension
-    (1048576, 3)
-    >>> part = sobol.points(1000, 64)
-    >>> bool((part == sobol.points(0, 1064)[1000:]).all())
-    True
-    """
-
-    def __init__(self, set: str, n: int = 0, *, dimension: int = 0, scramble: Scramble = "none", seed: int = 0):
-        with CoreCall() as call:
-            options = core.options(
-                "pointset_options", count=n, dimension=dimension, scramble=core.value("scramble", scramble), seed=seed
-            )
-            self._set = core.make("pointset", encode(set), call.attach(options, progress=False))
+    size: int
+    dimension: int
+    points: Callable[..., np.ndarray]
 
     def __len__(self) -> int:
         """At most 2^63 - 1, as of everything in Python; `size` has no bound."""
         return self.size
 
+    def __getitem__(self, key: Any) -> Any:
+        """Rows by an index, a slice or an array of indices, and coordinates of theirs after a comma, as of an array."""
+        which, *columns = key if isinstance(key, tuple) else (key,)
+        if isinstance(which, slice):
+            first, stop, step = which.indices(self.size)
+            count = len(range(first, stop, step))
+            found = self.points(first, count) if step == 1 else self._rows(first + step * np.arange(count, dtype=object))
+        elif np.ndim(which) == 0:
+            found = self._rows(np.array([operator.index(which)], dtype=object))[0]
+        else:
+            found = self._rows(np.asarray(which, dtype=object))
+        return found[(..., *columns)] if columns else found
+
+    def _rows(self, indices: NDArray[Any]) -> np.ndarray:
+        """Rows at any indices: runs of near ones are made at once."""
+        if indices.ndim != 1:
+            raise IndexError("indices must be an integer, a slice or a list of integers")
+        rows = np.array([operator.index(i) + self.size * (i < 0) for i in indices], dtype=object)
+        for row in rows[(rows < 0) | (rows >= self.size)][:1]:
+            raise IndexError(f"there is no point {row} of {self.size}")
+        found = np.empty((len(rows), self.dimension))
+        order = np.argsort(rows, kind="stable")
+        for run in np.split(order, np.flatnonzero(np.diff(rows[order]) > 64) + 1) if len(rows) else ():
+            first = rows[run[0]]
+            found[run] = self.points(first, rows[run[-1]] - first + 1)[(rows[run] - first).astype(np.intp)]
+        return found
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        for first in range(0, self.size, 1024):
+            yield from self.points(first, min(1024, self.size - first))
+
+    def __array__(self, dtype: Optional[DTypeLike] = None, copy: Optional[bool] = None) -> np.ndarray:
+        if copy is False:
+            raise ValueError("the points are made when they are asked for: copy=False cannot be")
+        return np.asarray(self.points(), dtype=dtype)
+
+
+class PointSet(_Rows):
+    """A set on the unit cube made ready: any part of it, in any order, into any array, from any thread.
+
+    Parameters as for `points`; n must be given unless the set is a file. Rows are there by their indices too.
+
+    >>> sobol = PointSet("sobol", 2**20, dimension=3, scramble="owen", seed=7)
+    >>> len(sobol), sobol.dimension
+    (1048576, 3)
+    >>> part = sobol.points(1000, 64)
+    >>> bool((part == sobol.points(0, 1064)[1000:]).all()), bool((part[::3, 1] == sobol[1000:1064:3, 1]).all())
+    (True, True)
+    """
+
+    def __init__(self, set: str, n: int = 0, *, dimension: int = 0, scramble: Scramble = "none", seed: Seed = 0):
+        with CoreCall() as call:
+            options = core.options(
+                "pointset_options", count=n, dimension=dimension, scramble=core.value("scramble", scramble),
+                seed=self._reseed(seed),
+            )  # fmt: skip
+            self._set = core.make("pointset", encode(set), call.attach(options, progress=False))
+
     @property
-    def size(self) -> int:
+    def size(self) -> int:  # type: ignore[override]
         """Points of the set."""
         return lib.aur_pointset_size(self._set)
 
     @property
-    def dimension(self) -> int:
+    def dimension(self) -> int:  # type: ignore[override]
         """Coordinates a point."""
         return lib.aur_pointset_dimension(self._set)
 
-    def points(
+    def points(  # type: ignore[override]
         self, first: int = 0, count: Optional[int] = None, *, dimensions: Optional[slice] = None,
-        seed: Optional[int] = None, out: Optional[np.ndarray] = None, dtype: DTypeLike = np.float64,
+        seed: Seed = None, out: Any = None, dtype: DTypeLike = np.float64,
     ) -> np.ndarray:  # fmt: skip
         """Points first .. first+count-1, (count, dimension), in [0, 1).
 
         `count` None: all from `first` on. `dimensions`: a slice, some of the coordinates alone. `seed`: another seed of
-        the scrambling. `out`: an array of float64 or float32 to write into, rows or columns contiguous; float32 are the
-        doubles cut to 24 binary digits.
+        the scrambling; None: the set's. `out`: an array of float64 or float32 to write into and to return; float32 are
+        the doubles cut to 24 binary digits. Contiguous rows or columns of it are filled in their place, others by a copy.
         """
         low, high, step = (dimensions or slice(None)).indices(self.dimension)
         if step != 1:
             raise ArgumentError("dimensions must be a slice without a step")
-        if count is None:
-            count = max(0, self.size - first)
-        array, output = make_output(count, max(0, high - low), out, dtype)
         if seed is not None and dimensions is not None:
             raise ArgumentError("another seed gives all dimensions: slice what it returns")
-        if seed is not None:
-            core.call(lib.aur_pointset_randomize, self._set, seed, first, count, output)
-        else:
-            core.call(lib.aur_pointset_coordinates, self._set, low, max(0, high - low), first, count, output)
-        return array
+        if count is None:
+            count = max(0, self.size - first)
+
+        def generate(output: Any) -> None:
+            if seed is not None:
+                core.call(lib.aur_pointset_randomize, self._set, seed_number(seed), first, count, output)
+            else:
+                core.call(lib.aur_pointset_coordinates, self._set, low, max(0, high - low), first, count, output)
+
+        return write_into(count, max(0, high - low), out, dtype, generate)
 
     def coordinate(self, index: int, dimension: int) -> float:
         """One coordinate of one point; NaN beyond the set."""
@@ -301,7 +358,7 @@ class PointSet:
             raise ArgumentError(f"coordinate {dimension} of point {index} is out of range") from error
 
 
-class Directions:
+class Directions(_Rows):
     """A set of directions made ready: any part of it, in any order, from any thread. Parameters as for `points`.
 
     >>> sphere = Directions("spherical-fibonacci", 10**12, domain="sphere")
@@ -310,64 +367,90 @@ class Directions:
            [ 0.635771, -0.169282,  0.753086]])
     """
 
+    dimension = 3
+
     def __init__(
         self, set: str, n: int = 0, *, domain: Literal["hemisphere", "sphere", "axes"] = "sphere",
         map: Map = "lambert", lobe: str = "uniform", density: Density = "same", smoothness: float = 1.5,
-        cap: float = 0.0, scramble: Scramble = "none", seed: int = 0,
+        cap: float = 0.0, scramble: Scramble = "none", seed: Seed = 0,
     ):  # fmt: skip
         with CoreCall() as call:
-            options = directions_options(call, n, domain, map, lobe, density, smoothness, cap, scramble, seed)
+            options = directions_options(
+                call, n, domain, map, lobe, density, smoothness, cap, scramble, self._reseed(seed)
+            )
             self._set = core.make("directions", encode(set), options)
 
-    def __len__(self) -> int:
-        """At most 2^63 - 1, as of everything in Python; `size` has no bound."""
-        return self.size
-
     @property
-    def size(self) -> int:
+    def size(self) -> int:  # type: ignore[override]
         """Directions of the set."""
         return lib.aur_directions_size(self._set)
 
-    def points(
-        self, first: int = 0, count: Optional[int] = None, *, out: Optional[np.ndarray] = None,
-        dtype: DTypeLike = np.float64,
-    ) -> np.ndarray:  # fmt: skip
+    def points(  # type: ignore[override]
+        self, first: int = 0, count: Optional[int] = None, *, out: Any = None, dtype: DTypeLike = np.float64
+    ) -> np.ndarray:
         """Unit vectors first .. first+count-1, (count, 3); count None: all from `first` on. `out` as for `PointSet`."""
         return self.rule(first, count, out=out, dtype=dtype)[0]
 
     def rule(
-        self, first: int = 0, count: Optional[int] = None, *, out: Optional[np.ndarray] = None,
-        dtype: DTypeLike = np.float64,
-    ) -> tuple[np.ndarray, Array]:  # fmt: skip
+        self, first: int = 0, count: Optional[int] = None, *, out: Any = None, dtype: DTypeLike = np.float64
+    ) -> tuple[np.ndarray, Array]:
         """The same with their weights, (count,): for integrals against the lobe normalised to 1."""
         count = max(0, self.size - first) if count is None else count
-        array, output = make_output(count, 3, out, dtype)
-        weights, weights_output = make_output(count, 1, None, np.float64)
-        core.call(lib.aur_directions_generate, self._set, first, count, output, weights_output)
+        weights = target_array(count, 1, None, np.float64)
+        weights_output = plain_output(weights)
+        array = write_into(
+            count, 3, out, dtype,
+            lambda output: core.call(lib.aur_directions_generate, self._set, first, count, output, weights_output),
+        )  # fmt: skip
         return array, weights[:, 0]
 
 
-def make_output(count: int, columns: int, out: Optional[np.ndarray], dtype: DTypeLike) -> tuple[np.ndarray, Any]:
-    """An array for count points and the library's words for where it lies."""
+def target_array(count: int, columns: int, out: Any, dtype: DTypeLike) -> np.ndarray:
+    """The array that count points go into: `out` as NumPy sees it, or a new one."""
     if count < 0:
         raise ArgumentError(f"a count of {count} points")
     array = np.empty((count, columns), dtype=dtype) if out is None else out
+    if not isinstance(array, np.ndarray) and hasattr(array, "__dlpack__"):
+        array = np.from_dlpack(array)
+        if not array.flags.writeable and hasattr(out, "__array__"):  # as all are that NumPy before 2.1 takes by DLPack
+            array = np.asarray(out)
+    if not isinstance(array, np.ndarray):
+        raise ArgumentError(f"out must be an array, not {type(array).__name__}")
     if array.shape != (count, columns) or array.dtype not in (np.float64, np.float32) or not array.flags.writeable:
         raise ArgumentError(
             f"out must be a writeable array of float64 or float32 of the shape ({count}, {columns}), "
             f"not {array.dtype} of {array.shape}"
         )
+    return array
+
+
+def plain_output(array: np.ndarray) -> Any:
+    """The library's words for where an array lies; None where it has none, as rows or columns lie apart."""
     row, column = array.strides
+    count, columns = array.shape
     item = array.itemsize
     output = ffi.new("aur_output *")
     output.layout = lib.AUR_LAYOUT_POINTS
-    output.capacity = count * columns
+    output.capacity = array.size
     if not array.flags.c_contiguous:
-        if row != item or column % item or column < count * item:
-            raise ArgumentError("out must have contiguous rows, one after the other, or contiguous columns")
+        if row != item or column % item or column < count * item or not array.flags.aligned:
+            return None
         output.layout = lib.AUR_LAYOUT_ARRAYS
         output.stride = column // item
         output.capacity = output.stride * (columns - 1) + count
     kind = "double" if array.dtype == np.float64 else "float"
     setattr(output, kind + "s", core.output(array, kind))
-    return array, output
+    return output
+
+
+def write_into(count: int, columns: int, out: Any, dtype: DTypeLike, generate: Callable[[Any], None]) -> np.ndarray:
+    """What `generate` writes into an output of the library's, in `out` or in a new array."""
+    array = target_array(count, columns, out, dtype)
+    output = plain_output(array)
+    if output is not None:
+        generate(output)
+    else:
+        made = np.empty(array.shape, dtype=array.dtype)
+        generate(plain_output(made))
+        array[...] = made
+    return array if out is None else out

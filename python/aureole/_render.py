@@ -10,7 +10,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import ArgumentError, Bridge, Call, Error, Progress, encode, kept, rows
+from ._bridge import ArgumentError, Bridge, Call, Error, Progress, Rebuilt, encode, kept, rows
 from ._core import core
 from ._library import ffi
 from ._tables import Row, read_tables
@@ -132,7 +132,7 @@ class SceneDescription(NamedTuple):
     filter: str
 
 
-class Scene:
+class Scene(Rebuilt):
     """A scene: Mitsuba 3's XML, Radiance's .rad, or a model (.glb, .obj, ...); loaded once, for any number of pictures.
 
     `definitions`: values for the scene's <default>s. `confine`: no file outside of the scene's folder is read. `text`: the

@@ -7,13 +7,13 @@ from typing import Any, Callable, Literal, NamedTuple, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._bridge import ArgumentError, Progress, encode, rows, vector
+from ._bridge import ArgumentError, Progress, Rebuilt, encode, rows, vector
 from ._core import CoreCall, core, ffi, lib
 from ._measures import weights_voronoi
 from ._points import Array, Density, Domain, Map, Scramble, directions_options, domain_of, parse_lobe
 
 
-class Potential:
+class Potential(Rebuilt):
     """A density on the sphere for integrands of one smoothness: what worst-case errors and optimal weights are made of.
 
     Parameters

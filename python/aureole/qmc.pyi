@@ -2,6 +2,7 @@ from typing import Any, Optional, Union
 
 from scipy.stats import qmc as _qmc
 
+from ._bridge import Seed
 from ._points import Array
 from ._tables import Set
 
@@ -14,10 +15,12 @@ class Engine(_qmc.QMCEngine):
         n: Optional[int] = ...,
         scramble: Union[bool, str] = ...,
         optimization: Optional[str] = ...,
-        seed: Any = ...,
+        seed: Seed = ...,
+        rng: Seed = ...,
         **keys: Any,
     ) -> None: ...
     def fast_forward(self, n: int) -> Engine: ...
+    def random_base2(self, m: int) -> Array: ...
 
 def engines() -> dict[str, type[Engine]]: ...
 

@@ -1,7 +1,9 @@
 """core.py PROGRAM: the core of the Python package."""
 
+import copy
 import gc
 import inspect
+import pickle
 import re
 import subprocess
 import sys
@@ -79,13 +81,117 @@ class Points(unittest.TestCase):
         self.assertTrue((made.points(seed=2) == other.points()).all())
         self.assertEqual(made.coordinate(7, 2), whole[7, 2])
         self.assertTrue(np.isnan(made.coordinate(1024, 0)))
-        for wrong in (np.empty((20, 2)), np.empty((20, 3), dtype=int), np.empty((40, 3))[::2]):
+        locked = np.empty((20, 3))
+        locked.flags.writeable = False
+        for wrong in (np.empty((20, 2)), np.empty((20, 3), dtype=int), locked, [[0.0] * 3] * 20):
             with self.assertRaises(aureole.ArgumentError):
                 made.points(0, 20, out=wrong)
+        for kind in (np.float64, np.float32):  # any strides
+            wide = np.full((60, 9), -1.0, dtype=kind)
+            for out in (wide[::3, ::3], wide[39:19:-1, 6:3:-1], wide[20:40, 1:4]):
+                wide[...] = -1
+                self.assertIs(made.points(10, 20, out=out), out)
+                self.assertTrue((out == made.points(10, 20, dtype=kind)).all())
+                self.assertEqual(int((wide == -1).sum()), wide.size - out.size)
         directions = aureole.Directions("sobol", 64, domain="hemisphere", lobe="phong:20", density="optimal")
         xyz, weights = aureole.points("sobol", 64, domain="hemisphere", lobe="phong:20", density="optimal", weights=True)
         found = directions.rule(8, 16)
         self.assertTrue((found[0] == xyz[8:24]).all() and (found[1] == weights[8:24]).all())
+
+    def test_points_into_arrays(self):
+        for domain, shape in (("square", (64, 2)), ("sphere", (64, 3)), ("rotations", (64, 4))):
+            name = "super-fibonacci" if domain == "rotations" else "sobol"
+            plain = aureole.points(name, 64, domain=domain)
+            single = aureole.points(name, 64, domain=domain, dtype=np.float32)
+            expected = np.floor(plain * 2**24) / 2**24 if domain == "square" else plain.astype(np.float32)
+            self.assertTrue(single.dtype == np.float32 and (single == expected).all())
+            out = np.zeros((shape[0], 2 * shape[1]))[:, ::2]
+            self.assertIs(aureole.points(name, 64, domain=domain, out=out), out)
+            self.assertTrue((out == plain).all())
+        with self.assertRaisesRegex(aureole.ArgumentError, r"the shape \(64, 2\)"):
+            aureole.points("sobol", 64, out=np.empty((64, 3)))
+
+    def test_sets_are_sequences(self):
+        sobol = aureole.PointSet("sobol", 4096, dimension=5, scramble="owen", seed=3)
+        xyz = aureole.Directions("spherical-fibonacci", 300)
+        random = np.random.default_rng(1)
+        for made in (sobol, xyz):
+            whole = made.points()
+            self.assertTrue((np.asarray(made) == whole).all() and (np.array(list(made)) == whole).all())
+            picks = random.integers(-len(made), len(made), 200)
+            for key in (
+                0, -1, np.int32(7), slice(3, 9), slice(None, None, -70), slice(250, 5, -3), slice(9, 3), [5, 5, -2], picks, [],
+                (slice(2, 8), 1), (4, slice(1, 3)), (7, 2), (-1,),
+            ):  # fmt: skip
+                found = made[key]
+                self.assertTrue(found.shape == whole[key].shape and (found == whole[key]).all(), key)
+            for wrong in (len(made), -len(made) - 1, [0, len(made)]):
+                with self.assertRaises(IndexError):
+                    made[wrong]
+            for wrong in (1.5, "0", [[0, 1]]):
+                with self.assertRaises((TypeError, IndexError)):
+                    made[wrong]
+        large = aureole.PointSet("sobol", 2**53)
+        self.assertTrue((large[2**52 : 2**53 : 2**50] == [large.points(i, 1)[0] for i in range(2**52, 2**53, 2**50)]).all())
+
+    def test_copies_and_texts(self):
+        xyz = aureole.points("spherical-fibonacci", 100, domain="sphere")
+        generator = np.random.default_rng(5)
+        for made, look in (
+            (aureole.PointSet("halton:permute=random", 50, dimension=3, scramble="shift", seed=generator), lambda x: x.points()),
+            (aureole.Directions("sobol", 64, domain="hemisphere", lobe="phong:20", scramble="owen", seed=4), lambda x: x.points()),
+            (aureole.Nearest(xyz), lambda x: np.array(x.find(xyz[:9] + 0.01, 3))),
+            (aureole.Potential("phong:3", smoothness=1.6), lambda x: x.evaluate(xyz)),
+        ):  # fmt: skip
+            for other in (pickle.loads(pickle.dumps(made)), copy.deepcopy(made), copy.copy(made)):
+                self.assertTrue((look(other) == look(made)).all())
+        text = repr(aureole.PointSet("sobol", 64, dimension=3, scramble="owen", seed=2**70))
+        self.assertRegex(text, r"^PointSet\('sobol', 64, dimension=3, scramble='owen', seed=[0-9]+\)$")
+        self.assertTrue((eval("aureole." + text).points() == aureole.PointSet("sobol", 64, dimension=3, scramble="owen",
+                                                                              seed=2**70).points()).all())  # fmt: skip
+
+    def test_seeds(self):
+        def draw(seed):
+            return aureole.points("random", 8, seed=seed)
+
+        self.assertTrue((draw(7) == draw(np.uint8(7))).all())
+        self.assertTrue((draw(2**128 + 1) == draw(2**128 + 1)).all() and (draw(2**128 + 1) != draw(2**128)).all())
+        for make in (np.random.default_rng, np.random.RandomState, np.random.SeedSequence, np.random.PCG64):
+            self.assertTrue((draw(make(3)) == draw(make(3))).all() and (draw(make(3)) != draw(make(4))).all())
+        generator = np.random.default_rng(3)
+        self.assertTrue((draw(generator) != draw(generator)).all() and (draw(None) != draw(None)).all())
+        self.assertTrue((aureole.rotate([[1, 0, 0.0]], generator) != aureole.rotate([[1, 0, 0.0]], generator)).any())
+        for wrong in ("7", b"7", 1.5, [1], object()):
+            with self.assertRaisesRegex(TypeError, "seed must be an integer, None or one of NumPy's random generators, not "):
+                draw(wrong)
+        with self.assertRaisesRegex(aureole.ArgumentError, "seed must be at least 0, not -1"):
+            draw(-1)
+
+    def test_arrays_of_other_libraries(self):
+        """What offers DLPack alone is read and written in its place, and what we return offers it."""
+
+        class Tensor:
+            def __init__(self, array, device=(1, 0)):
+                self.array, self.device = array, device
+
+            def __dlpack__(self, **options):
+                if self.device != (1, 0):
+                    raise BufferError("it is on a device")
+                return self.array.__dlpack__(**options)
+
+            def __dlpack_device__(self):
+                return self.device
+
+        xyz = aureole.points("spherical-fibonacci", 50, domain="sphere")
+        self.assertEqual(aureole.measure(Tensor(xyz), "energy"), aureole.measure(xyz, "energy"))
+        self.assertTrue((aureole.weights(Tensor(xyz), "voronoi") == aureole.weights(xyz, "voronoi")).all())
+        self.assertTrue(np.shares_memory(np.from_dlpack(xyz), xyz))
+        with self.assertRaises((aureole.ArgumentError, RuntimeError)):
+            aureole.measure(Tensor(xyz, (2, 0)), "energy")
+        out = np.zeros((50, 3))
+        if np.from_dlpack(out).flags.writeable:  # NumPy 2.1 and later
+            aureole.points("spherical-fibonacci", 50, domain="sphere", out=Tensor(out))
+            self.assertTrue((out == xyz).all())
 
     def test_arrays_are_not_copied(self):
         found = aureole.points("sobol", 1024)
