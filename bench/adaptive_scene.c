@@ -67,6 +67,7 @@ static aur_result render(const bench_adaptive_scene *self, const char *integrato
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = asked;
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     aur_result result = aur_adaptive_create(self->renderer, &own, &target, adaptive, error);
     if (result == AUR_OK)
         result = aur_adaptive_run(*adaptive, error);

@@ -15,8 +15,8 @@ extern "C" {
  * are not zero; with none, after the round that brings the error below 1 %. */
 typedef struct aur_adaptive_options {
     size_t size;
-    /* Target of the root mean square error over all pixels and channels R, G, B, relative to their mean:
-     * rendering stops when the upper confidence bound is below this. In (0, 1]. */
+    /* Target of the error by `measure`: rendering stops when the upper confidence bound is below this. In
+     * (0, 1]. */
     double error;
     double seconds; /* wall clock, with preparation: the only target whose image depends on the machine */
     uint64_t rays;
@@ -25,8 +25,9 @@ typedef struct aur_adaptive_options {
      * zero: the target of the noise leaves room for it, and the reported error includes it. 0 where the
      * integrator is chosen: its bias is measured then. */
     double bias;
-    double confidence; /* of the interval, in [.5, .9999]; 0: .95 */
-    size_t replicas;   /* independent renderings, 3 to 16; 0: 4 */
+    double confidence;         /* of the interval, in [.5, .9999]; 0: .95 */
+    size_t replicas;           /* independent renderings, 3 to 16; 0: 4 */
+    aur_error_measure measure; /* of `error` and `bias`; samples go where this error falls most for them */
 } aur_adaptive_options;
 
 AUR_EXPERIMENTAL aur_result aur_adaptive_options_init(aur_adaptive_options *options, aur_error *error)
@@ -60,11 +61,16 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_save(const aur_adaptive *adaptive, cons
 AUR_EXPERIMENTAL aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
 
+/* An error, and the interval that contains it with the confidence of the options. */
+typedef struct aur_error_figures {
+    double error, low, high;
+} aur_error_figures;
+
 /* `size` is set by the caller to the size of his struct. */
 typedef struct aur_adaptive_report {
     size_t size;
-    /* Relative to `mean`: of the picture as it is, not of its like with other seeds. Infinite before the
-     * first round, and for a picture that is black. */
+    /* By the measure of the options: of this image, not of images with other seeds. Infinite before the first
+     * round, and for an image that is black. */
     double error, error_low, error_high;
     double mean; /* over all pixels and channels R, G, B */
     /* Independent values that the error consists of: about one a pixel and channel for noise, few where all
@@ -80,6 +86,8 @@ typedef struct aur_adaptive_report {
     uint64_t candidate_rays;
     double
         bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
+    /* The error by every measure; of the bias only the part that `error` includes is known. */
+    aur_error_figures errors[AUR_ERROR_MEASURE_COUNT];
 } aur_adaptive_report;
 
 /* Errors: ARGUMENT when `size` is not set. */

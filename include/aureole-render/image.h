@@ -134,6 +134,28 @@ AUR_API aur_result aur_image_compare(const aur_image *reference, const aur_image
                                      aur_image_metric metric, double value[4], aur_error *error)
     AUR_NONNULL(1, 2, 4);
 
+/* What one number says of the error of an image. Each is a root mean square over pixels; values and means are
+ * the reference's, averaged over 5 x 5 pixels. */
+typedef enum aur_error_measure {
+    AUR_ERROR_MEASURE_RELATIVE, /* error of luminance / (luminance + 1 % of the image's mean luminance) */
+    AUR_ERROR_MEASURE_MEAN,     /* of R, G and B / the image's mean */
+    /* Of R, G and B as a screen shows them, from 0 to 1: by the sRGB curve, exposed so that the geometric
+     * mean of luminance is .18, and clipped. The peak signal-to-noise ratio is -20 log10 of it in dB. */
+    AUR_ERROR_MEASURE_DISPLAY
+} aur_error_measure;
+
+enum { AUR_ERROR_MEASURE_COUNT = AUR_ERROR_MEASURE_DISPLAY + 1 };
+
+AUR_API aur_result aur_error_measure_from_name(const char *name, aur_error_measure *measure, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API const char *aur_error_measure_name(aur_error_measure measure); /* NULL out of range */
+
+/* The error of `image` by a measure; infinite for a black reference and an image that is not. Errors as for
+ * aur_image_compare, MEMORY. */
+AUR_API aur_result aur_image_error(const aur_image *reference, const aur_image *image,
+                                   aur_error_measure measure, double *value, aur_error *error)
+    AUR_NONNULL(1, 2, 4);
+
 /* LDR-FLIP (Andersson et al. 2020) of each pixel, in [0,1], in one channel: how much a person sees who flips
  * between the pictures on a screen of 67 pixels a degree. Radiance is clamped to [0,1]. Errors as for
  * aur_image_compare. */

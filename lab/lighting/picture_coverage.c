@@ -29,6 +29,7 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = asked;
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     target.rounds = asked > 0.0 ? 0 : 2;
     aur_adaptive *adaptive = NULL;
     aur_image *image = NULL;

@@ -181,7 +181,7 @@ def render(
     scene: Union[Scene, Path], *, integrator: Optional[str] = None, sampler: Optional[str] = None,
     filter: Optional[str] = None, spp: int = 0, width: int = 0, height: int = 0,
     crop: Optional[tuple[int, int, int, int]] = None, seed: int = 0, threads: int = 0,
-    error: Optional[float] = None, channels: Optional[Sequence[str]] = None,
+    error: Optional[float] = None, error_measure: str = "relative", channels: Optional[Sequence[str]] = None,
     definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
 ) -> Picture:  # fmt: skip
     """A picture of a scene, (height, width, channels) of float32: linear radiance, Rec. 709 primaries, the top row first.
@@ -193,7 +193,8 @@ def render(
     spp : samples a pixel; 0: the scene's.
     width, height : in pixels; 0: the scene's, or its shape where the other one is given.
     crop : (x0, x1, y0, y1): the pixels x0 <= x < x1, y0 <= y < y1 alone.
-    error : render until the root mean square error is below this part of the picture's mean; `spp` has no meaning then.
+    error : render until the error by `error_measure` is below this, such as .05; `spp` has no meaning then.
+    error_measure : "relative" to each pixel's surroundings, to the image's "mean", or of the image as on a "display".
     channels : their names; None: R, G, B. An integrator such as `aov` adds others.
     threads : 0: all. No bit depends on it.
     """
@@ -212,7 +213,9 @@ def render(
         if error is None:
             library.call(library.lib.aur_renderer_render, renderer, options, image, ffi.NULL)
         else:
-            target = library.options("adaptive_options", error=error)
+            measure = ffi.new("aur_error_measure *")
+            library.call(library.lib.aur_error_measure_from_name, texts(error_measure), measure)
+            target = library.options("adaptive_options", error=error, measure=measure[0])
             adaptive = library.make("adaptive", renderer, options, target, keep=(renderer, call))
             library.call(library.lib.aur_adaptive_run, adaptive)
             library.call(library.lib.aur_adaptive_develop, adaptive, False, image)

@@ -26,6 +26,9 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
     if (!(target->confidence >= 0.5 && target->confidence <= 0.9999))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be from .5 to .9999, not %g",
                         target->confidence);
+    if ((size_t)target->measure >= AUR_ERROR_MEASURE_COUNT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no error measure number %d",
+                        (int)target->measure);
     if (target->replicas == 0)
         target->replicas = 4;
     if (target->replicas < 3 || target->replicas > AUR_REPLICAS_MAX)
@@ -106,9 +109,10 @@ static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
     if (result != AUR_OK)
         return result;
     snprintf(target, sizeof target,
-             "error %.15g\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
+             "error %.15g %s\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
              "\nbias %.15g\nconfidence %.15g\nreplicas %zu\n",
-             w->error, w->seconds, w->rays, w->rounds, w->bias, w->confidence, w->replicas);
+             w->error, aur_error_measure_name(w->measure), w->seconds, w->rays, w->rounds, w->bias,
+             w->confidence, w->replicas);
     adaptive->identity = malloc(strlen(render) + strlen(target) + 1);
     if (adaptive->identity != NULL)
         strcat(strcpy(adaptive->identity, target), render);
@@ -124,8 +128,9 @@ static aur_result begin_candidate(aur_adaptive *adaptive, char *integrator, aur_
     adaptive->candidate.integrator = integrator;
     aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
     aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
-    const aur_result result = aur_candidate_create(adaptive->renderer, &adaptive->options,
-                                                   adaptive->target.replicas, &adaptive->candidate, error);
+    const aur_result result =
+        aur_candidate_create(adaptive->renderer, &adaptive->options, adaptive->target.replicas,
+                             adaptive->target.measure, &adaptive->candidate, error);
     aur_cache_count(cache, before);
     adaptive->candidate.traced += spent.rays;
     return result;
@@ -170,6 +175,7 @@ static aur_result choose(aur_adaptive *adaptive, aur_error *error) {
                          .seconds = adaptive->target.seconds,
                          .confidence = adaptive->target.confidence,
                          .replica_count = adaptive->target.replicas,
+                         .measure = adaptive->target.measure,
                          .cancelled = &adaptive->cancelled,
                          .others.rays = adaptive->others.rays,
                          .candidate = adaptive->candidate};
@@ -246,6 +252,8 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "a bias of %g: it goes with an integrator that is named, else it is measured",
                         adaptive->target.bias);
+    /* The bias of final gathering is only known relative to the mean. */
+    adaptive->open = adaptive->open && adaptive->target.measure == AUR_ERROR_MEASURE_MEAN;
     adaptive->bias.high = adaptive->target.bias * adaptive->target.bias;
     return AUR_OK;
 }
@@ -295,8 +303,7 @@ static void count_spent(const aur_adaptive *adaptive, aur_render_statistics *sum
 }
 
 /* The interval of noise and bias together; its ends are those of both. */
-static aur_error_interval whole_error(const aur_adaptive *adaptive) {
-    const aur_error_interval *const noise = &adaptive->candidate.interval;
+static aur_error_interval whole_error(const aur_adaptive *adaptive, const aur_error_interval *noise) {
     return (aur_error_interval){
         .estimate = sqrt(noise->estimate * noise->estimate + fmax(adaptive->bias.estimate, 0.0)),
         .low = sqrt(noise->low * noise->low + adaptive->bias.low),
@@ -350,7 +357,7 @@ void aur_adaptive_cancel(aur_adaptive *adaptive) {
 /* --- what came out */
 
 aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
-    const aur_error_interval interval = whole_error(adaptive);
+    const aur_error_interval interval = whole_error(adaptive, &adaptive->candidate.interval);
     aur_adaptive_report own = {.error = interval.estimate,
                                .error_low = interval.low,
                                .error_high = interval.high,
@@ -362,6 +369,10 @@ aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_re
                                .replicas = adaptive->candidate.replicas.count,
                                .candidate_rays = adaptive->others.budget,
                                .bias_high = sqrt(adaptive->bias.high)};
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
+        const aur_error_interval one = whole_error(adaptive, &adaptive->candidate.intervals[m]);
+        own.errors[m] = (aur_error_figures){.error = one.estimate, .low = one.low, .high = one.high};
+    }
     count_spent(adaptive, &own.statistics);
     return aur_description_write(&own, sizeof own, out, "aur_adaptive_report", error);
 }

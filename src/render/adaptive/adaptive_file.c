@@ -8,7 +8,12 @@
 #include "render/film/film.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
-enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 10 };
+enum {
+    NUMBERS = 10,
+    INTERVALS = 4 * AUR_ERROR_MEASURE_COUNT,
+    CHOICE = NUMBERS + INTERVALS + 2,
+    STATE_WORDS = CHOICE + 8
+};
 
 static size_t word_count(const aur_adaptive *adaptive) {
     return STATE_WORDS + 3 * adaptive->candidate.value_count + 2 * adaptive->candidate.replicas.pixel_count +
@@ -23,11 +28,7 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
     uint64_t *const words = malloc(word_count(adaptive) * sizeof *words);
     if (words == NULL)
         return aur_fail_memory(error);
-    const double numbers[NUMBERS] = {adaptive->candidate.interval.estimate,
-                                     adaptive->candidate.interval.low,
-                                     adaptive->candidate.interval.high,
-                                     adaptive->candidate.interval.degrees,
-                                     adaptive->candidate.rate,
+    const double numbers[NUMBERS] = {adaptive->candidate.rate,
                                      adaptive->candidate.begun ? adaptive->candidate.before
                                                                : adaptive->candidate.samples,
                                      adaptive->candidate.measure.mean,
@@ -41,6 +42,12 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
     size_t at = 0;
     for (size_t i = 0; i < NUMBERS; ++i)
         words[at++] = aur_word_of_double(numbers[i]);
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
+        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].estimate);
+        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].low);
+        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].high);
+        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].degrees);
+    }
     words[at++] = adaptive->candidate.rounds;
     words[at++] = (uint64_t)adaptive->candidate.begun + 2 * (uint64_t)adaptive->candidate.looked_at;
     words[at++] = adaptive->gather.photons;
@@ -77,10 +84,9 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
     const uint64_t *word = kept->words;
     for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
-    const aur_gather_size size = {kept->words[NUMBERS + 2], aur_adaptive_photon_seed(adaptive->options.seed),
-                                  kept->words[NUMBERS + 3], kept->words[NUMBERS + 4],
-                                  kept->words[NUMBERS + 5]};
-    const size_t candidates = kept->words[NUMBERS + 6];
+    const aur_gather_size size = {kept->words[CHOICE], aur_adaptive_photon_seed(adaptive->options.seed),
+                                  kept->words[CHOICE + 1], kept->words[CHOICE + 2], kept->words[CHOICE + 3]};
+    const size_t candidates = kept->words[CHOICE + 4];
     aur_result result = AUR_OK;
     if (size.photons > 0)
         result = aur_adaptive_take_gather(adaptive, size, error);
@@ -89,16 +95,20 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
     if (result != AUR_OK)
         return result;
     adaptive->open = false;
-    adaptive->candidate.interval = (aur_error_interval){
-        .estimate = numbers[0], .low = numbers[1], .high = numbers[2], .degrees = numbers[3]};
-    adaptive->candidate.rate = numbers[4];
-    adaptive->candidate.samples = adaptive->candidate.before = numbers[5];
-    adaptive->candidate.measure.mean = numbers[6];
-    adaptive->bias = (aur_bias){.estimate = numbers[7], .low = numbers[8], .high = numbers[9]};
-    adaptive->others.prepare_seconds = numbers[10];
-    adaptive->others.render_seconds = numbers[11];
-    adaptive->others.cpu_seconds = numbers[12];
-    adaptive->candidate.bound = numbers[13];
+    adaptive->candidate.rate = numbers[0];
+    adaptive->candidate.samples = adaptive->candidate.before = numbers[1];
+    adaptive->candidate.measure.mean = numbers[2];
+    adaptive->bias = (aur_bias){.estimate = numbers[3], .low = numbers[4], .high = numbers[5]};
+    adaptive->others.prepare_seconds = numbers[6];
+    adaptive->others.render_seconds = numbers[7];
+    adaptive->others.cpu_seconds = numbers[8];
+    adaptive->candidate.bound = numbers[9];
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m, word += 4)
+        adaptive->candidate.intervals[m] = (aur_error_interval){.estimate = aur_double_of_word(word[0]),
+                                                                .low = aur_double_of_word(word[1]),
+                                                                .high = aur_double_of_word(word[2]),
+                                                                .degrees = aur_double_of_word(word[3])};
+    adaptive->candidate.interval = adaptive->candidate.intervals[adaptive->target.measure];
     adaptive->candidate.rounds = *word++;
     adaptive->candidate.begun = (*word & 1) != 0;
     adaptive->candidate.looked_at = (*word++ & 2) != 0;

@@ -29,11 +29,15 @@ static aur_result find_lamps(aur_candidate *candidate, const aur_scene *scene, u
 }
 
 aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
-                                size_t replica_count, aur_candidate *candidate, aur_error *error) {
+                                size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
+                                aur_error *error) {
     aur_render_options own = *options;
+    candidate->error_measure = measure;
     own.integrator = candidate->integrator;
     own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     candidate->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
+        candidate->intervals[m] = candidate->interval;
     candidate->bound = INFINITY;
     candidate->rate = 1.0;
     aur_cache *const cache = aur_renderer_cache(renderer);
@@ -58,9 +62,12 @@ aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options
     candidate->pixels = calloc(pixels, sizeof *candidate->pixels);
     candidate->spreads = calloc(pixels, sizeof *candidate->spreads);
     candidate->scratch = calloc(2 * pixels, sizeof *candidate->scratch);
-    const bool made = candidate->targets != NULL && candidate->earlier != NULL &&
-                      candidate->variances != NULL && candidate->measured != NULL &&
-                      candidate->pixels != NULL && candidate->spreads != NULL && candidate->scratch != NULL;
+    candidate->values = calloc(2 * pixels, sizeof *candidate->values);
+    candidate->weights = calloc(pixels, sizeof *candidate->weights);
+    const bool made = candidate->values != NULL && candidate->weights != NULL && candidate->targets != NULL &&
+                      candidate->earlier != NULL && candidate->variances != NULL &&
+                      candidate->measured != NULL && candidate->pixels != NULL &&
+                      candidate->spreads != NULL && candidate->scratch != NULL;
     if (!made)
         return aur_fail_memory(error);
     const uint64_t prepared = aur_rays_traced;
@@ -79,6 +86,8 @@ void aur_candidate_release(aur_candidate *candidate) {
     free(candidate->pixels);
     free(candidate->spreads);
     free(candidate->scratch);
+    free(candidate->values);
+    free(candidate->weights);
     aur_visible_emitters_release(&candidate->visible);
     free(candidate->integrator);
     *candidate = (aur_candidate){0};
@@ -285,8 +294,9 @@ static variance_sums pool_variances(aur_candidate *candidate) {
     for (size_t i = 0; i < candidate->value_count; ++i) {
         const double now = candidate->measured[i];
         const double all = candidate->rounds > 1 ? 0.5 * (candidate->variances[i] + now) : now;
-        const double visible =
-            aur_visible_emitters_variance(&candidate->visible, i % pixels, candidate->targets[i]);
+        const double visible = aur_error_variance_bound(
+            candidate->error_measure, &candidate->weights[i % pixels],
+            aur_visible_emitters_variance(&candidate->visible, i % pixels, candidate->targets[i]));
         candidate->variances[i] = fmax(all, visible);
         sums.measured += now;
         sums.pooled += candidate->variances[i];
@@ -302,7 +312,36 @@ static double bound_of(const aur_candidate *candidate, const variance_sums *sums
     if (sums->measured > 0.0)
         return candidate->interval.high * sqrt(fmax(sums->pooled / sums->measured, 1.0));
     const double count = (double)candidate->replicas.count; /* each replica has one part of the mean */
-    return sqrt(sums->pooled / (count * 3.0 * (double)candidate->value_count)) / candidate->measure.mean;
+    return sqrt(sums->pooled / (count * 3.0 * (double)candidate->value_count));
+}
+
+/* The interval of one measure, whose `pixels` may be NULL. */
+static aur_error_interval measure_by(aur_candidate *candidate, aur_error_measure measure, double confidence,
+                                     const aur_pixel_measure *pixels) {
+    const aur_replicas *const replicas = &candidate->replicas;
+    const size_t count = replicas->pixel_count;
+    aur_error_weigh(measure, count, (const double(*)[3])candidate->values,
+                    (const double(*)[3])candidate->values + count, candidate->weights);
+    aur_replicas_measure(replicas, (aur_weighing){measure, candidate->weights}, &candidate->measure, pixels);
+    if (pixels != NULL)
+        pool_pixels(candidate);
+    if (!(candidate->measure.mean > 0.0))
+        return (aur_error_interval){.estimate = INFINITY, .low = INFINITY, .high = INFINITY, .degrees = 1.0};
+    return aur_replica_interval(&candidate->measure.deviations, replicas->count, 3 * count, confidence);
+}
+
+/* By all measures; by the one whose error is to be small last, so that what is stored is its. */
+static void measure(aur_candidate *candidate, double confidence) {
+    const aur_film_layout *const layout = &aur_render_film(candidate->replicas.renders[0])->layout;
+    const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
+    aur_replicas_mean(&candidate->replicas, candidate->values);
+    aur_error_smooth(layout->x1 - layout->x0, layout->y1 - layout->y0, (const double(*)[3])candidate->values,
+                     candidate->values + candidate->replicas.pixel_count);
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
+        if (m != candidate->error_measure)
+            candidate->intervals[m] = measure_by(candidate, (aur_error_measure)m, confidence, NULL);
+    candidate->interval = measure_by(candidate, candidate->error_measure, confidence, &pixels);
+    candidate->intervals[candidate->error_measure] = candidate->interval;
 }
 
 static void plan_samples(aur_candidate *candidate) {
@@ -334,20 +373,11 @@ aur_result aur_candidate_render(aur_candidate *candidate, double confidence, con
     aur_render_statistics spent;
     aur_candidate_spent(candidate, &spent);
     candidate->samples = (double)spent.samples / (double)replicas->pixel_count;
-    const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
-    aur_replicas_measure(replicas, &candidate->measure, &pixels);
-    pool_pixels(candidate);
+    measure(candidate, confidence);
     if (aur_render_integrator(replicas->renders[0])->whole_tiles)
         aur_replicas_average_tiles(replicas, candidate->targets, candidate->measured);
     else
         aur_replicas_smooth(replicas, candidate->targets, candidate->measured, candidate->scratch);
-    const aur_error_interval absolute = aur_replica_interval(&candidate->measure.deviations, replicas->count,
-                                                             3 * replicas->pixel_count, confidence);
-    const double mean = candidate->measure.mean;
-    candidate->interval = (aur_error_interval){.estimate = mean > 0.0 ? absolute.estimate / mean : INFINITY,
-                                               .low = mean > 0.0 ? absolute.low / mean : INFINITY,
-                                               .high = mean > 0.0 ? absolute.high / mean : INFINITY,
-                                               .degrees = absolute.degrees};
     const variance_sums sums = pool_variances(candidate);
     candidate->bound = bound_of(candidate, &sums);
     learn_rate(candidate, earlier_error);

@@ -22,8 +22,12 @@ typedef struct aur_candidate {
     double *spreads;              /* [pixel_count] of the last round alone */
     double *scratch;              /* [2 x pixel_count] */
     aur_visible_emitters visible; /* where the integrator shows them */
+    double (*values)[3];          /* [2 x pixel_count] R, G, B of the mean, and these smoothed */
+    aur_error_weight *weights;    /* [pixel_count] of the measure whose error is to be small */
+    aur_error_measure error_measure;
     aur_replica_measure measure;
-    aur_error_interval interval; /* relative to the mean */
+    aur_error_interval intervals[AUR_ERROR_MEASURE_COUNT];
+    aur_error_interval interval; /* of error_measure */
     double bound;           /* of the error, by the rounds before too: at least the interval's upper end */
     double rate;            /* the error's square falls as samples^-rate */
     double samples;         /* a pixel, all replicas together */
@@ -42,7 +46,8 @@ typedef struct aur_candidate {
 /* `options` as for aur_render_create; the trial's integrator takes the place of theirs, and their samples a
  * pixel are without meaning. The trial is to be released in every case. Errors as there. */
 aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
-                                size_t replica_count, aur_candidate *candidate, aur_error *error);
+                                size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
+                                aur_error *error);
 void aur_candidate_release(aur_candidate *candidate);
 
 /* What all replicas have cost together. */

@@ -36,7 +36,8 @@ static aur_result look_at(aur_renderer *renderer, const aur_render_options *coar
                           size_t candidates, double *deviations, aur_spent *spent, aur_error *error) {
     aur_candidate candidate = {.integrator = aur_adaptive_path(choice->candidate.integrator, candidates)};
     aur_result result = candidate.integrator != NULL
-                            ? aur_candidate_create(renderer, coarse, choice->replica_count, &candidate, error)
+                            ? aur_candidate_create(renderer, coarse, choice->replica_count, choice->measure,
+                                                   &candidate, error)
                             : aur_fail_memory(error);
     if (result == AUR_OK) {
         aur_candidate_plan_evenly(&candidate, AUR_CANDIDATE_SAMPLES);

@@ -45,6 +45,7 @@ typedef struct aur_choice {
     aur_goal goal;
     double seconds, confidence;
     size_t replica_count;
+    aur_error_measure measure;
     const atomic_bool *cancelled;
     aur_candidate candidate; /* before: path tracing, which may not have begun; after: the one to go on with,
                         which the caller releases */

@@ -43,7 +43,8 @@ aur_result aur_comparison_create(const aur_comparison *comparison, const aur_cho
     candidate->integrator = integrator;
     if (integrator == NULL)
         return aur_fail_memory(error);
-    return aur_candidate_create(comparison->renderer, options, choice->replica_count, candidate, error);
+    return aur_candidate_create(comparison->renderer, options, choice->replica_count, choice->measure,
+                                candidate, error);
 }
 
 double aur_comparison_gather_rays(const aur_comparison *comparison, const aur_choice *choice,

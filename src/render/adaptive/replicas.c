@@ -46,6 +46,36 @@ static double deviations_at(const aur_replicas *replicas, size_t pixel, size_t c
     return mean;
 }
 
+void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
+    double deviations[AUR_REPLICAS_MAX];
+    for (size_t i = 0; i < replicas->pixel_count; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            values[i][c] = deviations_at(replicas, i, c, deviations);
+}
+
+/* The replicas' deviations d[channel][replica] from `mean` become those of a pixel's differences. Differences
+ * that are not linear are taken over steps with the variance of the mean's error: deviations over the root of
+ * count - 1. */
+static void weigh_deviations(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
+                             double d[3][AUR_REPLICAS_MAX]) {
+    const double part = 1.0 / sqrt((double)(count - 1));
+    double sums[3] = {0.0};
+    if (weighing.weights == NULL)
+        return;
+    for (size_t r = 0; r < count; ++r) {
+        double differences[3];
+        const double step[3] = {-part * d[0][r], -part * d[1][r], -part * d[2][r]};
+        aur_error_apply(weighing.measure, &weighing.weights[pixel], mean, step, differences);
+        for (size_t c = 0; c < 3; ++c) {
+            d[c][r] = -differences[c] / part;
+            sums[c] += d[c][r];
+        }
+    }
+    for (size_t r = 0; r < count; ++r)
+        for (size_t c = 0; c < 3; ++c)
+            d[c][r] -= sums[c] / (double)count;
+}
+
 /* Correlation between pixels is seen within blocks of so many pixels a side. */
 enum { BLOCK = 8 };
 
@@ -141,8 +171,8 @@ static aur_gram gram_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
 }
 
 /* Adds a block's values to the mean and its pixels' variances, and returns its Gram matrix. */
-static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean,
-                              const aur_pixel_measure *pixels) {
+static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighing, pixel_range block,
+                              double *mean, const aur_pixel_measure *pixels) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     aur_gram gram = {.count = replicas->count};
     colour_covariance covariances[BLOCK * BLOCK];
@@ -151,13 +181,17 @@ static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, d
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
             const sample_shares shares = shares_at(replicas, pixel);
-            double d[3][AUR_REPLICAS_MAX];
+            double d[3][AUR_REPLICAS_MAX], means[3];
             for (size_t channel = 0; channel < 3; ++channel) {
-                *mean += deviations_at(replicas, pixel, channel, d[channel]);
-                add_variances(replicas, pixel, &shares, d[channel], pixels->variances);
+                means[channel] = deviations_at(replicas, pixel, channel, d[channel]);
+                *mean += means[channel];
             }
+            weigh_deviations(replicas->count, weighing, pixel, means, d);
             const aur_gram own = gram_of(replicas->count, d);
-            pixels->spreads[pixel] = aur_gram_spread(&own);
+            for (size_t channel = 0; channel < 3 && pixels != NULL; ++channel)
+                add_variances(replicas, pixel, &shares, d[channel], pixels->variances);
+            if (pixels != NULL)
+                pixels->spreads[pixel] = aur_gram_spread(&own);
             for (size_t r = 0; r < replicas->count; ++r)
                 for (size_t s = 0; s < replicas->count; ++s)
                     gram.products[r][s] += own.products[r][s];
@@ -167,17 +201,17 @@ static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, d
     return gram;
 }
 
-void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure,
+void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, aur_replica_measure *measure,
                           const aur_pixel_measure *pixels) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     *measure = (aur_replica_measure){0};
-    for (size_t i = 0; i < replicas->count * replicas->pixel_count; ++i)
+    for (size_t i = 0; i < replicas->count * replicas->pixel_count && pixels != NULL; ++i)
         pixels->variances[i] = 0.0;
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
             const aur_gram gram =
-                measure_block(replicas, cell_of(layout, column, row), &measure->mean, pixels);
+                measure_block(replicas, weighing, cell_of(layout, column, row), &measure->mean, pixels);
             aur_deviations_add(&measure->deviations, &gram);
         }
     measure->mean /= 3.0 * (double)replicas->pixel_count;

@@ -5,6 +5,7 @@
 #include <aureole-render/render.h>
 
 #include "render/adaptive/interval.h"
+#include "render/image/error_measure.h"
 
 typedef struct aur_replicas {
     size_t count; /* of renders that were made: fewer than asked for after a failure */
@@ -30,10 +31,20 @@ typedef struct aur_pixel_measure {
     double *spreads;   /* [pixel_count] tr C^2 of a replica's value */
 } aur_pixel_measure;
 
-/* `variances` gets, for each replica and pixel, the sum over the channels of the
- * variance of one sample, as the other replicas tell it. A replica that shared out its samples by its own
+/* The mean of the replicas: R, G, B of each pixel. */
+void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]);
+
+/* How a pixel's errors count: all alike where weights are NULL. */
+typedef struct aur_weighing {
+    aur_error_measure measure;
+    const aur_error_weight *weights; /* [pixel_count] */
+} aur_weighing;
+
+/* All is in the units of the weighing, except for the mean. `pixels` may be NULL. Its `variances` get, for
+ * each replica and pixel, the sum over the differences of the variance of one sample, as the other replicas
+ * tell it. A replica that shared out its samples by its own
  * values would leave pixels alone where these agree by chance: its error would look smaller than it is. */
-void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure,
+void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, aur_replica_measure *measure,
                           const aur_pixel_measure *pixels);
 
 /* Variances of single pixels are known too badly to share out samples by: each becomes what the pixels about

@@ -78,6 +78,12 @@ static void pictures(void) {
     require(strcmp(aur_image_metric_name(metric), "rmse") == 0, "aur_image_metric_name");
     accept(aur_image_compare(image, other, metric, value, &error), &error);
     require(value[3] == 0.0, "a picture comes back from its file");
+    aur_error_measure measure;
+    accept(aur_error_measure_from_name("display", &measure, &error), &error);
+    refuse(aur_error_measure_from_name("pixel", &measure, &error), AUR_ERROR_NAME, &error);
+    require(strcmp(aur_error_measure_name(measure), "display") == 0, "its name");
+    accept(aur_image_error(image, other, measure, value, &error), &error);
+    require(value[0] == 0.0, "equal images have no error");
     accept(aur_image_mean(image, mean, &error), &error);
     aur_image_destroy(other);
     static const char bytes[] = "PF\n1 1\n-1.0\n............";

@@ -9,25 +9,25 @@ larger=(--width 96 --height 72 --filter box)
 fail() { echo "$*" >&2; exit 1; }
 
 # The error that is said is not above the one that was asked, and the last line names the picture.
-"$aureole" render "$scene" "${small[@]}" --error 20% --error-map -o a.exr -t 1 2> said
-grep -Eq '^aureole: a.exr has an error of [0-9.]+ % of its mean, between [0-9.]+ and [0-9.]+ \(95 %\), (of which at most [0-9.]+ % are bias, )?after.* by [a-z]+' said ||
+"$aureole" render "$scene" "${small[@]}" --error 20% --error-measure mean --error-map -o a.exr -t 1 2> said
+grep -Eq '^aureole: a.exr has an error of [0-9.]+ % of its mean \(mean\), between [0-9.]+ and [0-9.]+ \(95 %\), (of which at most [0-9.]+ % are bias, )?after.* by [a-z]+' said ||
   fail "no line about the error: $(cat said)"
 high=$(sed -n 's/.* and \([0-9.]*\) (95 %).*/\1/p' said)
 awk -v high="$high" 'BEGIN { exit !(high <= 20) }' || fail "asked for 20 %, got up to $high %"
 "$aureole" info a.exr | grep -q 'error.B' || fail "the error map's channels are missing"
-"$aureole" render "$scene" "${small[@]}" --error 20% --error-map -o b.exr -t 3 -q 2> quiet
+"$aureole" render "$scene" "${small[@]}" --error 20% --error-measure mean --error-map -o b.exr -t 3 -q 2> quiet
 cmp a.exr b.exr || fail "threads changed the picture"
 [ ! -s quiet ] || fail "-q says something: $(cat quiet)"
 
 # Gone on with after an interrupt, the picture is the same, whichever integrator was found to be the better one.
-"$aureole" render "$scene" "${larger[@]}" --error 4% -o whole.exr 2> said
+"$aureole" render "$scene" "${larger[@]}" --error 4% --error-measure mean -o whole.exr 2> said
 grep -q 'by finalgather' said || fail "the better integrator: $(cat said)"
 for pause in .3 .6 1 2; do
-  timeout -s INT $pause "$aureole" render "$scene" "${larger[@]}" --error 4% -o again.exr -q --checkpoint c --resume \
+  timeout -s INT $pause "$aureole" render "$scene" "${larger[@]}" --error 4% --error-measure mean -o again.exr -q --checkpoint c --resume \
     2> stopped || true
   [ -e again.exr ] && break
 done
-"$aureole" render "$scene" "${larger[@]}" --error 4% -o again.exr -q --checkpoint c --resume 2> stopped || fail "$(cat stopped)"
+"$aureole" render "$scene" "${larger[@]}" --error 4% --error-measure mean -o again.exr -q --checkpoint c --resume 2> stopped || fail "$(cat stopped)"
 cmp whole.exr again.exr || fail "an interrupt changed the picture"
 
 # Final gathering shares patterns among few samples, for nobody knows how many there will be; it needed gigabytes once.
@@ -55,8 +55,8 @@ again() { # OPTION...
 }
 again "${small[@]}" --time .1s
 again "${small[@]}" --rays 1e6
-again "${larger[@]}" --error 4%
-grep -q -- "--integrator 'finalgather.* --error .* --bias " said || fail "the command of a choice: $(cat said)"
+again "${larger[@]}" --error 4% --error-measure mean
+grep -q -- "--integrator 'finalgather.* --error .* --error-measure mean --bias " said || fail "the command of a choice: $(cat said)"
 
 # A dark scene says so.
 printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><film type="hdrfilm">' \

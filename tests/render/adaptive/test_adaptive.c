@@ -118,6 +118,7 @@ static void test_choice(void **state) {
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = 0.02;
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     aur_render_options chosen = small(1), named = small(3), paths = small(0);
     chosen.width = named.width = paths.width = 96;
     chosen.height = named.height = paths.height = 72;
@@ -191,6 +192,7 @@ static void test_progress(void **state) {
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = 0.06;
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &record.asked, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_run(record.asked, NULL), AUR_OK);
     const double all = (double)report_of(record.asked).statistics.rays;
@@ -223,6 +225,7 @@ static void test_unknown_progress(void **state) {
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
     target.error = 0.06;
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &record.asked, NULL), AUR_OK);
     assert_int_equal(aur_adaptive_run(record.asked, NULL), AUR_OK);
     assert_true(record.unknown > 5 && record.count == 0);
@@ -260,6 +263,7 @@ static void test_rays_make_the_pattern(void **state) {
     paths.integrator = "path";
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     target.rays = 8000000;
     fixture fresh, other;
     aur_adaptive *const a = ask_anew(&fresh, f, &chosen, &target), *const b = adaptive(f, &paths, &target);

@@ -39,6 +39,7 @@ static aur_adaptive *adaptive(aur_renderer *renderer, const char *integrator, si
     options.integrator = integrator;
     aur_adaptive_options target = {.size = sizeof target};
     aur_adaptive_options_init(&target, NULL);
+    target.measure = AUR_ERROR_MEASURE_MEAN;
     target.error = 0.005;
     aur_adaptive *asked = NULL;
     assert_int_equal(aur_adaptive_create(renderer, &options, &target, &asked, NULL), AUR_OK);

@@ -26,7 +26,7 @@ static double mean_of(const aur_replicas *replicas) {
     static double variances[REPLICAS * WIDTH * HEIGHT], spreads[WIDTH * HEIGHT];
     const aur_pixel_measure pixels = {variances, spreads};
     aur_replica_measure measure;
-    aur_replicas_measure(replicas, &measure, &pixels);
+    aur_replicas_measure(replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure, &pixels);
     return measure.mean;
 }
 

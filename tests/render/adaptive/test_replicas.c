@@ -43,9 +43,11 @@ static void test_own_values_do_not_count(void **state) {
     begin(&f, 1);
     static double before[REPLICAS * PIXELS], after[REPLICAS * PIXELS];
     aur_replica_measure measure;
-    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){before, f.spreads});
+    aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
+                         &(aur_pixel_measure){before, f.spreads});
     assert_int_equal(aur_render_step(f.replicas.renders[0], 1, NULL), AUR_OK);
-    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){after, f.spreads});
+    aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
+                         &(aur_pixel_measure){after, f.spreads});
     double sums[2] = {0.0, 0.0};
     for (size_t i = 0; i < PIXELS; ++i) {
         assert_near(after[i], before[i], 1e-9 * (1.0 + before[i]));
@@ -150,7 +152,8 @@ static void test_neighbours(void **state) {
     begin(&f, 2);
     static double variances[REPLICAS * PIXELS];
     aur_replica_measure measure;
-    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){variances, f.spreads});
+    aur_replicas_measure(&f.replicas, (aur_weighing){.measure = AUR_ERROR_MEASURE_MEAN}, &measure,
+                         &(aur_pixel_measure){variances, f.spreads});
     const double alike = alike_of(&f.replicas);
     assert_true(alike > 0.0);
     assert_near(measure.deviations.alike, alike, 1e-9 * alike);

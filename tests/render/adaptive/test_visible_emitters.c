@@ -111,7 +111,7 @@ static void knows_its_integrator(void **state) {
         options.filter = "box";
         aur_candidate candidate = {.integrator = strdup(cases[i].integrator)};
         aur_error error = {0};
-        if (aur_candidate_create(renderer, &options, 2, &candidate, &error) != AUR_OK)
+        if (aur_candidate_create(renderer, &options, 2, AUR_ERROR_MEASURE_MEAN, &candidate, &error) != AUR_OK)
             fail_msg("%s: %s", cases[i].integrator, error.message);
         const aur_integrator *const made = aur_render_integrator(candidate.replicas.renders[0]);
         assert_int_equal(candidate.pattern_samples, cases[i].pattern_samples);

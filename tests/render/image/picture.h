@@ -26,6 +26,16 @@ static inline aur_image *random_picture(size_t width, size_t height, size_t chan
     return image;
 }
 
+static inline aur_image *flat_picture(size_t width, size_t height, float r, float g, float b) {
+    aur_image *const image = random_picture(width, height, 3);
+    for (size_t i = 0; i < width * height; ++i) {
+        image->data[3 * i] = r;
+        image->data[3 * i + 1] = g;
+        image->data[3 * i + 2] = b;
+    }
+    return image;
+}
+
 static inline aur_image *read_picture(const char *path) {
     aur_image *image;
     aur_error error;

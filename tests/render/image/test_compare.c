@@ -1,16 +1,6 @@
 /* Metrics against closed forms, differences, downsampling, selection. */
 #include "picture.h"
 
-static aur_image *flat_picture(size_t width, size_t height, float r, float g, float b) {
-    aur_image *const image = random_picture(width, height, 3);
-    for (size_t i = 0; i < width * height; ++i) {
-        image->data[3 * i] = r;
-        image->data[3 * i + 1] = g;
-        image->data[3 * i + 2] = b;
-    }
-    return image;
-}
-
 static void check_metric(const aur_image *reference, const aur_image *image, aur_image_metric metric,
                          const double expected[4]) {
     double value[4];

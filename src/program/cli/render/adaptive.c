@@ -40,8 +40,12 @@ static aur_result parse_rays(const char *text, void *field, aur_error *error) {
 
 const cli_option cli_target_options[] = {
     {CLI_TEXT(cli_target, error, "error", "1%", NULL,
-              "render until the root mean square error is below this part of the picture's mean"),
+              "render until the error by --error-measure is below this"),
      .parse = parse_error},
+    {CLI_CHOICE(cli_target, measure, "error-measure", "NAME", "relative",
+                "what --error measures: the root mean square error relative to each pixel's surroundings, to "
+                "the image's mean, or of the image as displayed"),
+     .key.words = (const char *const[]){"relative", "mean", "display", NULL}},
     {CLI_TEXT(
          cli_target, bias, "bias", "1%", NULL,
          "of --error: what the integrator of --integrator may be wrong by in the mean, as a picture to an "
@@ -56,6 +60,10 @@ const cli_option cli_target_options[] = {
     {CLI_FLAG(cli_target, error_map, "error-map",
               "the standard error of each pixel as channels error.R, error.G, error.B")},
     {.key = {0}}};
+
+/* In the order of aur_error_measure. */
+static const char *const measure_words[AUR_ERROR_MEASURE_COUNT] = {
+    "of its surroundings (relative)", "of its mean (mean)", "of the displayed range (display)"};
 
 bool cli_is_target(const cli_target *target) {
     return target->error > 0.0 || target->seconds > 0.0 || target->rays > 0 || target->rounds > 0;
@@ -80,6 +88,8 @@ static void say_again(const aur_adaptive *adaptive, const cli_target *target,
         aur_print(stderr, " --integrator '%s'", aur_adaptive_integrator(adaptive));
     if (target->error > 0.0)
         say_number("--error", target->error);
+    if (target->measure != AUR_ERROR_MEASURE_RELATIVE)
+        aur_print(stderr, " --error-measure %s", aur_error_measure_name(target->measure));
     if (report->bias_high > 0.0)
         say_number("--bias", report->bias_high);
     if (target->rays > 0) /* the trials may have taken them all */
@@ -90,7 +100,7 @@ static void say_again(const aur_adaptive *adaptive, const cli_target *target,
     aur_print(stderr, "\n");
 }
 
-static void say(const aur_adaptive *adaptive, const cli_target *target, const char *output) {
+static void say(const aur_adaptive *adaptive, const cli_target *target, const char *output, bool verbose) {
     aur_adaptive_report report = {.size = sizeof report};
     aur_adaptive_get_report(adaptive, &report, NULL);
     const aur_render_statistics *const spent = &report.statistics;
@@ -103,11 +113,15 @@ static void say(const aur_adaptive *adaptive, const cli_target *target, const ch
     if (report.bias_high > 0.0)
         snprintf(bias, sizeof bias, ", of which at most %.3g %% are bias", 100.0 * report.bias_high);
     aur_print(stderr,
-              "aureole: %s has an error of %.3g %% of its mean, between %.3g and %.3g (95 %%)%s, after %.4g "
-              "samples a pixel, %.3g rays, %.1f s by %s\n",
-              output, 100.0 * report.error, 100.0 * report.error_low, 100.0 * report.error_high, bias,
-              report.samples_per_pixel, (double)spent->rays, spent->prepare_seconds + spent->render_seconds,
-              aur_adaptive_integrator(adaptive));
+              "aureole: %s has an error of %.3g %% %s, between %.3g and %.3g (95 %%)%s, after %.4g "
+              "samples per pixel, %.3g rays, %.1f s by %s\n",
+              output, 100.0 * report.error, measure_words[target->measure], 100.0 * report.error_low,
+              100.0 * report.error_high, bias, report.samples_per_pixel, (double)spent->rays,
+              spent->prepare_seconds + spent->render_seconds, aur_adaptive_integrator(adaptive));
+    for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT && verbose; ++m)
+        aur_print(stderr, "aureole: its error is %.3g %% %s, between %.3g and %.3g (95 %%)\n",
+                  100.0 * report.errors[m].error, measure_words[m], 100.0 * report.errors[m].low,
+                  100.0 * report.errors[m].high);
 }
 
 static aur_result print_json(const aur_adaptive *adaptive, const char *output, aur_error *error) {
@@ -122,6 +136,7 @@ static aur_result print_json(const aur_adaptive *adaptive, const char *output, a
                                         .mean = report.mean,
                                         .rounds = (double)report.rounds,
                                         .samples_per_pixel = report.samples_per_pixel,
+                                        .measures = report.errors,
                                         .statistics = report.statistics};
     return cli_print_json(&summary, error);
 }
@@ -136,6 +151,7 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
     own.seconds = target->seconds;
     own.rays = target->rays;
     own.rounds = target->rounds;
+    own.measure = target->measure;
     aur_adaptive *adaptive = NULL;
     aur_result result = aur_adaptive_create(renderer, options, &own, &adaptive, error);
     *made = adaptive;
@@ -155,7 +171,7 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
         result = developed != AUR_OK ? developed : result;
     }
     if (result == AUR_OK && !beside->quiet)
-        say(adaptive, target, beside->output);
+        say(adaptive, target, beside->output, beside->verbose);
     if (result == AUR_OK && beside->json && aur_ranks_rank() == 0)
         result = print_json(adaptive, beside->output, error);
     return result;

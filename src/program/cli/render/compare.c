@@ -58,6 +58,12 @@ static int add_row(const char *path, const aur_image *reference, const aur_image
     if (aur_image_compare(reference, image, AUR_IMAGE_RELATIVE_RMSE, value, &error) != AUR_OK)
         return fail_about(path, &error);
     report_number(table, value[3], 6);
+    static const aur_error_measure measures[] = {AUR_ERROR_MEASURE_RELATIVE, AUR_ERROR_MEASURE_DISPLAY};
+    for (size_t m = 0; m < 2; ++m) {
+        if (aur_image_error(reference, image, measures[m], value, &error) != AUR_OK)
+            return fail_about(path, &error);
+        report_number(table, value[0], 6);
+    }
     const aur_image *const both[] = {image, reference};
     for (size_t i = 0; i < 2; ++i) {
         if (aur_image_mean(both[i], mean, &error) != AUR_OK)
@@ -69,7 +75,8 @@ static int add_row(const char *path, const aur_image *reference, const aur_image
 }
 
 static report_table *create_table(const compare_options *options) {
-    static const char *const others[] = {"relative_rmse",    "mean_r",           "mean_g",          "mean_b",
+    static const char *const others[] = {"relative_rmse",    "relative_error",   "display_error",
+                                         "mean_r",           "mean_g",           "mean_b",
                                          "reference_mean_r", "reference_mean_g", "reference_mean_b"};
     report_table *const table = report_create(1, (const char *const[]){"image"});
     for (size_t i = 0; i < options->metrics.count; ++i)
@@ -134,7 +141,9 @@ const cli_command cli_command_compare = {
     .summary = "RMSE and other figures of the difference between pictures",
     .notes =
         "Pictures are EXR, PFM, HDR, PNG or JPEG. --channels names one or three to compare instead of R, G, "
-        "B. relative_rmse is RMSE divided by the reference's mean; mean_r to reference_mean_b are the mean "
+        "B. relative_rmse, relative_error and display_error are the errors by render's --error-measure mean, "
+        "relative and "
+        "display; mean_r to reference_mean_b are the mean "
         "radiances of both pictures. The exit status is 0 when every picture is within the tolerance, 1 when "
         "one is not, 2 on an error.",
     .too_few = "a reference and at least one picture are needed",

@@ -284,7 +284,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                      ? cli_render_target(renderer, &command->options, &command->target,
                                          &(cli_surroundings){&command->checkpoint, &command->watch,
                                                              command->output, command->common.quiet,
-                                                             command->json},
+                                                             command->json, command->statistics},
                                          &adaptive, &image, &error)
                      : render_samples(renderer, command, errors, &work, &image, &error);
     if (result == AUR_OK)

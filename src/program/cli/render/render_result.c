@@ -4,6 +4,7 @@
 #include <aureole/text.h>
 #include <inttypes.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +46,16 @@ void cli_print_statistics(const aur_render *render) {
     print_ranks();
 }
 
+static void print_figures(report_table *table, const char *measure, const aur_error_figures *figures) {
+    static const char *const ends[] = {"error", "error_low", "error_high"};
+    const double values[] = {figures->error, figures->low, figures->high};
+    for (size_t i = 0; i < 3; ++i) {
+        char name[40];
+        aur_format(name, sizeof name, "%s_%s", measure, ends[i]);
+        report_fact_number(table, name, values[i]);
+    }
+}
+
 aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
     const aur_render_statistics *const statistics = &summary->statistics;
     report_table *const table = report_create(0, NULL);
@@ -54,6 +65,10 @@ aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
     report_fact_number(table, "error_low", summary->error_low);
     report_fact_number(table, "error_high", summary->error_high);
     report_fact_number(table, "bias_high", summary->bias_high);
+    for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
+        print_figures(table, aur_error_measure_name((aur_error_measure)m),
+                      summary->measures != NULL ? &summary->measures[m]
+                                                : &(aur_error_figures){NAN, NAN, NAN});
     report_fact_number(table, "mean", summary->mean);
     report_fact_number(table, "rounds", summary->rounds);
     report_fact_number(table, "samples_per_pixel", summary->samples_per_pixel);

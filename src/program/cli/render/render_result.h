@@ -19,8 +19,9 @@ typedef struct cli_render_end {
 /* What programs are told of a render, however it was asked for: NaN is what is not known. */
 typedef struct cli_render_summary {
     const char *output, *integrator;
-    double error, error_low, error_high, bias_high; /* relative to the mean */
+    double error, error_low, error_high, bias_high; /* by the measure of the target */
     double mean, rounds, samples_per_pixel;
+    const aur_error_figures *measures; /* [AUR_ERROR_MEASURE_COUNT], or NULL */
     aur_render_statistics statistics;
 } cli_render_summary;
 
@@ -111,6 +112,7 @@ void cli_watch_end(cli_watch *watch, const aur_image *image, aur_result result, 
 typedef struct cli_target {
     double error, bias, seconds;
     uint64_t rays, rounds;
+    aur_error_measure measure;
     bool error_map;
 } cli_target;
 
@@ -123,7 +125,7 @@ typedef struct cli_surroundings {
     cli_checkpoint *checkpoint;
     cli_watch *watch;
     const char *output; /* for messages */
-    bool quiet, json;
+    bool quiet, json, verbose;
 } cli_surroundings;
 
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or

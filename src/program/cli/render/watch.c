@@ -3,6 +3,7 @@
 #include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "program/cli/render/render_result.h"
 
@@ -62,12 +63,17 @@ static aur_result develop_ask(const void *user, aur_image **image, aur_error *er
 
 static void describe_ask(const void *user, size_t capacity, char *text) {
     aur_adaptive_report report = {.size = sizeof report};
-    if (aur_adaptive_get_report(user, &report, NULL) == AUR_OK && isfinite(report.error_high))
-        aur_format(
-            text, capacity,
-            "after %.4g samples a pixel the error was %.3g %% of the mean, between %.3g and %.3g (95 %%)",
-            report.samples_per_pixel, 100.0 * report.error, 100.0 * report.error_low,
-            100.0 * report.error_high);
+    if (aur_adaptive_get_report(user, &report, NULL) != AUR_OK || !isfinite(report.error_high))
+        return;
+    aur_format(text, capacity,
+               "error after %.4g samples per pixel (95 %% intervals):", report.samples_per_pixel);
+    for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
+        const aur_error_figures *const figures = &report.errors[m];
+        const size_t used = strlen(text);
+        aur_format(text + used, capacity - used, "%s %s %.3g %% [%.3g, %.3g]", m > 0 ? "," : "",
+                   aur_error_measure_name((aur_error_measure)m), 100.0 * figures->error, 100.0 * figures->low,
+                   100.0 * figures->high);
+    }
 }
 
 void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adaptive *adaptive) {

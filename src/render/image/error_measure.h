@@ -1,0 +1,26 @@
+/* What one number says of the error of an image: a table of measures. A measure is the root mean square over
+ * pixels of differences that follow from a pixel's errors in R, G and B. */
+#pragma once
+
+#include <aureole-render/image.h>
+#include <stddef.h>
+
+/* Factors of a pixel's errors in R, G and B, or the exposure at which its values are displayed. A measure of
+ * luminance has one difference, other measures have three. Either way squares are averaged over 3 x pixels.
+ */
+typedef struct aur_error_weight {
+    double channel[3];
+} aur_error_weight;
+
+/* The weights of `count` values of R, G and B, such as the pixels of an image, and `smooth`, the same after
+ * aur_error_smooth. All are zero where the values are black. */
+void aur_error_weigh(aur_error_measure measure, size_t count, const double (*values)[3],
+                     const double (*smooth)[3], aur_error_weight *weights);
+/* Means over 5 x 5 pixels, fewer at the image's edges: an error is put in relation to what lies around it. */
+void aur_error_smooth(size_t width, size_t height, const double (*values)[3], double (*smooth)[3]);
+
+/* The differences in a pixel whose values `from` change by `errors`. */
+void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, const double from[3],
+                     const double errors[3], double differences[3]);
+/* A bound of the variance of the differences, from the variance of R, G and B together. */
+double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight, double variance);

@@ -1,0 +1,110 @@
+/* Errors of images by the measures of a target error, against their formulas. */
+#include "render/image/error_measure.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "picture.h"
+
+static double error_by(aur_error_measure measure, const aur_image *reference, const aur_image *image) {
+    double value = -1.0;
+    assert_int_equal(aur_image_error(reference, image, measure, &value, NULL), AUR_OK);
+    return value;
+}
+
+/* A grey image of value v that is off by e everywhere. */
+static void test_constant(void **state) {
+    (void)state;
+    const double v = 4.0, e = 0.5;
+    aur_image *const reference = flat_picture(7, 5, 4.0f, 4.0f, 4.0f);
+    aur_image *const image = flat_picture(7, 5, 4.5f, 4.5f, 4.5f);
+    assert_relative(error_by(AUR_ERROR_MEASURE_RELATIVE, reference, image), e / (1.01 * v), 1e-12);
+    assert_relative(error_by(AUR_ERROR_MEASURE_MEAN, reference, image), e / v, 1e-12);
+    assert_relative(error_by(AUR_ERROR_MEASURE_DISPLAY, reference, image),
+                    aur_srgb_encode(0.18 * (1.0 + e / v)) - aur_srgb_encode(0.18), 1e-12);
+    aur_image_destroy(image);
+    aur_image_destroy(reference);
+}
+
+/* Luminance by means over 5 x 5 pixels, by definition. */
+static void test_relative(void **state) {
+    (void)state;
+    enum { WIDTH = 9, HEIGHT = 8 };
+    aur_image *const reference = random_picture(WIDTH, HEIGHT, 3), *const image =
+                                                                       random_picture(WIDTH, HEIGHT, 3);
+    double y[2][HEIGHT][WIDTH], mean = 0.0, sum = 0.0;
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
+        image->data[3 * i + i % 3] += 0.25f;
+        for (size_t k = 0; k < 2; ++k) {
+            const float *const v = (k == 0 ? reference : image)->data + 3 * i;
+            y[k][i / WIDTH][i % WIDTH] =
+                0.2126 * (double)v[0] + 0.7152 * (double)v[1] + 0.0722 * (double)v[2];
+        }
+        mean += y[0][i / WIDTH][i % WIDTH] / (WIDTH * HEIGHT);
+    }
+    for (int j = 0; j < HEIGHT; ++j)
+        for (int i = 0; i < WIDTH; ++i) {
+            double around = 0.0;
+            int count = 0;
+            for (int b = j - 2; b <= j + 2; ++b)
+                for (int a = i - 2; a <= i + 2; ++a)
+                    if (a >= 0 && b >= 0 && a < WIDTH && b < HEIGHT) {
+                        around += y[0][b][a];
+                        ++count;
+                    }
+            sum += pow((y[1][j][i] - y[0][j][i]) / (around / count + 0.01 * mean), 2.0);
+        }
+    assert_relative(error_by(AUR_ERROR_MEASURE_RELATIVE, reference, image), sqrt(sum / (WIDTH * HEIGHT)),
+                    1e-6);
+    aur_image_destroy(image);
+    aur_image_destroy(reference);
+}
+
+/* The mean agrees with the metric of the same meaning; equal images have no error, also black ones. */
+static void test_edges(void **state) {
+    (void)state;
+    aur_image *const reference = random_picture(6, 4, 3), *const black = flat_picture(6, 4, 0, 0, 0);
+    double value[4];
+    assert_int_equal(aur_image_compare(reference, black, AUR_IMAGE_RELATIVE_RMSE, value, NULL), AUR_OK);
+    assert_relative(error_by(AUR_ERROR_MEASURE_MEAN, reference, black), value[3], 1e-6);
+    for (int m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
+        aur_error_measure found;
+        assert_true(error_by((aur_error_measure)m, reference, reference) == 0.0);
+        assert_true(error_by((aur_error_measure)m, black, black) == 0.0);
+        assert_true(isinf(error_by((aur_error_measure)m, black, reference)));
+        assert_int_equal(
+            aur_error_measure_from_name(aur_error_measure_name((aur_error_measure)m), &found, NULL), AUR_OK);
+        assert_int_equal(found, m);
+    }
+    aur_error error;
+    double one;
+    assert_int_equal(
+        aur_image_error(reference, black, (aur_error_measure)AUR_ERROR_MEASURE_COUNT, &one, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_null(aur_error_measure_name((aur_error_measure)AUR_ERROR_MEASURE_COUNT));
+    aur_error_measure measure;
+    assert_int_equal(aur_error_measure_from_name("relativ", &measure, &error), AUR_ERROR_NAME);
+    assert_non_null(strstr(error.message, "relative"));
+    aur_image_destroy(black);
+    aur_image_destroy(reference);
+}
+
+/* Clipped values are displayed as they were: an error above white is none. */
+static void test_clipped(void **state) {
+    (void)state;
+    aur_image *const reference = flat_picture(10, 10, 1, 1, 1), *const image = flat_picture(10, 10, 1, 1, 1);
+    for (size_t c = 0; c < 3; ++c) {
+        reference->data[c] = 1000.0f;
+        image->data[c] = 500.0f;
+    }
+    assert_true(error_by(AUR_ERROR_MEASURE_DISPLAY, reference, image) == 0.0);
+    assert_true(error_by(AUR_ERROR_MEASURE_MEAN, reference, image) > 1.0);
+    aur_image_destroy(image);
+    aur_image_destroy(reference);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_constant), cmocka_unit_test(test_relative),
+                                       cmocka_unit_test(test_edges), cmocka_unit_test(test_clipped)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
