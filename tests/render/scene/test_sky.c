@@ -329,16 +329,9 @@ static void suns_have_closed_forms(void **state) {
 
 /* Light from all sides onto a point, by drawn points on lights and by uniform directions: the same, also
  * where a wide sun stands before a sky, and behind a wall. */
-static void suns_and_skies_add_up(void **state) {
-    (void)state;
+static void adds_up(const char *body) {
     enum { COUNT = 200000 };
-    aur_scene *const scene = must_load_body(
-        "<emitter type='sky'><string name='model' value='cie'/>" ROUND_SUN "</emitter>"
-        "<emitter type='sun'><float name='half_angle' value='20'/><float name='irradiance' "
-        "value='.5'/>" ROUND_SUN "</emitter><emitter type='sun'><float name='half_angle' value='120'/><float "
-        "name='radiance' value='.1'/>"
-        "<vector name='sun_direction' x='1' y='0' z='0'/></emitter>"
-        "<shape type='cube'><transform name='to_world'><translate x='2' y='1'/></transform></shape>");
+    aur_scene *const scene = must_load_body(body);
     double sums[2] = {0}, squares[2] = {0};
     for (size_t i = 0; i < COUNT; ++i) {
         const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
@@ -359,6 +352,101 @@ static void suns_and_skies_add_up(void **state) {
     }
     const double sigma = sqrt((squares[0] - sums[0] * sums[0] + squares[1] - sums[1] * sums[1]) / COUNT);
     assert_near(sums[0], sums[1], 4.5 * sigma); /* by chance in 7 of a million; the numbers are fixed */
+    aur_scene_destroy(scene);
+}
+
+static void suns_and_skies_add_up(void **state) {
+    (void)state;
+    adds_up("<emitter type='sky'><string name='model' value='cie'/>" ROUND_SUN "</emitter>"
+            "<emitter type='sun'><float name='half_angle' value='20'/><float name='irradiance' "
+            "value='.5'/>" ROUND_SUN
+            "</emitter><emitter type='sun'><float name='half_angle' value='120'/><float "
+            "name='radiance' value='.1'/>"
+            "<vector name='sun_direction' x='1' y='0' z='0'/></emitter>"
+            "<shape type='cube'><transform name='to_world'><translate x='2' y='1'/></transform></shape>");
+    adds_up("<emitter type='sunsky'><float name='sun_aperture' value='50'/><vector name='sun_direction' "
+            "value='1 2 2'/>"
+            "</emitter><shape type='cube'><transform name='to_world'><translate x='2' "
+            "y='1'/></transform></shape>");
+}
+
+/* Radiances as Mitsuba 3.9.1 evaluates them (scalar_rgb), which computes in floats. */
+static void sunsky_as_in_mitsuba(void **state) {
+    (void)state;
+    static const struct {
+        const char *keys;
+        double to[3], expected[3];
+    } rows[] = {
+        {"<float name='turbidity' value='2.5'/><rgb name='albedo' value='.1 .4 .8'/><float name='sun_scale' "
+         "value='0'/><vector name='sun_direction' value='3 1 2'/>",
+         {1, 2, 2},
+         {0.03776811, 0.06979488, 0.13501951}},
+        {"<float name='turbidity' value='7.25'/><float name='sun_scale' value='0'/>"
+         "<vector name='sun_direction' value='0 -4 1'/>",
+         {-1, 2, 0.1},
+         {0.08356679, 0.0867369, 0.07863425}},
+        {"<float name='turbidity' value='3.5'/><float name='sky_scale' value='0'/>"
+         "<vector name='sun_direction' value='2 -1 2'/>",
+         {2, -1, 2},
+         {20809.379, 16951.703, 12313.367}},
+        {"<float name='turbidity' value='7.25'/><float name='sun_scale' value='0'/>"
+         "<vector name='sun_direction' value='0 -4 1'/>",
+         {-1, 2, -0.1},
+         {0, 0, 0}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char body[512];
+        snprintf(body, sizeof body, "<emitter type='sunsky'>%s</emitter><shape type='cube'/>", rows[i].keys);
+        aur_scene *const scene = must_load_body(body);
+        const double length = aur_length3(rows[i].to);
+        const aur_vector found = aur_scene_environment(scene, (aur_vector){(float)(rows[i].to[0] / length),
+                                                                           (float)(rows[i].to[1] / length),
+                                                                           (float)(rows[i].to[2] / length)});
+        assert_near(found.x, rows[i].expected[0], 2e-5 * rows[i].expected[0]);
+        assert_near(found.y, rows[i].expected[1], 2e-5 * rows[i].expected[1]);
+        assert_near(found.z, rows[i].expected[2], 2e-5 * rows[i].expected[2]);
+        aur_scene_destroy(scene);
+    }
+}
+
+/* Where the sun of a date is, in a turned frame: as Mitsuba says it, to .02 degrees; an albedo by <spectrum>
+ * is that of <rgb>; and at night it is dark. */
+static void sunsky_by_date_and_time(void **state) {
+    (void)state;
+    static const char turned[] =
+        "<emitter type='sunsky'><float name='hour' value='9'/><float name='sun_aperture' value='%g'/>"
+        "%s<transform name='to_world'><rotate x='1' angle='-90'/></transform></emitter>"
+        "<shape type='cube'/>";
+    const aur_vector sun = {0.09569518f, 0.7828667f, 0.61478615f};
+    char body[512];
+    snprintf(body, sizeof body, turned, 0.04, "<float name='sky_scale' value='0'/>");
+    aur_scene *scene = must_load_body(body);
+    assert_true(aur_scene_environment(scene, sun).x > 1e6f);
+    aur_scene_destroy(scene);
+    /* As much light from a disk of ten times the diameter. */
+    double light[2];
+    for (size_t i = 0; i < 2; ++i) {
+        const double aperture = i == 0 ? 0.6 : 6.0, sine = sin(0.25 * aperture * RADIANS);
+        snprintf(body, sizeof body, turned, aperture, "<float name='sky_scale' value='0'/>");
+        scene = must_load_body(body);
+        light[i] = (double)aur_scene_environment(scene, sun).x * sine * sine;
+        aur_scene_destroy(scene);
+    }
+    assert_relative(light[1], light[0], 1e-6);
+    float seen[2];
+    static const char *const albedos[2] = {"<spectrum name='albedo' value='.7'/>",
+                                           "<rgb name='albedo' value='.7'/>"};
+    for (size_t i = 0; i < 2; ++i) {
+        snprintf(body, sizeof body, turned, 0.5, albedos[i]);
+        scene = must_load_body(body);
+        seen[i] = aur_scene_environment(scene, (aur_vector){0.6f, 0.8f, 0.0f}).y;
+        aur_scene_destroy(scene);
+    }
+    assert_true(seen[0] > 0.0f);
+    assert_near(seen[0], seen[1], 1e-6 * seen[1]);
+    scene =
+        must_load_body("<emitter type='sunsky'><float name='hour' value='0'/></emitter><shape type='cube'/>");
+    assert_true(aur_scene_environment(scene, (aur_vector){0.0f, 0.0f, 1.0f}).y == 0.0f);
     aur_scene_destroy(scene);
 }
 
@@ -416,6 +504,13 @@ static void bad_input(void **state) {
         {"sky'><vector name='up' value='0 0 0'/>", "'up' must not be"},
         {"sky'><vector name='north' value='0 1 0'/>", "nor along 'up'"},
         {"sun'>", "needs 'sun_direction', or 'date'"},
+        {"sunsky'><float name='turbidity' value='11'/>", "'turbidity' must be"},
+        {"sunsky'><float name='hour' value='9'/><vector name='sun_direction' value='0 1 1'/>",
+         "'sun_direction' or 'hour', not both"},
+        {"sunsky'><integer name='month' value='2'/><integer name='day' value='30'/>",
+         "2010-02 has no day 30"},
+        {"sunsky'><transform name='to_world'><matrix value='1 1 0 0 1 0 0 0 1'/></transform>",
+         "may only turn"},
         {"sun'><string name='date' value='2023-02-29'/>", "a day as 2026-06-21"},
         {"sun'><string name='date' value='23-02-20'/>", "from 1950 to 2050"},
         {"sun'><string name='date' value='2023-02-20'/><string name='time' value='24:00'/>",
@@ -451,6 +546,8 @@ int main(void) {
         cmocka_unit_test(brightness_by_four_keys),
         cmocka_unit_test(draws_what_it_says),
         cmocka_unit_test(suns_have_closed_forms),
+        cmocka_unit_test(sunsky_as_in_mitsuba),
+        cmocka_unit_test(sunsky_by_date_and_time),
         cmocka_unit_test(suns_and_skies_add_up),
         cmocka_unit_test(suns_by_date_and_time),
         cmocka_unit_test(bad_input),

@@ -1,28 +1,19 @@
 /* Daylight: the sky by a formula above the horizon, and the same radiance from everywhere below it. */
-#include <stdlib.h>
-
 #include "points/base/text.h"
 #include "points/base/vector3d.h"
 #include "render/scene/emitter.h"
+#include "render/scene/lights/sky_dome.h"
 #include "render/scene/lights/sky_model.h"
 #include "render/scene/lights/sun_position.h"
 #include "render/scene/materials/sampling.h"
-#include "render/scene/patches.h"
 #include "render/scene/scene_data.h"
-
-/* Patches of the sky that are equal in azimuth and height, in which radiance is nearly what it is at their
- * corners, interpolated; the last row is the ground. */
-enum { COLUMNS = 96, SKY_ROWS = 48, ROWS = SKY_ROWS + 1 };
 
 typedef struct sky_light {
     aur_sky_model model;
     aur_sun_position position;
     aur_vector color;  /* radiance is this times the model's */
     aur_vector ground; /* radiance from below */
-    aur_patches patches;
-    float (*corners)[COLUMNS]; /* [SKY_ROWS + 1], their luminance */
-    float below;               /* the ground's */
-    bool round;                /* each row of patches is equally bright */
+    aur_sky_dome dome;
 } sky_light;
 
 typedef enum sky_kind { UNIFORM, OVERCAST, CIE, PEREZ } sky_kind;
@@ -186,84 +177,31 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
 
 static void release(void *data) {
     sky_light *const self = data;
-    aur_patches_release(&self->patches);
-    free(self->corners);
+    aur_sky_dome_release(&self->dome);
 }
 
 /* --- radiance */
 
-/* By east, north and up, of unit length. */
-static void to_local(const sky_light *self, aur_vector direction, double local[3]) {
-    double d[3];
-    aur_vector_to_doubles(direction, d);
-    local[0] = aur_dot3(d, self->position.east);
-    local[1] = aur_dot3(d, self->position.north);
-    local[2] = aur_dot3(d, self->position.up);
-    aur_normalize3(local);
-}
-
 static aur_vector radiance_from(const aur_emitter *emitter, aur_vector direction) {
     const sky_light *const self = emitter->data;
     double local[3];
-    to_local(self, direction, local);
+    aur_sun_position_to_local(&self->position, direction, local);
     if (local[2] < 0.0)
         return self->ground;
     return aur_vector_scale(self->color, (float)aur_sky_model_radiance(&self->model, local));
 }
 
-/* --- drawing directions */
-
-static void direction_at(double column, double height, double local[3]) {
-    const double azimuth = 2.0 * AUR_PI * column / COLUMNS, radius = sqrt(fmax(1.0 - height * height, 0.0));
-    local[0] = radius * cos(azimuth);
-    local[1] = radius * sin(azimuth);
-    local[2] = height;
-}
-
-/* The luminance at the corners of a patch. */
-static aur_bilinear corners_of(const sky_light *self, size_t column, size_t row) {
-    if (row == SKY_ROWS)
-        return (aur_bilinear){{self->below, self->below, self->below, self->below}};
-    const float *const low = self->corners[row], *const high = self->corners[row + 1];
-    const size_t next = (column + 1) % COLUMNS;
-    return (aur_bilinear){{low[column], low[next], high[column], high[next]}};
-}
-
-static bool set_corners(sky_light *self) {
-    self->below = aur_luminance(self->ground);
-    self->corners = malloc((SKY_ROWS + 1) * sizeof *self->corners);
-    self->round = true;
-    for (size_t j = 0; j <= SKY_ROWS && self->corners != NULL; ++j)
-        for (size_t i = 0; i < COLUMNS; ++i) {
-            double local[3];
-            direction_at((double)i, (double)j / SKY_ROWS, local);
-            self->corners[j][i] =
-                aur_luminance(self->color) * (float)aur_sky_model_radiance(&self->model, local);
-            self->round &= self->corners[j][i] == self->corners[j][0];
-        }
-    return self->corners != NULL;
+static float luminance(const void *sky, const double direction[3]) {
+    const sky_light *const self = sky;
+    return aur_luminance(self->color) * (float)aur_sky_model_radiance(&self->model, direction);
 }
 
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     sky_light *const self = emitter->data;
-    double *const radiance = malloc(ROWS * COLUMNS * sizeof *radiance);
-    if (!set_corners(self) || radiance == NULL) {
-        free(radiance);
+    if (aur_sky_dome_create(&self->dome, luminance, self, aur_luminance(self->ground), error) != AUR_OK)
         return aur_fail_memory_at(error, emitter->location);
-    }
-    double rises[ROWS];
-    for (size_t j = 0; j < ROWS; ++j) {
-        rises[j] = j < SKY_ROWS ? 1.0 / SKY_ROWS : 1.0;
-        for (size_t i = 0; i < COLUMNS; ++i) {
-            const aur_bilinear at = corners_of(self, i, j);
-            radiance[j * COLUMNS + i] = 0.25 * ((double)at.corner[0] + (double)at.corner[1] +
-                                                (double)at.corner[2] + (double)at.corner[3]);
-        }
-    }
-    const aur_result result = aur_patches_create(&self->patches, ROWS, COLUMNS, radiance, rises, error);
-    free(radiance);
-    emitter->brightness = aur_patches_integral(&self->patches);
-    return result;
+    emitter->brightness = aur_patches_integral(&self->dome.patches);
+    return AUR_OK;
 }
 
 static const aur_sun_position *position_of(const aur_emitter *emitter) {
@@ -273,35 +211,14 @@ static const aur_sun_position *position_of(const aur_emitter *emitter) {
 static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
     const sky_light *const self = emitter->data;
     double local[3];
-    if (!(self->patches.rows.total > 0.0))
-        return 0.0f;
-    to_local(self, direction, local);
-    const double turn = self->round ? 0.0 : atan2(local[1], local[0]) / (2.0 * AUR_PI);
-    const double x = (turn < 0.0 ? turn + 1.0 : turn) * COLUMNS,
-                 y = local[2] < 0.0 ? SKY_ROWS : local[2] * SKY_ROWS;
-    const size_t column = x < COLUMNS ? (size_t)x : COLUMNS - 1;
-    const size_t row = local[2] < 1.0 ? (size_t)y : SKY_ROWS - 1;
-    const aur_bilinear corners = corners_of(self, column, row);
-    return aur_patches_density(
-        &self->patches, aur_bilinear_value(&corners, (float)(x - (double)column), (float)(y - (double)row)));
+    aur_sun_position_to_local(&self->position, direction, local);
+    return aur_sky_dome_pdf(&self->dome, local);
 }
 
 static aur_vector draw(const sky_light *self, float u, float v) {
-    size_t column = 0, row;
-    double local[3], world[3], along = (double)u * COLUMNS;
-    if (self->round)
-        row = aur_distribution_choose(&self->patches.rows, &v);
-    else
-        aur_patches_choose(&self->patches, &u, &v, &column, &row);
-    const aur_bilinear corners = corners_of(self, column, row);
-    aur_patch_draw(&corners, &u, &v);
-    if (!self->round)
-        along = (double)column + (double)u;
-    direction_at(along, row < SKY_ROWS ? ((double)row + (double)v) / SKY_ROWS : -(double)v, local);
-    const aur_sun_position *const at = &self->position;
-    for (int d = 0; d < 3; ++d)
-        world[d] = local[0] * at->east[d] + local[1] * at->north[d] + local[2] * at->up[d];
-    return (aur_vector){(float)world[0], (float)world[1], (float)world[2]};
+    double local[3];
+    aur_sky_dome_draw(&self->dome, u, v, local);
+    return aur_sun_position_to_world(&self->position, local);
 }
 
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {

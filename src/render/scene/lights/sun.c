@@ -1,18 +1,11 @@
 /* A disk of the sky, infinitely far: the sun, or any part of the sky up to all of it. */
-#include <stdlib.h>
+#include <math.h>
 
-#include "points/base/vector3d.h"
 #include "render/scene/emitter.h"
+#include "render/scene/lights/sun_disk.h"
 #include "render/scene/lights/sun_position.h"
 #include "render/scene/materials/sampling.h"
 #include "render/scene/scene_data.h"
-
-typedef struct sun_light {
-    double center[3];     /* of the disk, unit, in the world */
-    aur_vector across[2]; /* at right angles to it and each other */
-    double rise;          /* 1 - cosine of its half angle */
-    double reach;         /* the squared distance between its centre and its edge on the unit sphere */
-} sun_light;
 
 typedef struct sun_keys {
     double half_angle;
@@ -57,7 +50,7 @@ static aur_result read_radiance(const sun_keys *p, aur_parameters *parameters, a
 }
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    sun_light *const self = emitter->data;
+    aur_sun_disk *const self = emitter->data;
     sun_keys p = {.half_angle = 0.0};
     aur_sun_position position;
     aur_result result = aur_colors_read(&emitter->descriptor->row, parameters, &p, error);
@@ -69,59 +62,39 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
         result = read_radiance(&p, parameters, emitter, error);
     if (result != AUR_OK)
         return result;
-    const double half = sin(0.5 * p.half_angle * AUR_PI / 180.0);
-    self->rise = 2.0 * half * half;
-    /* A little more than the edge, so that directions drawn there are inside in spite of rounding. */
-    self->reach = 4.0 * half * half + 5e-7 * half;
+    double center[3];
     for (int d = 0; d < 3; ++d)
-        self->center[d] = position.sun[0] * position.east[d] + position.sun[1] * position.north[d] +
-                          position.sun[2] * position.up[d];
-    double x[3], y[3];
-    aur_frame3(self->center, x, y);
-    self->across[0] = (aur_vector){(float)x[0], (float)x[1], (float)x[2]};
-    self->across[1] = (aur_vector){(float)y[0], (float)y[1], (float)y[2]};
-    emitter->extent = AUR_PI * 2.0 * AUR_PI * self->rise;
+        center[d] = position.sun[0] * position.east[d] + position.sun[1] * position.north[d] +
+                    position.sun[2] * position.up[d];
+    *self = aur_sun_disk_make(center, p.half_angle);
+    emitter->extent = AUR_PI * aur_sun_disk_solid_angle(self);
     return AUR_OK;
 }
 
-static bool is_inside(const sun_light *self, aur_vector direction) {
-    const double way[3] = {(double)direction.x - self->center[0], (double)direction.y - self->center[1],
-                           (double)direction.z - self->center[2]};
-    return aur_dot3(way, way) <= self->reach;
-}
-
 static aur_vector radiance_from(const aur_emitter *emitter, aur_vector direction) {
-    return is_inside(emitter->data, direction) ? emitter->radiance.constant : (aur_vector){0};
+    return aur_sun_disk_contains(emitter->data, direction) ? emitter->radiance.constant : (aur_vector){0};
 }
 
 static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
-    const sun_light *const self = emitter->data;
-    return is_inside(self, direction) ? (float)(1.0 / (2.0 * AUR_PI * self->rise)) : 0.0f;
-}
-
-/* Uniform by solid angle: 1 - cosine is u times that of the edge. */
-static aur_vector draw(const sun_light *self, float u, float v) {
-    const double low = (double)u * self->rise;
-    const float radius = (float)sqrt(fmax(low * (2.0 - low), 0.0)), azimuth = 2.0f * AUR_PI_F * v;
-    const aur_vector middle = {(float)((1.0 - low) * self->center[0]), (float)((1.0 - low) * self->center[1]),
-                               (float)((1.0 - low) * self->center[2])};
-    return aur_vector_add_scaled(aur_vector_add_scaled(middle, radius * cosf(azimuth), self->across[0]),
-                                 radius * sinf(azimuth), self->across[1]);
+    const aur_sun_disk *const self = emitter->data;
+    return aur_sun_disk_contains(self, direction) ? (float)(1.0 / aur_sun_disk_solid_angle(self)) : 0.0f;
 }
 
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
-    return aur_sample_environment(emitter, query, draw(emitter->data, query->u[1], query->u[2]), drawn);
+    return aur_sample_environment(emitter, query, aur_sun_disk_draw(emitter->data, query->u[1], query->u[2]),
+                                  drawn);
 }
 
 static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
-    return aur_emit_environment(emitter, draw(emitter->data, u[1], u[2]), u[3], u[4], ray, power);
+    return aur_emit_environment(emitter, aur_sun_disk_draw(emitter->data, u[1], u[2]), u[3], u[4], ray,
+                                power);
 }
 
 const aur_emitter_descriptor aur_emitter_sun = {
     .row = {.name = "sun",
             .summary = "a disk of the sky, by default the sun; adds to any other environment",
             AUR_ROW_KEYS(keys)},
-    .size = sizeof(sun_light),
+    .size = sizeof(aur_sun_disk),
     .is_far = true,
     .adds = true,
     .create = create,

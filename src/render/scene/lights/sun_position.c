@@ -127,6 +127,22 @@ aur_result aur_sun_position_read(const aur_sun_keys *keys, aur_parameters *param
     return AUR_OK;
 }
 
+void aur_sun_position_to_local(const aur_sun_position *position, aur_vector direction, double local[3]) {
+    double d[3];
+    aur_vector_to_doubles(direction, d);
+    local[0] = aur_dot3(d, position->east);
+    local[1] = aur_dot3(d, position->north);
+    local[2] = aur_dot3(d, position->up);
+    aur_normalize3(local);
+}
+
+aur_vector aur_sun_position_to_world(const aur_sun_position *position, const double local[3]) {
+    double world[3];
+    for (int d = 0; d < 3; ++d)
+        world[d] = local[0] * position->east[d] + local[1] * position->north[d] + local[2] * position->up[d];
+    return (aur_vector){(float)world[0], (float)world[1], (float)world[2]};
+}
+
 aur_result aur_sun_position_need(const aur_sun_position *position, const aur_parameters *parameters,
                                  aur_error *error) {
     return position->has_sun ? AUR_OK

@@ -3,6 +3,7 @@
 
 #include "points/base/error.h"
 #include "points/base/keys.h"
+#include "points/base/vector.h"
 #include "render/scene/transform.h"
 
 typedef struct aur_sun_keys {
@@ -54,6 +55,10 @@ AUR_INTERNAL double aur_sun_locate(double days, double hours, double latitude, d
  * horizon by date and time). */
 aur_result aur_sun_position_read(const aur_sun_keys *keys, aur_parameters *parameters,
                                  aur_sun_position *position, aur_error *error);
+
+/* A direction of the world by east, north and up, made a unit; and back. */
+void aur_sun_position_to_local(const aur_sun_position *position, aur_vector direction, double local[3]);
+aur_vector aur_sun_position_to_world(const aur_sun_position *position, const double local[3]);
 
 /* Refuses a thing that cannot do without the sun where no key says where it is. */
 aur_result aur_sun_position_need(const aur_sun_position *position, const aur_parameters *parameters,

@@ -14,7 +14,8 @@
     ROW(constant)                                                                                            \
     ROW(envmap)                                                                                              \
     ROW(sky)                                                                                                 \
-    ROW(sun)
+    ROW(sun)                                                                                                 \
+    ROW(sunsky)
 
 #define DECLARE(name) extern const aur_emitter_descriptor aur_emitter_##name;
 EMITTERS(DECLARE)

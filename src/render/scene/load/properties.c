@@ -40,7 +40,7 @@ bool aur_xml_is_property(const char *tag) {
 /* What a property is a colour of: the names under which materials take indices of refraction, and lights. */
 static aur_spectrum_use use_of(const aur_parameters *parameters, const char *name) {
     if (strcmp(parameters->kind, "emitter") == 0)
-        return AUR_SPECTRUM_EMITS;
+        return strstr(name, "albedo") != NULL ? AUR_SPECTRUM_REFLECTS : AUR_SPECTRUM_EMITS;
     return strcmp(name, "eta") == 0 || strcmp(name, "k") == 0 || strcmp(name, "sigma_t") == 0
                ? AUR_SPECTRUM_REFRACTS
                : AUR_SPECTRUM_REFLECTS;
