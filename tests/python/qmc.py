@@ -128,7 +128,7 @@ class Engines(unittest.TestCase):
             for n in (1, 7, 8, 100, 1, 37):
                 error = abs(ours.random(n) - theirs.random(n)).max()
                 self.assertLessEqual(error, 2**-53 if way.get("bits") == 64 else 0, (d, way))
-        for d, first in itertools.product((1, 2, 7, 100), (0, 10**6)):
+        for d, first in itertools.product((1, 2, 7, 100), (0, 5000)):
             for scramble in (False, True):
                 ours, theirs = (maker.Halton(d, scramble=scramble, seed=5) for maker in (aureole.qmc, qmc))
                 ours, theirs = (made.fast_forward(first).random(500) for made in (ours, theirs))
