@@ -11,16 +11,24 @@
  *     aureole_draw_2d(&sampler, u);                                          the next pair, Owen-scrambled
  * Sobol
  *
- * Compilers for CUDA and ISPC take the functions by the two macros below. That is not tested here. */
+ * In CUDA (nvcc, clang) every function is for the host and for the device. Sets of the square and the sampler
+ * take operations on integers and exact ones on numbers, and so have the same bits on both. So have maps and
+ * sets of the sphere where the compilers fuse nothing (nvcc -fmad=false): each of their operations is rounded
+ * to nearest. aureole_grid_first_shift takes pow, which is not. examples/cuda/sampling.cu compares host and
+ * device. ISPC takes the macros below, and has not been tried. */
 #ifndef AUREOLE_SAMPLING_H
 #define AUREOLE_SAMPLING_H
 
 /* Before each function, and before each table of constants. Define both before the header to choose others.
  */
 #ifndef AUREOLE_INLINE
-#if defined(__CUDACC__)
+#if defined(__CUDACC__) || defined(__CUDA__)
 #define AUREOLE_INLINE static inline __host__ __device__
+#ifdef __CUDA_ARCH__ /* the processor reads a table of its own */
 #define AUREOLE_TABLE static __device__ const
+#else
+#define AUREOLE_TABLE static const
+#endif
 #else
 #define AUREOLE_INLINE static inline
 #define AUREOLE_TABLE static const
@@ -76,7 +84,7 @@ AUREOLE_INLINE float aureole_unit_float(uint32_t bits) {
 /* --- words: the coordinate x / 2^32 or x / 2^64 as an integer x */
 
 AUREOLE_INLINE uint32_t aureole_reverse_bits(uint32_t x) {
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__CUDA__)
     x = __builtin_bswap32(x);
 #else
     x = x >> 24 | (x >> 8 & 0xff00u) | (x & 0xff00u) << 8 | x << 24;

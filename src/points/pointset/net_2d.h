@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 static inline uint32_t aur_reverse_bits(uint32_t x) {
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__CUDA__)
     x = __builtin_bswap32(x);
 #else
     x = x >> 24 | (x >> 8 & 0xff00u) | (x & 0xff00u) << 8 | x << 24;
