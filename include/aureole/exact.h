@@ -25,6 +25,11 @@ extern "C" {
 #define AUR_EXACT_EXPONENT_MAX 1e4
 /* No degree for a GGX lobe is larger. */
 #define AUR_EXACT_GGX_DEGREE_MAX 64
+/* Of conjugate gradients, in the place of 0. */
+#define AUR_EXACT_TOLERANCE_DEFAULT 1e-14
+/* No tolerance is smaller or larger. */
+#define AUR_EXACT_TOLERANCE_MIN 1e-15
+#define AUR_EXACT_TOLERANCE_MAX 1e-2
 
 typedef struct aur_exact_options {
     size_t size;        /* of the caller's struct, so that it can grow */
@@ -38,6 +43,9 @@ typedef struct aur_exact_options {
     const double *near; /* the weights to stay near to: one a point, >= 0, not all 0; NULL: equal ones */
     size_t threads;     /* 0: all; no bit depends on it */
     aur_progress progress;
+    /* Of more than 2048 points: conjugate gradients end when no function errs by more; 0:
+     * AUR_EXACT_TOLERANCE_DEFAULT. */
+    double tolerance;
 } aur_exact_options;
 
 /* The largest degree, near to equal weights, on a whole domain. */
@@ -58,11 +66,11 @@ typedef struct aur_exact_report {
  * the sum of (w - near)^2 / near least, where the near ones are scaled to sum 1. Points at one place share
  * the weight of one point, unless near ones are given; points with the near weight 0 keep it. Up to 2048
  * points every degree is tried by one factorisation that grows, O(count degree^4); more points are solved by
- * conjugate gradients until the residual is 1e-15 or so, or ends below 1e-10 after 600 steps, each O(count +
- * degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then found by
- * bisection with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count + 1e4 to
- * 1e5 nodes) degree^4) for any count, and the search for the largest degree ends after four without positive
- * weights. `capacity` counts weights; `report` may be NULL.
+ * conjugate gradients until the residual is at the tolerance, or ends below 1e-10 after 600 steps, each
+ * O(count + degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then found
+ * by bisection with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count + 1e4
+ * to 1e5 nodes) degree^4) for any count, and the search for the largest degree ends after four without
+ * positive weights. `capacity` counts weights; `report` may be NULL.
  *
  * Errors: ARGUMENT for no point, a vector that is not of unit length or lies outside the domain (which),
  * options out of range, a degree that no weights of these points have (and the error that is left), a degree

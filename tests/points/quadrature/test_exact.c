@@ -153,8 +153,11 @@ static void two_ways(void **state) {
     double near[N], direct[N], iterated[N], storage[4 * N];
     for (size_t i = 0; i < N; ++i)
         near[i] = (1.0 + 0.5 * sin((double)i)) / N;
-    const aur_exact_system system = {
-        .points = aur_polar_points_make(N, xyz, storage), .near = near, .places = N, .lowest = -1.0};
+    const aur_exact_system system = {.points = aur_polar_points_make(N, xyz, storage),
+                                     .near = near,
+                                     .places = N,
+                                     .lowest = -1.0,
+                                     .tolerance = 1e-15};
     aur_exact_found found = {0};
     aur_error error;
     assert_int_equal(aur_exact_direct(&system, DEGREE, false, direct, &found, &error), AUR_OK);
@@ -216,8 +219,8 @@ static void transforms(void **state) {
 }
 
 /* The fast transforms against the plain ones, poles, seams and doubled points among them, at an even and an
- * odd degree; no bit depends on threads, and both directions are adjoint. The window errs by 1e-11 of the
- * largest value. */
+ * odd degree; no bit depends on threads, and both directions are adjoint. The window errs by some 1e-14
+ * of the largest value. */
 static void fast_transforms(void **state) {
     (void)state;
     enum { N = 500 };
@@ -252,12 +255,12 @@ static void fast_transforms(void **state) {
             for (size_t j = 0; j < size; ++j)
                 most = fmax(most, fabs(found[j]));
             for (size_t j = 0; j < size; ++j)
-                assert_near(found[j], sums[j], 1e-11 * most);
+                assert_near(found[j], sums[j], 1e-13 * most);
             double before[N];
             memcpy(before, values[1], sizeof before);
             assert_int_equal(aur_fast_transform_synthesise(fast, sums, values[1], &error), AUR_OK);
             for (size_t i = 0; i < N; ++i)
-                assert_near(values[1][i], values[0][i], 1e-11 * largest);
+                assert_near(values[1][i], values[0][i], 1e-13 * largest);
             if (threads > 1)
                 assert_memory_equal(before, values[1], sizeof before);
             double left = 0.0, right = 0.0;
@@ -294,6 +297,72 @@ static void many_points(void **state) {
     assert_memory_equal(weights, weights + N, N * sizeof *weights);
     free(weights);
     free(xyz);
+}
+
+/* What the tolerance promises, by the plain transform: the solver goes by the fast one. */
+static void tolerances(void **state) {
+    (void)state;
+    enum { N = 5000, DEGREE = 60 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double *const weights = malloc(5 * N * sizeof *weights);
+    const size_t size = aur_coefficient_count(DEGREE);
+    double *const sums = malloc((size + AUR_TRANSFORM_BANDS * aur_transform_room(DEGREE)) * sizeof *sums);
+    const aur_polar_points points = aur_polar_points_make(N, xyz, weights + N);
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
+    options.degree = DEGREE;
+    aur_exact_report report;
+    aur_error error;
+    aur_basis basis;
+    assert_int_equal(aur_basis_create(DEGREE, -1.0, 0.0, &basis, &error), AUR_OK);
+    const aur_transform transform = {.basis = &basis, .points = &points, .threads = 1, .sums = sums + size};
+    size_t steps = 0;
+    for (double tolerance = 1e-3; tolerance > 1e-15; tolerance *= 1e-3) {
+        options.tolerance = tolerance;
+        assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+        assert_true(report.residual <= tolerance && report.iterations > steps);
+        steps = report.iterations;
+        assert_int_equal(aur_transform_analyse(&transform, weights, sums, &error), AUR_OK);
+        double worst = fabs(sums[0] - 1.0);
+        for (size_t j = 1; j < size; ++j)
+            worst = fmax(worst, fabs(sums[j]));
+        assert_near(worst, report.residual, 2e-15);
+    }
+    options.tolerance = 0.1;
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "tolerance"));
+    aur_basis_release(&basis);
+    free(sums);
+    free(weights);
+    free(xyz);
+}
+
+/* Against the sums of the definition, at sizes of every kind. */
+static void fourier(void **state) {
+    (void)state;
+    enum { MOST = 576 };
+    static double turns[2 * MOST], re[MOST], im[MOST], work[2 * MOST];
+    for (size_t least = 60; least <= MOST; least *= 2) {
+        const size_t size = aur_fourier_size(least < 480 ? least : MOST);
+        assert_true(size >= least && size % 64 == 0);
+        aur_fourier_prepare(size, turns);
+        for (size_t j = 0; j < size; ++j) {
+            re[j] = sin(3.0 * (double)(j * j));
+            im[j] = cos(5.0 * (double)j);
+        }
+        aur_fourier(size, turns, re, im, work);
+        for (size_t k = 0; k < size; k += 7) {
+            double sum[2] = {0.0, 0.0};
+            for (size_t j = 0; j < size; ++j) {
+                const double a = sin(3.0 * (double)(j * j)), b = cos(5.0 * (double)j);
+                const double *const turn = turns + 2 * (j * k % size);
+                sum[0] += a * turn[0] - b * turn[1];
+                sum[1] += a * turn[1] + b * turn[0];
+            }
+            assert_near(re[k], sum[0], 1e-12);
+            assert_near(im[k], sum[1], 1e-12);
+        }
+    }
 }
 
 static void bad_input(void **state) {
@@ -577,11 +646,13 @@ static void searches_tell(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(golden),      cmocka_unit_test(monomials),    cmocka_unit_test(designs),
-        cmocka_unit_test(two_ways),    cmocka_unit_test(transforms),   cmocka_unit_test(fast_transforms),
-        cmocka_unit_test(many_points), cmocka_unit_test(bad_input),    cmocka_unit_test(negative),
-        cmocka_unit_test(cells),       cmocka_unit_test(nested),       cmocka_unit_test(stops_within_a_step),
-        cmocka_unit_test(reports),     cmocka_unit_test(searches_tell)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(golden),      cmocka_unit_test(monomials),
+                                       cmocka_unit_test(designs),     cmocka_unit_test(two_ways),
+                                       cmocka_unit_test(transforms),  cmocka_unit_test(fast_transforms),
+                                       cmocka_unit_test(tolerances),  cmocka_unit_test(fourier),
+                                       cmocka_unit_test(many_points), cmocka_unit_test(bad_input),
+                                       cmocka_unit_test(negative),    cmocka_unit_test(cells),
+                                       cmocka_unit_test(nested),      cmocka_unit_test(stops_within_a_step),
+                                       cmocka_unit_test(reports),     cmocka_unit_test(searches_tell)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,6 +40,11 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
     if (o->degree != AUR_DEGREE_LARGEST && o->degree > most_degree)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %zu, not %zu", most_degree,
                         o->degree);
+    if (o->tolerance != 0.0 &&
+        !(o->tolerance >= AUR_EXACT_TOLERANCE_MIN && o->tolerance <= AUR_EXACT_TOLERANCE_MAX))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the tolerance of exact weights must be between %g and %g, not %g",
+                        AUR_EXACT_TOLERANCE_MIN, AUR_EXACT_TOLERANCE_MAX, o->tolerance);
     *lowest = o->cap_degrees == 180.0  ? -1.0
               : o->cap_degrees == 90.0 ? 0.0
                                        : cos(o->cap_degrees / 180.0 * AUR_PI);
@@ -131,8 +136,10 @@ typedef struct ladder {
     double done;          /* work of the degrees before: steps, each as long as there are functions */
     size_t degree, bound; /* the present one, and the largest that there can be */
     size_t low, high;     /* with positive weights, and without */
-    double steps[2];      /* that these two took */
-    bool hard;            /* the first guess had no positive weights */
+    size_t
+        ceiling; /* no exact weights, and so none from there on: each degree's are those of lower ones too */
+    double steps[2]; /* that these two took */
+    bool hard;       /* the first guess had no positive weights */
     bool failed[AUR_BASIS_DEGREE_MAX + 1];
 } ladder;
 
@@ -152,7 +159,7 @@ static double work_left(const ladder *l, double steps) {
     double trials = bracketed ? fmax(log2((double)(l->high - l->low)) - 1.0, 0.0) : USUAL_TRIALS, last = 0.0;
     if (l->degree > l->high)
         trials = 0.0;
-    for (size_t more = l->high + 1; bracketed && more <= l->high + 2 && more <= l->bound; ++more)
+    for (size_t more = l->high + 1; bracketed && more <= l->high + 2 && more < l->ceiling; ++more)
         last += l->failed[more] || more <= l->degree ? 0.0 : functions_of((double)more) * l->steps[1];
     if (l->high > l->low + 1) /* one of them may be the degree `high`, which is known */
         last *= 0.75;
@@ -180,6 +187,8 @@ static bool climbs(ladder *l, size_t degree) {
     l->hard = l->hard || (l->done == 0.0 && degree > 0 && !good);
     l->done += functions_of((double)degree) * steps;
     l->failed[degree] = !good;
+    if (!found.exact && degree < l->ceiling)
+        l->ceiling = degree;
     if (good ? degree > l->low : degree < l->high) {
         *(good ? &l->low : &l->high) = degree;
         l->steps[good ? 0 : 1] = steps;
@@ -207,7 +216,8 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
                 .error = error,
                 .progress = system->progress,
                 .bound = bound,
-                .high = bound + 1};
+                .high = bound + 1,
+                .ceiling = bound + 1};
     aur_exact_system reporting = *system;
     if (system->progress.function != NULL)
         reporting.progress = (aur_progress){report, &l};
@@ -225,7 +235,7 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
         }
     }
     const size_t top = l.low;
-    for (size_t more = top + 2; more <= top + 3 && more <= bound && l.result == AUR_OK; ++more)
+    for (size_t more = top + 2; more <= top + 3 && more < l.ceiling && l.result == AUR_OK; ++more)
         climbs(&l, more);
     memcpy(weights, l.best, count * sizeof *weights);
     free(storage);
@@ -241,7 +251,7 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
             "no weights of these %zu points at %zu places were found that integrate all %zu polynomials of "
             "degree %zu to %g: ask for the largest degree that has some",
             count, system->places, (found->degree + 1) * (found->degree + 1), found->degree,
-            AUR_EXACT_TOLERANCE);
+            fmax(AUR_EXACT_TOLERANCE, system->tolerance));
     if (found->least <= 0.0 && !o->negative)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
@@ -379,6 +389,8 @@ aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_op
                                          .near = near,
                                          .lowest = lowest,
                                          .exponent = own.lobe.exponent,
+                                         .tolerance = own.tolerance > 0.0 ? own.tolerance
+                                                                          : AUR_EXACT_TOLERANCE_DEFAULT,
                                          .threads = own.threads,
                                          .progress = own.progress};
         result = solve(&own, &system, xyz, found, report, error);

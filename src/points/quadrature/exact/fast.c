@@ -9,27 +9,24 @@
 
 enum { WIDTH = AUR_WINDOW_WIDTH, BAND = 64, LANE = 16 };
 
-/* A point's place: its first cell, and the window at its cells, theta first. */
-typedef struct spot {
-    size_t index, row, column;
-    double window[2][WIDTH];
-} spot;
-
 struct aur_fast_transform {
     const aur_basis *basis;
     size_t count, threads;
     aur_progress progress;
     aur_window shape;
-    size_t side;            /* cells around the torus */
-    size_t rows;            /* of the half torus and a window: row r is the angle (r - WIDTH) 2 pi / side */
-    size_t stride;          /* of a row: side cells and, behind them, the first WIDTH once more */
-    size_t rings;           /* theta = 0 to pi in steps of the grid, and zeros up to a multiple of LANE */
-    spot *spots;            /* count, by rows */
-    size_t *first;          /* rows + 1: the first spot of each row */
-    double *grid;           /* rows * stride */
-    double *re, *im;        /* (degree + 1) * side: order after order */
+    size_t side;     /* cells around the torus */
+    size_t rows;     /* of the half torus and a window: row r is the angle (r - WIDTH) 2 pi / side */
+    size_t stride;   /* of a row: side cells and, behind them, the first WIDTH once more */
+    size_t pitch;    /* of the sums of one order: no multiple of a page */
+    size_t turn;     /* rings around the torus, enough for the degree */
+    size_t rings;    /* theta = 0 to pi / 2 in steps of 2 pi / turn, and zeros up to a multiple of LANE */
+    aur_spot *spots; /* count, by rows */
+    size_t *first;   /* rows + 1: the first spot of each row */
+    double *grid;    /* rows * stride */
+    double *re, *im; /* (degree + 1) * pitch: order after order */
     double *turns, *window; /* of Fourier transforms; the window's own transform, degree + 1, inverted */
-    double *z, *start;      /* rings; (degree + 1) * rings */
+    double *ring_turns;
+    double *z, *start; /* rings; (degree + 1) * rings */
     double *storage;
     const double *from;
     double *to;
@@ -37,37 +34,54 @@ struct aur_fast_transform {
 
 /* --- making it */
 
-/* Spots in the order of their rows, and of points in a row. */
-static void fill_spots(aur_fast_transform *f, const aur_polar_points *points, size_t *row_of) {
-    const double cells = (double)f->side / (2.0 * AUR_PI);
-    for (size_t i = 0; i < f->count; ++i) {
-        const double cell = atan2(points->sine[i], points->z[i]) * cells;
-        row_of[i] = (size_t)(ceil(cell - 0.5 * WIDTH) + WIDTH);
-        ++f->first[row_of[i] + 1];
+/* The points by the keys of theirs below `keys`, in their order where keys are equal; from[keys + 1] says
+ * where each key begins. */
+static void sort_by(size_t count, const uint32_t *key, const uint32_t *order, size_t keys, size_t *from,
+                    uint32_t *sorted) {
+    memset(from, 0, (keys + 2) * sizeof *from);
+    for (size_t i = 0; i < count; ++i)
+        ++from[key[i] + 2];
+    for (size_t k = 0; k < keys; ++k)
+        from[k + 2] += from[k + 1];
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t at = order != NULL ? order[i] : (uint32_t)i;
+        sorted[from[key[at] + 1]++] = at;
     }
-    for (size_t r = 0; r < f->rows; ++r)
-        f->first[r + 1] += f->first[r];
+}
+
+/* Spots in the order of their rows, and of columns in a row. */
+static void fill_spots(aur_fast_transform *f, const aur_polar_points *points, size_t *starts, double *angles,
+                       uint32_t *keys) {
+    const double cells = (double)f->side / (2.0 * AUR_PI);
+    uint32_t *const row = keys, *const column = keys + f->count, *const across = column + f->count;
+    uint32_t *const sorted = across + f->count;
     for (size_t i = 0; i < f->count; ++i) {
-        spot *const s = f->spots + f->first[row_of[i]]++;
         const double theta = atan2(points->sine[i], points->z[i]);
         const double phi = atan2(points->azimuth_sine[i], points->cosine[i]);
-        s->index = i;
-        s->row = row_of[i];
-        aur_window_fill(&f->shape, theta * cells, s->window[0]);
-        const double column =
-            aur_window_fill(&f->shape, (phi < 0.0 ? phi + 2.0 * AUR_PI : phi) * cells, s->window[1]);
-        s->column = (size_t)(column + (double)f->side) % f->side;
+        angles[2 * i] = theta * cells;
+        angles[2 * i + 1] = (phi < 0.0 ? phi + 2.0 * AUR_PI : phi) * cells;
+        row[i] = (uint32_t)(ceil(angles[2 * i] - 0.5 * WIDTH) + WIDTH);
+        column[i] = (uint32_t)((size_t)(ceil(angles[2 * i + 1] - 0.5 * WIDTH) + (double)f->side) % f->side);
     }
-    memmove(f->first + 1, f->first, f->rows * sizeof *f->first);
-    f->first[0] = 0;
+    sort_by(f->count, column, NULL, f->side, starts, across);
+    sort_by(f->count, row, across, f->rows, f->first, sorted);
+    for (size_t k = 0; k < f->count; ++k) {
+        const size_t i = sorted[k];
+        aur_spot *const s = f->spots + k;
+        s->index = i;
+        s->row = row[i];
+        s->column = column[i];
+        aur_window_fill(&f->shape, angles[2 * i], s->window[0]);
+        aur_window_fill(&f->shape, angles[2 * i + 1], s->window[1]);
+    }
 }
 
 static void fill_rings(aur_fast_transform *f) {
     for (size_t j = 0; j < f->rings; ++j) {
-        const double theta = 2.0 * AUR_PI * (double)j / (double)f->side;
-        const bool there = j <= f->side / 2;
-        const double sine = there && j > 0 && j < f->side / 2 ? sin(theta) : 0.0;
-        f->z[j] = there ? cos(theta) : 0.0;
+        const double theta = 2.0 * AUR_PI * (double)j / (double)f->turn;
+        const bool there = j <= f->turn / 4;
+        const double sine = there && j > 0 ? sin(theta) : 0.0;
+        f->z[j] = there && j < f->turn / 4 ? cos(theta) : 0.0;
         double start = there ? 1.0 : 0.0;
         for (size_t m = 0; m <= f->basis->degree; ++m) {
             if (m > 0)
@@ -80,18 +94,19 @@ static void fill_rings(aur_fast_transform *f) {
 
 static bool allocate(aur_fast_transform *f) {
     const size_t orders = f->basis->degree + 1;
-    const size_t doubles =
-        f->rows * f->stride + 2 * orders * f->side + 2 * f->side + orders + (orders + 1) * f->rings;
+    const size_t doubles = f->rows * f->stride + 2 * orders * f->pitch + 2 * f->side + 2 * f->turn + orders +
+                           (orders + 1) * f->rings;
     f->storage = calloc(doubles, sizeof *f->storage);
-    f->spots = malloc(f->count * sizeof *f->spots);
+    f->spots = f->count < UINT32_MAX ? malloc(f->count * sizeof *f->spots) : NULL;
     f->first = calloc(f->rows + 2, sizeof *f->first);
     if (f->storage == NULL || f->spots == NULL || f->first == NULL)
         return false;
     f->grid = f->storage;
     f->re = f->grid + f->rows * f->stride;
-    f->im = f->re + orders * f->side;
-    f->turns = f->im + orders * f->side;
-    f->window = f->turns + 2 * f->side;
+    f->im = f->re + orders * f->pitch;
+    f->turns = f->im + orders * f->pitch;
+    f->ring_turns = f->turns + 2 * f->side;
+    f->window = f->ring_turns + 2 * f->turn;
     f->z = f->window + orders;
     f->start = f->z + f->rings;
     return true;
@@ -111,19 +126,23 @@ aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_poi
     f->side = f->shape.side;
     f->rows = f->side / 2 + 2 * WIDTH;
     f->stride = f->side + WIDTH;
-    f->rings = (f->side / 2 + LANE) / LANE * LANE;
-    size_t *const row_of = malloc(f->count * sizeof *row_of);
-    if (row_of == NULL || !allocate(f)) {
-        free(row_of);
+    f->pitch = f->side + 24;
+    f->turn = aur_fourier_size(2 * basis->degree + 2);
+    f->rings = (f->turn / 4 + LANE) / LANE * LANE;
+    size_t *const starts = malloc((f->side + 2) * sizeof *starts + 4 * f->count * sizeof(double));
+    if (starts == NULL || !allocate(f)) {
+        free(starts);
         aur_fast_transform_destroy(f);
         *fast = NULL;
         return aur_fail_memory(error);
     }
     aur_fourier_prepare(f->side, f->turns);
+    aur_fourier_prepare(f->turn, f->ring_turns);
     aur_window_invert(&f->shape, basis->degree, f->window);
-    fill_spots(f, points, row_of);
+    double *const angles = (double *)(void *)(starts + f->side + 2);
+    fill_spots(f, points, starts, angles, (uint32_t *)(void *)(angles + 2 * f->count));
     fill_rings(f);
-    free(row_of);
+    free(starts);
     return AUR_OK;
 }
 
@@ -154,19 +173,9 @@ static aur_result spread(void *context, size_t band) {
     const size_t from = band * BAND, to = from + BAND < f->rows ? from + BAND : f->rows;
     memset(f->grid + from * f->stride, 0, (to - from) * f->stride * sizeof *f->grid);
     const size_t lowest = from > WIDTH - 1 ? from - (WIDTH - 1) : 0;
-    for (size_t i = f->first[lowest]; i < f->first[to]; ++i) {
-        const spot *const s = f->spots + i;
-        const double weight = f->from[s->index];
-        for (size_t k = 0; k < WIDTH; ++k) {
-            const size_t row = s->row + k;
-            if (row < from || row >= to)
-                continue;
-            double *const cells = f->grid + row * f->stride + s->column;
-            const double part = weight * s->window[0][k];
-            for (size_t c = 0; c < WIDTH; ++c)
-                cells[c] += part * s->window[1][c];
-        }
-    }
+    AUR_KERNEL_HERE(aur_fast_kernel)
+        .spread(f->first[to] - f->first[lowest], f->spots + f->first[lowest], f->from, from, to, f->stride,
+                f->grid);
     for (size_t row = from; row < to; ++row)
         for (size_t c = 0; c < WIDTH; ++c)
             f->grid[row * f->stride + c] += f->grid[row * f->stride + f->side + c];
@@ -176,18 +185,8 @@ static aur_result spread(void *context, size_t band) {
 static aur_result gather(void *context, size_t band) {
     aur_fast_transform *const f = context;
     const size_t from = band * BAND, to = from + BAND < f->rows ? from + BAND : f->rows;
-    for (size_t i = f->first[from]; i < f->first[to]; ++i) {
-        const spot *const s = f->spots + i;
-        double columns[WIDTH] = {0}, sum = 0.0;
-        for (size_t k = 0; k < WIDTH; ++k) {
-            const double *const cells = f->grid + (s->row + k) * f->stride + s->column;
-            for (size_t c = 0; c < WIDTH; ++c)
-                columns[c] += s->window[0][k] * cells[c];
-        }
-        for (size_t c = 0; c < WIDTH; ++c)
-            sum += columns[c] * s->window[1][c];
-        f->to[s->index] = sum;
-    }
+    AUR_KERNEL_HERE(aur_fast_kernel)
+        .gather(f->first[to] - f->first[from], f->spots + f->first[from], f->stride, f->grid, f->to);
     return AUR_OK;
 }
 
@@ -210,7 +209,7 @@ static aur_result analyse_rows(void *context, size_t pair) {
     aur_fourier(n, f->turns, im, re, work); /* exchanged: the other sign */
     for (size_t m = 0; m <= f->basis->degree; ++m) {
         const size_t other = (n - m) % n, a = around(f, 2 * pair), b = around(f, 2 * pair + 1);
-        double *const to_re = f->re + m * n, *const to_im = f->im + m * n;
+        double *const to_re = f->re + m * f->pitch, *const to_im = f->im + m * f->pitch;
         to_re[a] = 0.5 * (re[m] + re[other]);
         to_im[a] = 0.5 * (im[m] - im[other]);
         to_re[b] = 0.5 * (im[m] + im[other]);
@@ -231,7 +230,7 @@ static aur_result synthesise_rows(void *context, size_t pair) {
     double *const first = f->grid + 2 * pair * f->stride, *const second = first + f->stride;
     const size_t a = around(f, 2 * pair), b = around(f, 2 * pair + 1);
     for (size_t m = 0; m <= f->basis->degree; ++m) {
-        const double *const from_re = f->re + m * n, *const from_im = f->im + m * n;
+        const double *const from_re = f->re + m * f->pitch, *const from_im = f->im + m * f->pitch;
         const size_t other = (n - m) % n;
         /* x + i y of two real rows; order 0 meets itself. */
         re[m] += 0.5 * (from_re[a] - from_im[b]);
@@ -248,88 +247,121 @@ static aur_result synthesise_rows(void *context, size_t pair) {
     return AUR_OK;
 }
 
-/* Divides the frequencies by those of the window, and ends them at the degree. */
-static void filter(const aur_fast_transform *f, size_t m, double *re, double *im) {
-    const size_t n = f->side, degree = f->basis->degree;
-    for (size_t k = 0; k < n; ++k) {
-        const size_t frequency = k < n - k ? k : n - k;
-        const double factor = frequency <= degree ? f->window[frequency] * f->window[m] / (double)n : 0.0;
-        re[k] *= factor;
-        im[k] *= factor;
+/* Sums around the torus on two grids, of cells and of rings, each with room for a transform. */
+typedef struct column {
+    double *re, *im, *work; /* side */
+    double *ring_re, *ring_im, *ring_work;
+    double *room; /* of the sums of one order */
+    aur_transform_order order;
+} column;
+
+/* Ends the frequencies at the degree and divides them by those of the window. */
+static void filter(const aur_fast_transform *f, size_t m, size_t from_size, const double *from,
+                   size_t to_size, double *to) {
+    const double scale = f->window[m] / (double)f->turn;
+    memset(to, 0, to_size * sizeof *to);
+    for (size_t k = 0; k <= f->basis->degree; ++k) {
+        to[k] = from[k] * (f->window[k] * scale);
+        if (k > 0)
+            to[to_size - k] = from[from_size - k] * (f->window[k] * scale);
     }
 }
 
-static aur_transform_order order_of(const aur_fast_transform *f, size_t m, double *a, double *b) {
-    return (aur_transform_order){f->basis->degree + 1 - m,
-                                 f->basis->steps + aur_basis_at(f->basis->degree, m),
-                                 f->rings,
-                                 f->z,
-                                 f->start + m * f->rings,
-                                 a,
-                                 b};
+/* In one allocation, which begins at c->work. */
+static bool open_column(const aur_fast_transform *f, size_t m, column *c) {
+    const size_t n = f->side, degree = f->basis->degree;
+    double *const work = calloc(2 * n + 4 * f->turn + 4 * f->rings + 16 * (degree + 1), sizeof *work);
+    double *const rings = work + 2 * n + 4 * f->turn;
+    *c = (column){.work = work};
+    if (work == NULL)
+        return false;
+    *c = (column){.re = f->re + m * f->pitch,
+                  .im = f->im + m * f->pitch,
+                  .work = work,
+                  .ring_re = work + 2 * n,
+                  .ring_im = work + 2 * n + f->turn,
+                  .ring_work = work + 2 * n + 2 * f->turn,
+                  .room = rings + 4 * f->rings,
+                  .order = {.degrees = degree + 1 - m,
+                            .steps = f->basis->steps + aur_basis_at(degree, m),
+                            .count = f->rings,
+                            .z = f->z,
+                            .start = f->start + m * f->rings,
+                            .a = {rings, rings + f->rings},
+                            .b = {rings + 2 * f->rings, rings + 3 * f->rings}}};
+    return true;
 }
 
-/* Room for a Fourier transform, a and b of the rings, and sums of one order. */
-static double *order_room(const aur_fast_transform *f) {
-    return calloc(2 * f->side + 2 * f->rings + 16 * (f->basis->degree + 1), sizeof(double));
+/* A ring's sums from both sides of the torus, where the functions of odd order change sign. */
+static double both_sides(const aur_fast_transform *f, const double *around, size_t ring, size_t m) {
+    const double other = ring == 0 || 2 * ring == f->turn ? 0.0 : around[f->turn - ring];
+    return around[ring] + (m % 2 == 0 ? other : -other);
 }
 
 static aur_result analyse_column(void *context, size_t m) {
     aur_fast_transform *const f = context;
-    const size_t n = f->side, half = n / 2;
-    double *const work = order_room(f);
-    if (work == NULL)
+    const size_t n = f->side, turn = f->turn, half = turn / 2;
+    column c;
+    if (!open_column(f, m, &c))
         return AUR_ERROR_MEMORY;
-    double *const re = f->re + m * n, *const im = f->im + m * n, *const a = work + 2 * n;
-    double *const b = a + f->rings;
-    aur_fourier(n, f->turns, im, re, work);
-    filter(f, m, re, im);
-    aur_fourier(n, f->turns, re, im, work);
-    /* theta and 2 pi - theta have one ring, where the functions of odd order change sign. */
-    const double sign = m % 2 == 0 ? 1.0 : -1.0;
-    for (size_t j = 0; j <= half; ++j) {
-        const bool alone = j == 0 || j == half;
-        a[j] = re[j] + (alone ? 0.0 : sign * re[n - j]);
-        b[j] = -(im[j] + (alone ? 0.0 : sign * im[n - j]));
+    aur_fourier(n, f->turns, c.im, c.re, c.work);
+    filter(f, m, n, c.re, turn, c.ring_re);
+    filter(f, m, n, c.im, turn, c.ring_im);
+    aur_fourier(turn, f->ring_turns, c.ring_re, c.ring_im, c.ring_work);
+    /* A ring and its mirror image differ in the sign of every other degree. */
+    for (size_t j = 0; j <= turn / 4; ++j) {
+        const bool alone = 2 * j == half;
+        const double a = both_sides(f, c.ring_re, j, m), b = -both_sides(f, c.ring_im, j, m);
+        const double a_image = alone ? 0.0 : both_sides(f, c.ring_re, half - j, m);
+        const double b_image = alone ? 0.0 : -both_sides(f, c.ring_im, half - j, m);
+        c.order.a[0][j] = a + a_image;
+        c.order.a[1][j] = a - a_image;
+        c.order.b[0][j] = b + b_image;
+        c.order.b[1][j] = b - b_image;
     }
-    const aur_transform_order order = order_of(f, m, a, b);
     double *const sums = f->to + 2 * aur_basis_at(f->basis->degree, m);
-    memset(sums, 0, 2 * order.degrees * sizeof *sums);
-    AUR_KERNEL_HERE(aur_transform_kernel).analyse_order(&order, sums, b + f->rings);
-    free(work);
+    memset(sums, 0, 2 * c.order.degrees * sizeof *sums);
+    AUR_KERNEL_HERE(aur_transform_kernel).analyse_order(&c.order, sums, c.room);
+    free(c.work);
     return AUR_OK;
+}
+
+/* One of the two parts of a ring, of its mirror image and of both on the torus' other side. */
+static void put_ring(const aur_fast_transform *f, size_t j, size_t m, double even, double odd,
+                     double *around) {
+    const size_t turn = f->turn, image = turn / 2 - j;
+    const double sign = m % 2 == 0 ? 1.0 : -1.0;
+    if (j > 0)
+        around[turn - j] = sign * (even + odd);
+    if (j > 0)
+        around[turn - image] = sign * (even - odd);
+    around[image] = even - odd;
+    around[j] = even + odd;
 }
 
 static aur_result synthesise_column(void *context, size_t m) {
     aur_fast_transform *const f = context;
-    const size_t n = f->side, half = n / 2;
-    double *const work = order_room(f);
-    if (work == NULL)
+    const size_t n = f->side, turn = f->turn;
+    column c;
+    if (!open_column(f, m, &c))
         return AUR_ERROR_MEMORY;
-    double *const re = f->re + m * n, *const im = f->im + m * n, *const a = work + 2 * n;
-    double *const b = a + f->rings;
-    const aur_transform_order order = order_of(f, m, a, b);
     AUR_KERNEL_HERE(aur_transform_kernel)
-        .synthesise_order(&order, f->from + 2 * aur_basis_at(f->basis->degree, m));
-    const double sign = m % 2 == 0 ? 1.0 : -1.0;
-    for (size_t j = 0; j <= half; ++j) {
-        re[j] = a[j];
-        im[j] = -b[j];
-        if (j > 0 && j < half) {
-            re[n - j] = sign * a[j];
-            im[n - j] = -sign * b[j];
-        }
+        .synthesise_order(&c.order, f->from + 2 * aur_basis_at(f->basis->degree, m));
+    for (size_t j = 0; j <= turn / 4; ++j) {
+        put_ring(f, j, m, c.order.a[0][j], c.order.a[1][j], c.ring_re);
+        put_ring(f, j, m, -c.order.b[0][j], -c.order.b[1][j], c.ring_im);
     }
-    aur_fourier(n, f->turns, im, re, work);
-    filter(f, m, re, im);
-    aur_fourier(n, f->turns, re, im, work);
-    free(work);
+    aur_fourier(turn, f->ring_turns, c.ring_im, c.ring_re, c.ring_work);
+    filter(f, m, turn, c.ring_re, n, c.re);
+    filter(f, m, turn, c.ring_im, n, c.im);
+    aur_fourier(n, f->turns, c.re, c.im, c.work);
+    free(c.work);
     return AUR_OK;
 }
 
 aur_result aur_fast_transform_analyse(aur_fast_transform *fast, const double *weights, double *coefficients,
                                       aur_error *error) {
-    const size_t cells = (fast->basis->degree + 1) * fast->side;
+    const size_t cells = (fast->basis->degree + 1) * fast->pitch;
     fast->from = weights;
     fast->to = coefficients;
     memset(fast->re, 0, 2 * cells * sizeof *fast->re);

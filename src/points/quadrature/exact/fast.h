@@ -1,7 +1,7 @@
 /* The transforms of transform.h for the whole sphere in O(points + degree^3): a function of degree L is a
  * trigonometric polynomial on the torus (theta, phi), which is known from a grid by Fourier transforms and
  * carried between grid and points by the window of window.c (non-uniform Fourier transforms: Dutt and Rokhlin
- * 1993, Barnett, Magland and af Klinteberg 2019; on spheres Kunis and Potts 2003). It is good to some 1e-11
+ * 1993, Barnett, Magland and af Klinteberg 2019; on spheres Kunis and Potts 2003). It is good to some 1e-14
  * of the largest value, and both directions are adjoint to rounding. */
 #pragma once
 
@@ -23,28 +23,39 @@ aur_result aur_fast_transform_analyse(aur_fast_transform *fast, const double *we
 aur_result aur_fast_transform_synthesise(aur_fast_transform *fast, const double *coefficients, double *values,
                                          aur_error *error);
 
-/* The discrete Fourier transform of a power of two of complex numbers. */
+/* The discrete Fourier transform of 2^a 3^b complex numbers. */
 
-/* Fills turns[size] with the cosines and sines of 2 pi k / size, 0 <= k < size / 2. */
+/* The smallest size from `least` on that is 64, 192 or 576 times a power of two. */
+size_t aur_fourier_size(size_t least);
+
+/* Fills turns[2 * size] with the cosines and sines of 2 pi k / size. */
 void aur_fourier_prepare(size_t size, double *turns);
+
+typedef struct aur_fourier_kernel {
+    void (*transform)(size_t size, const double *turns, double *re, double *im, double *work);
+} aur_fourier_kernel;
+
+AUR_KERNELS(const aur_fourier_kernel, aur_fourier_kernel);
 
 /* Replaces re and im by the sums of x_j e^{i 2 pi j k / size}; the other sign for re and im exchanged. `work`
  * has room for 2 * size numbers. */
-void aur_fourier(size_t size, const double *turns, double *re, double *im, double *work);
+static inline void aur_fourier(size_t size, const double *turns, double *re, double *im, double *work) {
+    AUR_KERNEL_HERE(aur_fourier_kernel).transform(size, turns, re, im, work);
+}
 
 /* The narrow window that carries values between points and the cells of a grid, for Fourier transforms of
  * points (Barnett, Magland and af Klinteberg 2019): exp(b (sqrt(1-x^2) - 1)) over WIDTH cells on each axis.
- * The grid has at least 3/2 times the cells of the polynomial, so that it errs by some e^{-pi WIDTH
- * sqrt(1/3)}. */
+ * The grid has at least 7/4 times the cells of the polynomial, so that it errs by some e^{-pi WIDTH
+ * sqrt(3/7)}. */
 
-enum { AUR_WINDOW_WIDTH = 14 };
+enum { AUR_WINDOW_WIDTH = 16 };
 
-/* The largest error of a sum over points, over the sum of their absolute weights: about e^{-14 pi / sqrt 3}
- * on each axis. */
-#define AUR_WINDOW_ERROR 2e-11
+/* The largest error of a sum over points, over the sum of their absolute weights: about e^{-16 pi sqrt(3/7)}
+ * on each axis, and rounding. */
+#define AUR_WINDOW_ERROR 2e-14
 
 typedef struct aur_window {
-    size_t side;  /* of the grid, cells around: a power of two */
+    size_t side;  /* of the grid, cells around: of aur_fourier_size */
     double shape; /* b */
 } aur_window;
 
@@ -57,3 +68,19 @@ double aur_window_fill(const aur_window *window, double cell, double values[AUR_
 
 /* One over the window's own transform at the frequencies 0 .. degree. */
 void aur_window_invert(const aur_window *window, size_t degree, double *factors);
+
+/* A point's place on the grid: its first cell, and the window at its cells, theta first. */
+typedef struct aur_spot {
+    size_t index, row, column;
+    double window[2][AUR_WINDOW_WIDTH];
+} aur_spot;
+
+typedef struct aur_fast_kernel {
+    /* Adds the weights of the spots, none of whose windows lies apart from them, to the rows `from` to `to`.
+     */
+    void (*spread)(size_t count, const aur_spot *spots, const double *weights, size_t from, size_t to,
+                   size_t stride, double *grid);
+    void (*gather)(size_t count, const aur_spot *spots, size_t stride, const double *grid, double *values);
+} aur_fast_kernel;
+
+AUR_KERNELS(const aur_fast_kernel, aur_fast_kernel);

@@ -11,14 +11,15 @@
 /* From so many points and degrees on the steps are taken by fast transforms. */
 enum { FAST_POINTS = 4096, FAST_DEGREE = 24 };
 
-/* Where the steps end, and how often they begin anew with what is missing in truth. */
-static const double enough = 2e-15, fine = 1e-15;
-enum { PASSES = 3 };
+/* How often the steps begin anew with what is missing in truth; and that they are within rounding where what
+ * is missing is small and so many of them do not halve it. */
+enum { PASSES = 3, PATIENCE = 20 };
+static const double small = 1e-12;
 
 typedef struct gradients {
     const aur_exact_system *system;
-    aur_transform transform;              /* to the last bits: what is missing */
-    aur_fast_transform *fast;             /* for the steps; NULL: `transform` is fast enough */
+    aur_transform transform;
+    aur_fast_transform *fast;             /* NULL: `transform` is fast enough */
     size_t size, limit;                   /* of coefficients; of steps */
     double *rest, *direction, *image, *t; /* t is of points */
     double *storage;
@@ -44,27 +45,33 @@ static double square(size_t count, const double *a, const double *b) {
     return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
 }
 
-/* By the fast transforms, or where there are none by the plain ones. */
-static aur_result analyse(const gradients *g, aur_fast_transform *fast, const double *weights,
-                          double *coefficients, aur_error *error) {
-    return fast != NULL ? aur_fast_transform_analyse(fast, weights, coefficients, error)
-                        : aur_transform_analyse(&g->transform, weights, coefficients, error);
+static aur_result analyse(const gradients *g, const double *weights, double *coefficients, aur_error *error) {
+    return g->fast != NULL ? aur_fast_transform_analyse(g->fast, weights, coefficients, error)
+                           : aur_transform_analyse(&g->transform, weights, coefficients, error);
 }
 
 /* rest = b - A w. */
-static aur_result find_rest(const gradients *g, aur_fast_transform *fast, const double *weights,
-                            aur_error *error) {
-    const aur_result result = analyse(g, fast, weights, g->rest, error);
+static aur_result find_rest(const gradients *g, const double *weights, aur_error *error) {
+    const aur_result result = analyse(g, weights, g->rest, error);
     for (size_t j = 0; j < g->size; ++j)
         g->rest[j] = (j == 0 ? 1.0 : 0.0) - g->rest[j];
     return result;
 }
 
+static double largest_rest(const gradients *g) {
+    double largest = 0.0;
+    for (size_t j = 0; j < g->size; ++j)
+        largest = fmax(largest, fabs(g->rest[j]));
+    return largest;
+}
+
 static aur_result descend(gradients *g, double *weights, size_t *steps, aur_error *error) {
     const aur_exact_system *const system = g->system;
     memcpy(g->direction, g->rest, g->size * sizeof *g->direction);
-    double rest = square(g->size, g->rest, g->rest);
-    while (rest > enough * enough && *steps < g->limit) {
+    double rest = square(g->size, g->rest, g->rest), least = rest;
+    size_t last = *steps; /* when `least` was half of the one before */
+    while (largest_rest(g) > system->tolerance && *steps < g->limit &&
+           (rest > small * small || *steps - last < PATIENCE)) {
         const aur_progress progress = progress_of(g);
         g->steps = *steps;
         if (aur_progress_stops(&progress, NULL, 0, 0))
@@ -75,7 +82,7 @@ static aur_result descend(gradients *g, double *weights, size_t *steps, aur_erro
         for (size_t i = 0; i < system->points.count; ++i)
             g->t[i] *= system->near[i];
         if (result == AUR_OK)
-            result = analyse(g, g->fast, g->t, g->image, error);
+            result = analyse(g, g->t, g->image, error);
         if (result != AUR_OK)
             return result;
         ++*steps;
@@ -91,30 +98,24 @@ static aur_result descend(gradients *g, double *weights, size_t *steps, aur_erro
         for (size_t j = 0; j < g->size; ++j)
             g->direction[j] = g->rest[j] + next / rest * g->direction[j];
         rest = next;
+        if (rest < 0.25 * least) {
+            least = rest;
+            last = *steps;
+        }
     }
     return AUR_OK;
 }
 
-static double largest_rest(const gradients *g) {
-    double largest = 0.0;
-    for (size_t j = 0; j < g->size; ++j)
-        largest = fmax(largest, fabs(g->rest[j]));
-    return largest;
-}
-
-/* What is missing is found by the plain transforms: the error of the fast ones would have to be solved for
- * too. */
 static aur_result solve(gradients *g, double *weights, aur_exact_found *found, aur_error *error) {
     memcpy(weights, g->system->near, g->system->points.count * sizeof *weights);
-    aur_result result = find_rest(g, NULL, weights, error);
-    found->residual = INFINITY;
-    for (int pass = 0; pass < PASSES && result == AUR_OK && found->residual > fine; ++pass) {
+    aur_result result = find_rest(g, weights, error);
+    for (int pass = 0; pass < PASSES && result == AUR_OK && largest_rest(g) > g->system->tolerance; ++pass) {
         result = descend(g, weights, &found->iterations, error);
         if (result == AUR_OK)
-            result = find_rest(g, NULL, weights, error);
-        found->residual = largest_rest(g);
+            result = find_rest(g, weights, error);
     }
-    found->exact = found->residual <= AUR_EXACT_TOLERANCE;
+    found->residual = largest_rest(g);
+    found->exact = found->residual <= fmax(AUR_EXACT_TOLERANCE, g->system->tolerance);
     return result;
 }
 
@@ -172,7 +173,7 @@ aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, con
     aur_result result = open_gradients(system, degree, &basis, &g, error);
     if (result != AUR_OK)
         return result;
-    result = find_rest(&g, NULL, weights, error);
+    result = find_rest(&g, weights, error);
     found->residual = largest_rest(&g);
     free(g.storage);
     aur_basis_release(&basis);

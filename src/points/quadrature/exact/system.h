@@ -13,12 +13,13 @@ typedef struct aur_exact_system {
     const double *near; /* of sum 1, not negative; points of weight 0 keep it */
     size_t places;      /* different ones, of points that have weight */
     double lowest, exponent;
+    double tolerance; /* steps end where no function errs by more */
     size_t threads;
     aur_progress progress;
 } aur_exact_system;
 
-/* Weights are exact when no function is integrated worse than this, the function's root mean square being 1:
- * far above rounding, far below what a missing degree costs. */
+/* Weights are exact when no function is integrated worse than this or the tolerance, the function's root mean
+ * square being 1: far above rounding, far below what a missing degree costs. */
 #define AUR_EXACT_TOLERANCE 1e-10
 
 typedef struct aur_exact_found {

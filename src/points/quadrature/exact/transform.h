@@ -82,13 +82,14 @@ aur_result aur_transform_synthesise(const aur_transform *transform, const double
                                     double *values, aur_error *error);
 
 /* The functions of one order m at `count` points, a multiple of 16: `start` is q_mm, `steps` those of m,
- * and a and b belong to the cosine and the sine. */
+ * and a and b belong to the cosine and the sine: [0] to the degrees m, m + 2, .. and [1] to the others, so
+ * that a point can stand for its mirror image too. */
 typedef struct aur_transform_order {
     size_t degrees; /* degree + 1 - m */
     const aur_basis_step *steps;
     size_t count;
     const double *z, *start;
-    double *a, *b;
+    double *a[2], *b[2];
 } aur_transform_order;
 
 /* The work on the points from `first` to `last`, once for each instruction set. `analyse` adds to the

@@ -75,21 +75,25 @@ static inline void next_degree(block *b, const aur_basis_step *step) {
     }
 }
 
-static void analyse_block(const aur_transform_order *o, size_t first, double (*restrict sums)[2 * GROUP]) {
+/* `kinds`: 2, or 1 where a[1] is not used. */
+static inline __attribute__((always_inline)) void
+analyse_block(const aur_transform_order *o, size_t first, size_t kinds, double (*restrict sums)[2 * GROUP]) {
     block b;
     open_block(&b, o, first);
-    aur_reals cosine[VECTORS], sine[VECTORS];
-    for (size_t v = 0; v < VECTORS; ++v) {
-        cosine[v] = load(o->a + first + v * AUR_LANES);
-        sine[v] = load(o->b + first + v * AUR_LANES);
-    }
+    aur_reals cosine[2][VECTORS], sine[2][VECTORS];
+    for (size_t i = 0; i < kinds; ++i)
+        for (size_t v = 0; v < VECTORS; ++v) {
+            cosine[i][v] = load(o->a[i] + first + v * AUR_LANES);
+            sine[i][v] = load(o->b[i] + first + v * AUR_LANES);
+        }
     for (size_t k = 0; k < o->degrees; ++k) {
         if (k > 0)
             next_degree(&b, o->steps + k);
+        const aur_reals *const c = cosine[kinds > 1 ? k % 2 : 0], *const s = sine[kinds > 1 ? k % 2 : 0];
         for (size_t p = 0; p < PARTS; ++p) {
             double *const at = sums[k] + p * AUR_LANES;
-            store(at, load(at) + (b.here[p] * cosine[p] + b.here[p + PARTS] * cosine[p + PARTS]));
-            store(at + GROUP, load(at + GROUP) + (b.here[p] * sine[p] + b.here[p + PARTS] * sine[p + PARTS]));
+            store(at, load(at) + (b.here[p] * c[p] + b.here[p + PARTS] * c[p + PARTS]));
+            store(at + GROUP, load(at + GROUP) + (b.here[p] * s[p] + b.here[p + PARTS] * s[p + PARTS]));
         }
     }
 }
@@ -98,15 +102,20 @@ static double add_group(const double *g) {
     return ((g[0] + g[4]) + (g[1] + g[5])) + ((g[2] + g[6]) + (g[3] + g[7]));
 }
 
-static void analyse_order(const aur_transform_order *o, double *sums, double *room) {
+static inline __attribute__((always_inline)) void analyse_kinds(const aur_transform_order *o, size_t kinds,
+                                                                double *sums, double *room) {
     double(*const groups)[2 * GROUP] = (double(*)[2 * GROUP])(void *)room;
     memset(groups, 0, o->degrees * sizeof *groups);
     for (size_t i = 0; i < o->count; i += BLOCK)
-        analyse_block(o, i, groups);
+        analyse_block(o, i, kinds, groups);
     for (size_t k = 0; k < o->degrees; ++k) {
         sums[2 * k] += add_group(groups[k]);
         sums[2 * k + 1] += add_group(groups[k] + GROUP);
     }
+}
+
+static void analyse_order(const aur_transform_order *o, double *sums, double *room) {
+    analyse_kinds(o, 2, sums, room);
 }
 
 static void analyse(const aur_basis *basis, const aur_polar_points *points, size_t first, size_t last,
@@ -127,32 +136,39 @@ static void analyse(const aur_basis *basis, const aur_polar_points *points, size
             }
             const size_t place = aur_basis_at(basis->degree, m);
             const aur_transform_order order = {
-                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, c.a, c.b};
-            analyse_order(&order, sums + 2 * place, room);
+                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, {c.a}, {c.b}};
+            analyse_kinds(&order, 1, sums + 2 * place, room);
         }
     }
 }
 
-static void synthesise_order(const aur_transform_order *o, const double *coefficients) {
+static inline __attribute__((always_inline)) void synthesise_kinds(const aur_transform_order *o, size_t kinds,
+                                                                   const double *coefficients) {
     for (size_t first = 0; first < o->count; first += BLOCK) {
         block b;
         open_block(&b, o, first);
-        aur_reals cosine[VECTORS], sine[VECTORS];
-        for (size_t v = 0; v < VECTORS; ++v)
-            cosine[v] = sine[v] = (aur_reals){0};
+        aur_reals cosine[2][VECTORS], sine[2][VECTORS];
+        for (size_t v = 0; v < 2 * VECTORS; ++v)
+            cosine[v / VECTORS][v % VECTORS] = sine[v / VECTORS][v % VECTORS] = (aur_reals){0};
         for (size_t k = 0; k < o->degrees; ++k) {
             if (k > 0)
                 next_degree(&b, o->steps + k);
+            aur_reals *const c = cosine[kinds > 1 ? k % 2 : 0], *const s = sine[kinds > 1 ? k % 2 : 0];
             for (size_t v = 0; v < VECTORS; ++v) {
-                cosine[v] += coefficients[2 * k] * b.here[v];
-                sine[v] += coefficients[2 * k + 1] * b.here[v];
+                c[v] += coefficients[2 * k] * b.here[v];
+                s[v] += coefficients[2 * k + 1] * b.here[v];
             }
         }
-        for (size_t v = 0; v < VECTORS; ++v) {
-            store(o->a + first + v * AUR_LANES, cosine[v]);
-            store(o->b + first + v * AUR_LANES, sine[v]);
-        }
+        for (size_t i = 0; i < kinds; ++i)
+            for (size_t v = 0; v < VECTORS; ++v) {
+                store(o->a[i] + first + v * AUR_LANES, cosine[i][v]);
+                store(o->b[i] + first + v * AUR_LANES, sine[i][v]);
+            }
     }
+}
+
+static void synthesise_order(const aur_transform_order *o, const double *coefficients) {
+    synthesise_kinds(o, 2, coefficients);
 }
 
 static void synthesise(const aur_basis *basis, const aur_polar_points *points, size_t first, size_t last,
@@ -168,8 +184,8 @@ static void synthesise(const aur_basis *basis, const aur_polar_points *points, s
                 next_order(&c, basis->start[m]);
             const size_t place = aur_basis_at(basis->degree, m);
             const aur_transform_order order = {
-                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, c.a, c.b};
-            synthesise_order(&order, coefficients + 2 * place);
+                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, {c.a}, {c.b}};
+            synthesise_kinds(&order, 1, coefficients + 2 * place);
             for (size_t i = 0; i < c.count; ++i)
                 sum[i] += c.a[i] * c.cosine[i] + c.b[i] * c.azimuth_sine[i];
         }

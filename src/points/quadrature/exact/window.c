@@ -7,10 +7,27 @@
 
 enum { GAUSS = 64 };
 
+size_t aur_fourier_size(size_t least) {
+    size_t best = SIZE_MAX;
+    for (size_t odd = 1; odd <= 9; odd *= 3) {
+        size_t size = 64 * odd;
+        while (size < least)
+            size *= 2;
+        best = size < best ? size : best;
+    }
+    return best;
+}
+
+void aur_fourier_prepare(size_t size, double *turns) {
+    for (size_t k = 0; k < size; ++k) {
+        const double angle = 2.0 * AUR_PI * (double)k / (double)size;
+        turns[2 * k] = cos(angle);
+        turns[2 * k + 1] = sin(angle);
+    }
+}
+
 aur_window aur_window_make(size_t degree) {
-    aur_window window = {.side = 64};
-    while (2 * window.side < 3 * (2 * degree + 1))
-        window.side *= 2;
+    aur_window window = {.side = aur_fourier_size((7 * (2 * degree + 1) + 3) / 4)};
     /* The shape parameter that balances aliases and the cut of the window (Barnett et al. 2019). */
     const double cells = (double)window.side / (2.0 * (double)degree + 1.0);
     window.shape = 0.98 * AUR_PI * AUR_WINDOW_WIDTH * (1.0 - 0.5 / cells);

@@ -128,7 +128,7 @@ aur_result aur_gridded_powers(const aur_measure_request *request, size_t limit, 
                               aur_error *error) {
     gridded g = {.points = request->points, .window = aur_window_make(limit), .limit = limit, .power = power};
     const size_t side = g.window.side;
-    double *const numbers = malloc((side + limit + 1 + 2 * (limit + 1) * side) * sizeof *numbers);
+    double *const numbers = malloc((2 * side + limit + 1 + 2 * (limit + 1) * side) * sizeof *numbers);
     g.order = malloc(g.points->count * sizeof *g.order);
     g.first = calloc(side + 2, sizeof *g.first);
     aur_result result = AUR_OK;
@@ -136,7 +136,7 @@ aur_result aur_gridded_powers(const aur_measure_request *request, size_t limit, 
         result = aur_fail_memory(error);
     } else {
         g.turns = numbers;
-        g.factor = g.turns + side;
+        g.factor = g.turns + 2 * side;
         g.re = g.factor + limit + 1;
         g.im = g.re + (limit + 1) * side;
         aur_fourier_prepare(side, g.turns);

@@ -46,6 +46,9 @@ static const cli_option options[] = {
      .list = true},
     {CLI_FLAG(cli_weights_arguments, negative, "negative",
               "weights of a --degree that is given may be negative")},
+    {CLI_REAL(cli_weights_arguments, tolerance, "tolerance", "E", AUR_EXACT_TOLERANCE_MIN,
+              AUR_EXACT_TOLERANCE_MAX, "1e-14",
+              "exact weights of more than 2048 samples: the largest error of a polynomial of mean square 1")},
     {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
     {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
               "added to the diagonal"),
@@ -103,8 +106,8 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
     if (two && (exact || arguments->method == CLI_METHOD_VORONOI))
         return "--lobe2: exact weights and areas of cells are for one lobe";
     if (!exact && (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
-                   arguments->levels.count > 0))
-        return "--degree, --levels, --negative and --near are for --method exact";
+                   arguments->levels.count > 0 || cli_given(call, "tolerance") != NULL))
+        return "--degree, --levels, --negative, --near and --tolerance are for --method exact";
     if (!exact && arguments->method != CLI_METHOD_VORONOI && arguments->points.options.cap_degrees > 0.0)
         return "--cap: is for --method exact and voronoi";
     if (arguments->levels.count > CLI_LEVEL_LIMIT)

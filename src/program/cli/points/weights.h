@@ -35,7 +35,8 @@ typedef struct cli_weights_arguments {
     size_t rotation;
     size_t degree; /* AUR_DEGREE_LARGEST: the largest */
     bool near, negative;
-    cli_list levels; /* of nested exact weights */
+    double tolerance; /* of exact weights */
+    cli_list levels;  /* of nested exact weights */
 } cli_weights_arguments;
 
 enum { CLI_LEVEL_LIMIT = 32 };

@@ -13,6 +13,7 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
     options.lobe = points->lobe;
     options.degree = arguments->degree;
     options.negative = arguments->negative;
+    options.tolerance = arguments->tolerance;
     options.near = result->near;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);
