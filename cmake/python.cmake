@@ -27,7 +27,13 @@ add_custom_command(OUTPUT "${native}" "${library}" VERBATIM
     DEPENDS "${bridge}" "${PROJECT_SOURCE_DIR}/python/native.c" ${public_headers}
     COMMAND "${Python_EXECUTABLE}" "${bridge}" native "${PROJECT_SOURCE_DIR}/include" "${native}"
     COMMAND "${Python_EXECUTABLE}" "${bridge}" library "${PROJECT_SOURCE_DIR}/include" "${library}")
-# What cffi writes keeps to the stable interface of Python by itself.
+# What cffi writes keeps to the stable interface of Python by itself. A free-threaded Python has none, and needs its own build.
+execute_process(COMMAND "${Python_EXECUTABLE}" -c "import sysconfig; print(sysconfig.get_config_var('Py_GIL_DISABLED') or 0, end='')"
+    OUTPUT_VARIABLE python_free_threaded)
+set(python_suffix .abi3.so)
+if(python_free_threaded EQUAL 1)
+    set(python_suffix .so)
+endif()
 add_library(aureole-python MODULE "${native}" "${library}" $<TARGET_OBJECTS:aureole_core> $<TARGET_OBJECTS:aureole_points>)
 target_include_directories(aureole-python PRIVATE "${PROJECT_SOURCE_DIR}/include")
 target_link_libraries(aureole-python PRIVATE Python::Module Threads::Threads ${CMAKE_DL_LIBS} m)
@@ -39,7 +45,7 @@ if(AUREOLE_SANITIZE)
     target_link_options(aureole-python PRIVATE -fsanitize=address,undefined)
 endif()
 set_target_properties(aureole-python PROPERTIES PREFIX "" OUTPUT_NAME _native LIBRARY_OUTPUT_DIRECTORY "${python_package}"
-                                                SUFFIX .abi3.so)
+                                                SUFFIX "${python_suffix}")
 
 # The modules lie beside the extension, so that PYTHONPATH=build/release/python is the package.
 file(GLOB python_modules CONFIGURE_DEPENDS python/aureole/*.py python/aureole/*.pyi python/aureole/py.typed)

@@ -4,8 +4,8 @@
 # texts of the Debian packages which these come from go with them. Tries the wheels with PyPI's newest NumPy and with Debian's, each
 # in an environment of its own: the tests of tests/python, the size of aureole's wheel (below 1 MB), and what `import aureole` costs
 # beyond `import numpy` (CPU time, the median of 15 processes; below 50 ms).
-# PYTHON: another Python. Needs the network for scikit-build-core, cffi and auditwheel, and build/release/aureole for the tests.
-# scripts/wheel_bare.sh tries the wheels where no compiler and no library of ours is.
+# PYTHON: another Python. PYTHONS="PROGRAM ...": other versions of Python that try the same wheel. Needs the network for scikit-build-core, cffi and auditwheel, and build/release/aureole for the tests.
+# RENDER=OFF: aureole alone. scripts/wheel_bare.sh tries the wheels where no compiler and no library of ours is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${1:-build/wheel}
@@ -51,7 +51,7 @@ make_wheel aureole .
 core=$wheel render=
 [ "$(stat -c %s "$core")" -lt 1000000 ] || { echo "wheel.sh: the wheel of aureole has 1 MB or more" >&2; exit 1; }
 python3 -m zipfile -l "$core" | grep -q 'abi3.so'
-if [ -e build/release/libaureole-render.so ]; then
+if [ -e build/release/libaureole-render.so ] && [ "${RENDER:-ON}" = ON ]; then
   make_wheel aureole-render ./python/render
   render=$wheel
 fi
@@ -73,6 +73,12 @@ print(1e3 * (c - b), 1e3 * (b - a))'
 }
 "$scratch/newest/bin/pip" -q install "$core" ${render:+"$render"}
 try "$scratch/newest/bin/python" "$("$scratch/newest/bin/python" -c 'import sys, numpy; print(f"Python {sys.version.split()[0]}, NumPy {numpy.__version__} of PyPI")')"
+for other in ${PYTHONS:-}; do
+  rm -rf "$scratch/other"
+  "$other" -m venv "$scratch/other"
+  "$scratch/other/bin/pip" -q install "$core" ${render:+"$render"}
+  try "$scratch/other/bin/python" "$("$scratch/other/bin/python" -c 'import sys, numpy; print(f"Python {sys.version.split()[0]}, NumPy {numpy.__version__} of PyPI")')"
+done
 if /usr/bin/python3 -c 'import numpy, cffi' 2>/dev/null; then
   /usr/bin/python3 -m venv --system-site-packages "$scratch/debian"
   "$scratch/debian/bin/pip" -q install --no-deps "$core" ${render:+"$render"}

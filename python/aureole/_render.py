@@ -59,8 +59,10 @@ def _library() -> Bridge:
         _opened[place] = bridge
         return bridge
     raise ImportError(
-        "pictures, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found: pip install aureole[render], or "
-        "install the tree (cmake --install build/release), or name the file in AUREOLE_RENDER_LIBRARY; tried: " + "; ".join(tried)
+        "pictures, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found. "
+        "They are no part of this package: build the second one in the source tree (pip install ./python/render), or install its wheel "
+        "aureole_render-*.whl or the tree itself (cmake --install build/release), or name the library in AUREOLE_RENDER_LIBRARY. Tried: "
+        + "; ".join(tried)
     )
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Bindings lose nothing: cffi reads every public header without a compiler and finds all functions in the libraries; its structs have
-# the compiler's sizes; and inline functions and macros, which a binding cannot call, are those that are known here.
+# the compiler's sizes, as by bindgen where it is; and inline functions and macros, which a binding cannot call, are those that are known here.
 set -u
 build=$(dirname "$1")
 source_tree=$2
@@ -62,4 +62,14 @@ print(len(ordered), "headers,", len(public), "functions,", len(structs), "struct
 print("\n".join(lost))
 sys.exit(bool(lost))
 END
-python3 read.py "$source_tree" "$build"
+python3 read.py "$source_tree" "$build" || exit 1
+
+# bindgen finds the same functions, and its structs have the places that the compiler gives them.
+if bindgen --version >/dev/null 2>&1 && rustc --version >/dev/null 2>&1; then
+  (cd "$source_tree/include" && printf '#include <%s>\n' aureole*/*.h) >all.h
+  bindgen all.h --allowlist-function 'aur_.*' --allowlist-type 'aur_.*' -o bindings.rs -- -I "$source_tree/include" || exit 1
+  sed -n 's/.*pub fn \(aur_[a-z0-9_]*\).*/\1/p' bindings.rs | sort -u | diff - <(sort -u functions.txt) || { echo "bindgen does not find these"; exit 1; }
+  rustc --test -A warnings bindings.rs -L "$build" -l aureole-lighting -o bindings || exit 1
+  LD_LIBRARY_PATH=$build ./bindings --quiet >tests.txt || { cat tests.txt; exit 1; }
+  sed -n 's/^test result: ok. \([0-9]* passed\).*/bindgen: tests of layouts: \1/p' tests.txt
+fi

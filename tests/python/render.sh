@@ -14,6 +14,7 @@ try:
     aureole.render("scene.xml")
 except ImportError as error:
     assert "AUREOLE_RENDER_LIBRARY" in str(error) and "./none.so" in str(error), error
+    assert "./python/render" in str(error) and "install aureole" not in str(error), error  # a name that a registry does not have
 else:
     raise SystemExit("no error")
 PYTHON
