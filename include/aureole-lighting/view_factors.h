@@ -40,6 +40,7 @@ typedef struct aur_facets_options {
     aur_warnings warnings;
     size_t further_count; /* of scenes: more files, as in aur_scene_options */
     const char *const *further;
+    bool diffuse; /* of scenes, as in aur_scene_options */
 } aur_facets_options;
 
 AUR_EXPERIMENTAL aur_result aur_facets_options_init(aur_facets_options *options, aur_error *error)

@@ -44,8 +44,8 @@ typedef struct aur_scene_options {
         *definitions;      /* they override <default> values of the scene; an unused one is an error */
     aur_warnings warnings; /* legacy parameters and the like */
     bool confine; /* no file is read that lies outside of the scene's folder, by whatever name or link */
-    /* Paths of more files of the scene, read in this order as if it included them at its end. Beside a file
-     * of Radiance's all are such; materials of one are known in those after it, as by oconv. */
+    /* Paths of more files of the scene, read in this order as if it included them at its end, of any kind.
+     * Materials of a file of Radiance's are known in those after it, as by oconv. */
     size_t further_count;
     const char *const *further;
     /* Threads that build the acceleration structure of scenes with a million primitives or more (smaller
@@ -55,13 +55,17 @@ typedef struct aur_scene_options {
     /* Asked, while a model is read, whether to stop. Those that assimp reads are read by a process of their
      * own (AUR_ERROR_CANCELLED ends it), so that files which crash or hang their reader are errors. */
     aur_progress progress;
+    /* Patterns, textures and materials of Radiance's files that are not read become what they have that is
+     * diffuse, where that is known; a warning counts them. Else a surface that uses one is an error. */
+    bool diffuse;
 } aur_scene_options;
 
 AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)
     AUR_NONNULL(1);
 
-/* Whether a file is a scene by the end of its name, and not by its content as XML is: Radiance's (.rad) and
- * models: .obj, .ply, .stl, .off, and .glb, .gltf, .fbx, .dae and .3ds, which a build with assimp reads. */
+/* Whether a file is a scene by the end of its name: Radiance's (.rad, .mat, .sky), which aur_scene_load tells
+ * by their content too, and models: .obj, .ply, .stl, .off, and .glb, .gltf, .fbx, .dae and .3ds, which a
+ * build with assimp reads. */
 AUR_EXPERIMENTAL bool aur_scene_is_name(const char *path) AUR_NONNULL(1);
 
 /* Reads a scene and all files that it names: includes, meshes, pictures and point sets. Relative names are

@@ -5,24 +5,10 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "points/base/error.h"
 #include "points/base/text.h"
 #include "render/scene/scene_data.h"
-
-typedef enum source { SOURCE_MESH, SOURCE_SCENE } source;
-
-static aur_result find_source(const char *path, source *kind, aur_error *error) {
-    const char *const dot = strrchr(path, '.');
-    *kind = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT ? SOURCE_MESH : SOURCE_SCENE;
-    if (*kind == SOURCE_MESH || aur_scene_is_name(path) || (dot != NULL && strcasecmp(dot, ".xml") == 0))
-        return AUR_OK;
-    return aur_fail_at(
-        error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
-        "facets are read from files whose names end in .obj, .ply, .stl, .off, .xml or .rad, and from "
-        "models such as .glb");
-}
 
 /* The text as the value of an attribute of XML, in which scenes replace $names; a buffer of 6 bytes for each
  * one suffices. */
@@ -196,10 +182,8 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
     const aur_overlap_rule rule = uncut                ? AUR_OVERLAPS_STAY
                                   : options.both_sides ? AUR_OVERLAPS_CUT
                                                        : AUR_OVERLAPS_OF_FRONTS;
-    source kind = SOURCE_MESH;
-    if (result == AUR_OK)
-        result = find_source(path, &kind, error);
-    if (result == AUR_OK && kind == SOURCE_MESH && options.further_count > 0)
+    const bool mesh = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT;
+    if (result == AUR_OK && mesh && options.further_count > 0)
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
                              "a mesh is one file: only scenes go on in '%s'", options.further[0]);
     if (result != AUR_OK)
@@ -214,19 +198,19 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
     scene.warnings = options.warnings;
     scene.definition_count = options.definition_count;
     scene.confine = options.confine;
+    scene.diffuse = options.diffuse;
     scene.definitions = options.definitions;
     scene.further_count = options.further_count;
     scene.further = options.further;
-    result = kind == SOURCE_SCENE
-                 ? aur_scene_load_with_points(path, 0, NULL, rule, &scene, &facets->scene, error)
-                 : load_mesh(path, rule, &scene, &facets->scene, error);
+    result = !mesh ? aur_scene_load_with_points(path, 0, NULL, rule, &scene, &facets->scene, error)
+                   : load_mesh(path, rule, &scene, &facets->scene, error);
     if (result == AUR_OK)
         result = check_shapes(facets->scene, error);
     if (result == AUR_OK)
         result = copy_triangles(facets, error);
     if (result == AUR_OK)
         leave_out_slivers(facets);
-    if (result == AUR_OK && kind == SOURCE_MESH)
+    if (result == AUR_OK && mesh)
         result = aur_facets_read_places(facets, error);
     if (result == AUR_OK && facets->names == NULL)
         result = name_shapes(facets, error);

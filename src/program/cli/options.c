@@ -49,6 +49,9 @@ const cli_option cli_definitions_option[] = {
               "set a <default> of the scene; may be repeated"),
      .letter = 'D', .parse = add_definition},
     {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that names a file outside of its folder")},
+    {CLI_FLAG(cli_definitions, diffuse, "diffuse",
+              "in Radiance's files: replace materials, patterns and textures that are not supported by their "
+              "diffuse part")},
     {.key = {0}}};
 
 const cli_option cli_model_light_option[] = {

@@ -136,11 +136,11 @@ extern const cli_option
 
 enum { CLI_DEFINITION_LIMIT = 64 };
 
-/* What is said about how a scene is read: -D, as often as it is given, and --confine. */
+/* What is said about how a scene is read: -D, as often as it is given, --confine and --diffuse. */
 typedef struct cli_definitions {
     size_t count;
     aur_definition items[CLI_DEFINITION_LIMIT];
-    bool confine;
+    bool confine, diffuse;
     aur_model_light model_light;
 } cli_definitions;
 extern const cli_option cli_definitions_option[], cli_model_light_option[]; /* of a cli_definitions */

@@ -43,8 +43,8 @@ check() {
 # alone at the second, of which there are more behind a veil.
 meets() { # MATERIAL INTEGRATOR
   case $2:$1 in
-  direct:glass | direct:pane | direct:sheet | direct:frosted | direct:crystal | direct:foil) return 1 ;;
-  direct:veil | direct:nothing | direct:polarizer | direct:retarder | direct:circular | finalgather*:veil) return 1 ;;
+  direct:glass | direct:pane | direct:sheet | direct:frosted | direct:vellum | direct:crystal | direct:foil) return 1 ;;
+  direct:veil | direct:nothing | direct:polarizer | direct:retarder | direct:circular | finalgather*:veil | finalgather*:vellum) return 1 ;;
   esac
 }
 
@@ -71,6 +71,8 @@ for material in $materials; do
   tilted) exact=0.9 ;;
   raised) exact=$(awk 'BEGIN { print (1 + 2 / sqrt(5)) / 2 }') ;;
   lacquer) exact=$lacquer bias=0.01 ;;
+  # Ward's lobe of alpha a seen straight on mirrors 1 - a^2 (1 - exp(-1 / a^2)) of its reflectance.
+  enamel) exact=$(awk 'BEGIN { a = 0.25; print 0.4 + 0.6 * (1 - a * (1 - exp(-1 / a))) }') ;;
   eggshell) bias=0.01 scene=furnace_coats ;;
   satin | frosted | metal | crystal | foil) bias=0.01 ;;
   esac

@@ -71,6 +71,13 @@ static const material_row material_rows[] = {
     {"mask:opacity=0.7", "roughconductor:alpha=0.4", 0},
     {"bumpmap:scale=0.5", "diffuse:reflectance=0.8", NOT_RECIPROCAL},
     {"bumpmap:scale=-0.3,use_shadowing_function=false", "roughconductor:alpha=0.4", NOT_RECIPROCAL},
+    {"ward:alpha=0.3,diffuse_reflectance=0.3,specular_reflectance=0.4", NULL, 0},
+    {"ward:alpha=0.15,diffuse_reflectance=0.2,diffuse_transmittance=0.2,specular_transmittance=0.3", NULL,
+     NOT_RECIPROCAL},
+    {"ward:alpha=0,varnished=true,diffuse_reflectance=0.5,specular_reflectance=0.04", NULL, 0},
+    {"ward:alpha=0,diffuse_transmittance=0.2,specular_transmittance=0.3,diffuse_reflectance=0.3", NULL,
+     WHITE},
+    {"twosided", "ward:alpha=0.2", 0},
 };
 
 enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };

@@ -39,6 +39,10 @@ static void reads_surfaces(void **state) {
         {"sphere s 0 0 4 1 1 1 -.5", AUR_PI, {1, 1, 1}, {0, 0, -1}, 0.5},
         {"cylinder c 0 0 7 0 0 0 0 0 2 .5", 2.0 * AUR_PI, {3, 0, 1}, {-1, 0, 0}, 2.5},
         {"tube c 0 0 7 0 0 0 0 0 2 .5", 2.0 * AUR_PI, {0, 0, 1}, {-1, 0, 0}, 0.5},
+        {"cone c 0 0 8 0 0 0 0 0 2 .5 1.5", 2.0 * AUR_PI * 2.2360679774997897, {3, 0, 1}, {-1, 0, 0}, 2.0},
+        {"cone c 0 0 8 0 0 0 0 0 2 1 0", AUR_PI * 2.2360679774997897, {.25f, 0, 4}, {0, 0, -1}, 2.5},
+        {"cup c 0 0 8 0 0 0 0 0 2 1 0", AUR_PI * 2.2360679774997897, {.25f, 0, -4}, {0, 0, 1}, 5.5},
+        {"cup c 0 0 8 0 0 2 0 0 0 1 1", 4.0 * AUR_PI, {0, 0, 1}, {0, -1, 0}, 1.0},
         {"ring r 0 0 8 0 0 3 0 0 -2 2 1", 3.0 * AUR_PI, {1.5f, 0, 0}, {0, 0, 1}, 3.0},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
@@ -171,6 +175,93 @@ static void glass_by_its_series(void **state) {
     aur_scene_destroy(scene);
 }
 
+static void keep(void *user, const char *message) {
+    char *const text = user;
+    strncat(text, message, 1023 - strlen(text));
+    strncat(text, "\n", 1023 - strlen(text));
+}
+
+/* Boxes and prisms have the area and the volume of their formulas: the volume by the divergence of position /
+ * 3 over the faces, so that every face looks outwards, or inwards where it is inverted. */
+static void generates_boxes_and_prisms(void **state) {
+    (void)state;
+    const struct {
+        const char *text;
+        size_t shapes;
+        double area, volume;
+    } rows[] = {
+        {"!genbox white b 1 2 3", 6, 22.0, 6.0},
+        {"!genbox white b 1 2 3 -i | xform -t 5 6 7 -rx 30", 6, 22.0, -6.0},
+        {"!genbox white b 1 2 3 | xform -s 2 -mx", 6, 88.0, 48.0},
+        {"!genbox white b 1 1 1 | xform -a 3 -t 2 0 0 -a 2 -t 0 2 0 -i 2 -t 0 0 2", 36, 36.0, 6.0},
+        /* faces of .8 x .8, twelve strips of .8 x .1 sqrt 2, eight triangles of side .1 sqrt 2 */
+        {"!genbox white b 1 1 1 -b .1", 26, 6.0 * .64 + 12.0 * .08 * sqrt(2.0) + 8.0 * sqrt(3.0) / 4.0 * .02,
+         1.0 - 12.0 * .8 * .005 - 8.0 * .001 * 5.0 / 6.0},
+        {"!genprism white p 3 0 0 1 0 0 1 -l 0 0 -2", 5, 1.0 + 4.0 + 2.0 * sqrt(2.0), 1.0},
+        {"!genprism white p 3 0 0 1 0 0 1 -l 0 0 2 -e -c", 2, 2.0 + 2.0 * sqrt(2.0), -2.0 / 3.0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char text[1024];
+        snprintf(text, sizeof text, MATERIALS "%s\n", rows[i].text);
+        aur_scene *const scene = must_load(text);
+        double area = 0.0, volume = 0.0;
+        assert_int_equal(scene->shape_count, rows[i].shapes);
+        for (size_t k = 0; k < scene->shape_count; ++k) {
+            const aur_shape *const shape = scene->shapes[k];
+            area += shape->area;
+            for (size_t t = 0; t < shape->mesh.triangle_count; ++t) {
+                aur_vector corner[3];
+                aur_mesh_corners(&shape->mesh, t, corner);
+                const aur_vector origin = {(float)scene->origin[0], (float)scene->origin[1],
+                                           (float)scene->origin[2]};
+                for (size_t c = 0; c < 3; ++c)
+                    corner[c] = aur_vector_add(corner[c], origin);
+                volume += (double)aur_vector_dot(corner[0], aur_vector_cross(corner[1], corner[2])) / 6.0;
+            }
+        }
+        assert_relative(area, rows[i].area, 1e-6);
+        assert_near(volume, rows[i].volume, 1e-4 * fabs(rows[i].volume));
+        aur_scene_destroy(scene);
+    }
+    /* rounded: the parallel body of a box of .6 x .8 x 1 at .2 (Steiner 1840) */
+    aur_scene *const scene = must_load(MATERIALS "!genbox white b 1 1.2 1.4 -r .2\n");
+    double area = 0.0;
+    assert_int_equal(scene->shape_count, 26);
+    for (size_t k = 0; k < 18; ++k)
+        area += scene->shapes[k]->area;
+    assert_relative(area, 2.0 * (.6 * .8 + .6 + .8) + 4.0 * (.6 + .8 + 1.0) * (2.0 * AUR_PI * .2), 1e-6);
+    aur_scene_destroy(scene);
+}
+
+/* What --diffuse makes of what is not supported, one warning counts. */
+static void takes_diffuse_parts(void **state) {
+    (void)state;
+    static const char text[] =
+        "void texfunc dents 4 a b c d.cal 0 0\ndents plastic2 p 1 . 0 6 .4 .5 .6 .1 .1 .1\n"
+        "void transfunc t 2 a b.cal 0 6 .5 .5 .5 .2 .5 0\nvoid antimatter none 1 p 0 0\n"
+        "void mixfunc m 4 void p a b.cal 0 0\np sphere s 0 0 4 0 0 0 1\nt sphere s 0 0 4 5 0 0 1\n"
+        "none sphere s 0 0 4 9 0 0 1\nm sphere s 0 0 4 5 5 0 1\nvoid sphere s 0 0 4 0 0 0 9\n";
+    char said[1024] = "";
+    const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}, .diffuse = true};
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    if (aur_scene_load_memory("room.rad", sizeof text - 1, text, &options, &scene, &error) != AUR_OK)
+        fail_msg("%zu: %s", error.line, error.message);
+    assert_string_equal(said, "room.rad: 4 patterns, textures and materials of Radiance are not read: what "
+                              "they have that is diffuse stands for them\n");
+    assert_int_equal(scene->shape_count, 3);
+    const aur_bsdf_point point = {.u = 0.0f};
+    const aur_vector coat = aur_bsdf_diffuse_albedo(aur_scene_shape_bsdf(scene, 0), point, 1.0f);
+    assert_near(coat.x, .9 * .4 + .1, 1e-6);
+    assert_near(coat.z, .9 * .6 + .1, 1e-6);
+    float pdf;
+    const aur_vector through = aur_bsdf_evaluate(aur_scene_shape_bsdf(scene, 1), AUR_BSDF_WHOLE, point,
+                                                 (aur_vector){0, 0, 1}, (aur_vector){0, 0, -1}, &pdf);
+    assert_near(through.x, .8 * .5 * .5 / AUR_PI, 1e-6);
+    assert_ptr_equal(aur_scene_shape_bsdf(scene, 2), aur_scene_shape_bsdf(scene, 0));
+    aur_scene_destroy(scene);
+}
+
 #define SPHERE(material) material " sphere s 0 0 4 0 0 0 1\n"
 
 static void bad_input(void **state) {
@@ -182,20 +273,36 @@ static void bad_input(void **state) {
     } rows[] = {
         {"\nvoid brightfunc b\n2 a b\n0\n0\n" SPHERE("b"), 2, "'brightfunc' is not read"},
         {"void plasic p 0 0 5 1 1 1 0 0", 1, "plastic"},
-        {"void plastic p\n0\n0\n5 1 1 1 .1 0\n" SPHERE("p"), 1, "specularity of 0.1"},
-        {"void trans p 0 0 7 1 1 1 0 0 .5 .5\nvoid alias q p\n" SPHERE("q"), 1, "'trans' is not read"},
+        {"void plastic p\n0\n0\n5 1 1 1 1.5 0\n" SPHERE("p"), 1, "1.5 must be from 0 to 1"},
+        {"void trans2 p 0 0 7 1 1 1 0 0 .5 .5\nvoid alias q p\n" SPHERE("q"), 1, "'trans2' is not read"},
         {"m poligon p 0 0 9 0 0 0 1 0 0 0 1 0", 1, "'poligon' is not read"},
         {"void plastic p\n0\n0\n4 1 1 1 .1", 1, "plastic takes 5 numbers, not 4"},
         {"void plastic p\n0\n0\n5 1 1 1 .1 x", 4, "a number must stand here, not 'x'"},
         {"void plastic p\n0\n0\n5 1 1 nan 0 0", 4, "a number must stand here, not 'nan'"},
-        {"void plastic p\n0\n-1\n5 1 1 1 0 0", 3, "the number of integers, must stand here, not '-1'"},
-        {"void plastic p\n0\n1 7\n5 1 1 1 0 0", 3, "integers are not read"},
-        {"void plastic p\n0\n", 3, "the file ends where 0, the number of integers,"},
+        {"void plastic p\n0\n-1\n5 1 1 1 0 0", 3, "the number of integers must stand here, not '-1'"},
+        {"void plastic p\n0\n1 7\n5 1 1 1 0 0", 3, "plastic takes no integers, not 1"},
+        {"void plastic p\n0\n", 3, "the file ends where the number of integers must stand"},
         {"void plastic p\n99999999999999999999\n", 2, "the number of strings must stand here"},
         {"void plastic p 0 0 5 1.5 1 1 0 0", 1, "'reflectance'"},
-        {"\n\n!genbox a b 1 1 1", 3, "'genbox' is not run, only cat and xform"},
-        {"!xform -t 1 2 3 chair.rad", 1, "'-t' is not read after xform"},
-        {"!xform a.rad | b", 1, "'|' is not read after xform"},
+        {"\n\n!gensurf a b 1 1 1", 3, "'gensurf' is not run, only cat, xform, genbox and genprism"},
+        {"!genbox a b 1 1 1", 1, "no material 'a' above"},
+        {"!genbox a b 1 1", 1, "genbox: three sizes expected"},
+        {"!genbox a b 1 1 0", 1, "genbox: sizes must be above 0"},
+        {"!genbox a b 1 1 1 -b .6", 1, "at most half"},
+        {"!genbox a b 1 1 1 -o", 1, "genbox: '-o' is not read"},
+        {"!genprism a b 2 0 0 1 1", 1, "must be from 3 to 1024"},
+        {"!genprism a b x.txt", 1, "the number of corners expected"},
+        {"!genprism a b 3 0 0 1 1 0", 1, "x and y of each corner expected"},
+        {"!xform -t 1 2 chair.rad", 1, "xform: 3 numbers expected after '-t'"},
+        {"!xform -s 0 chair.rad", 1, "-s must not be 0"},
+        {"!xform -a 1000 -t 1 0 0 -a 1000 -t 0 1 0 chair.rad", 1, "more than 100000 objects"},
+        {"!xform -a 0 chair.rad", 1, "-a 0 makes nothing"},
+        {"!xform -a 1.5 chair.rad", 1, "must be a whole number"},
+        {"!xform -m", 1, "a name expected after '-m'"},
+        {"!xform -f options.txt a.rad", 1, "'-f' is not read after xform"},
+        {"!xform a.rad | b", 1, "'b' is not read after '|'"},
+        {"!xform a.rad | xform b.rad", 1, "'b.rad' is not read after '| xform'"},
+        {"!xform a.rad |", 1, "'|' is not read after a command"},
         {"\n\n!cat nowhere.rad", 3, "cannot find 'nowhere.rad'"},
         {"!cat a.rad > b.rad", 1, "'>' is not read after cat"},
         {"\n! cat # nothing", 2, "the file that is to be included is missing"},
@@ -204,10 +311,9 @@ static void bad_input(void **state) {
         {"!cat a\x01.rad", 1, "must not have control characters"},
         {"!", 1, "a command must stand after '!'"},
         {"nix sphere s 0 0 4 0 0 0 1", 1, "no material 'nix'"},
-        {"void sphere s 0 0 4 0 0 0 1", 1, "a surface needs a material"},
         {"void alias a b", 1, "no material 'b'"},
-        {MATERIALS "white plastic p 0 0 5 1 1 1 0 0\n" SPHERE("p"), 9,
-         "its modifier must be 'void', not 'white'"},
+        {"void brightfunc b 2 a b 0 0\nb plastic p 0 0 5 1 1 1 0 0\n" SPHERE("p"), 2,
+         "its modifier must be 'void', not 'b'"},
         {MATERIALS "white polygon p 0 0 10 0 0 0 1 0 0 0 1 0 0", 9, "no corners of three"},
         {MATERIALS "white ring p 0 0 8 0 0 0 0 0 1 1 1", 9, "two different radii"},
         {MATERIALS "white ring p 0 0 8 0 0 0 0 0 0 1 2", 9, "two different radii"},
@@ -215,11 +321,17 @@ static void bad_input(void **state) {
         {MATERIALS "lamp source p 0 0 4 0 0 1 0", 9, "its angle must be"},
         {MATERIALS "lamp source p 0 0 4 0 0 0 1", 9, "'sun_direction' must not be"},
         {MATERIALS "white mesh p 1 a.rtm 0 0", 9, "is compiled for Radiance"},
-        {MATERIALS "white mesh p 3 a.obj -rx 9 0 0", 9, "the transform '-rx ...'"},
+        {MATERIALS "white mesh p 3 a.obj -rx 9 0 0", 9, "cannot find 'a.obj'"},
         {MATERIALS "white mesh p 1 a&\"<$b.obj 0 0", 9, "a&\"<$b.obj"},
         {MATERIALS "white mesh p 1 a\x1b.obj 0 0", 9, "must not have control characters"},
         {MATERIALS "white sphere p 1 a 0 4 0 0 0 1", 9, "sphere takes no strings"},
-        {"void glow g 0 0 4 1 1 1 -1\n" SPHERE("g"), 1, "a radius below 0"},
+        {MATERIALS "white instance p 1 a.oct 0 0", 9, "instance: 'a.oct' is compiled for Radiance"},
+        {MATERIALS "white instance p 2 a.rad b.rad 0 0", 9, "instance: 'b.rad' is no option of xform"},
+        {MATERIALS "white mesh p 0 0 0", 9, "mesh: the name of a file expected"},
+        {MATERIALS "white cone p 0 0 8 0 0 0 0 0 1 1 -1", 9, "must not be of different signs"},
+        {MATERIALS "white cone p 0 0 8 0 0 0 0 0 0 1 1", 9, "'p0' and 'p1' must differ"},
+        {MATERIALS "white cup p 0 0 8 0 0 0 0 0 1 0 0", 9, "must be above 0"},
+        {"void dielectric d 0 0 5 1 1 2 1.5 0\n" SPHERE("d"), 1, "transmission must be from 0 to 1"},
         {"void light g 0 0 3 1 -1 1", 1, "must not be below 0"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
@@ -233,12 +345,6 @@ static void bad_input(void **state) {
     }
 }
 
-static void keep(void *user, const char *message) {
-    char *const text = user;
-    strncat(text, message, 1023 - strlen(text));
-    strncat(text, "\n", 1023 - strlen(text));
-}
-
 /* What is not read is said at once, and before the mesh is looked for: the last of it is the error. What is
  * wrong besides is the error where the file cannot be read on. */
 static void says_all_that_is_left_out(void **state) {
@@ -249,17 +355,17 @@ static void says_all_that_is_left_out(void **state) {
         const char *message;
     } rows[] = {
         {"void brightfunc b\n2 dirt dirt.cal\n0\n1 .5\nb plastic p 0 0 5 1 1 1 0 0\np mesh m 1 none.obj 0 0\n"
-         "void plastic q 0 0 5 1 1 1 .5 0\n!genbox q box 1 1 1 | xform\nq cone c 0 0 8 0 0 0 0 0 1 1 .5\n"
+         "void plastic2 q 1 . 0 5 1 1 1 .5 0\n!gensurf q box 1 1 1 | xform\nq blob c 0 0 8 0 0 0 0 0 1 1 .5\n"
          "q sphere s 0 0 4 0 0 0 1\nq sphere s 0 0 4 0 0 0 1\n",
          "room.rad:5: plastic: patterns, textures and mixtures are not read: its modifier must be 'void', "
          "not 'b'\n"
-         "room.rad:8: the command 'genbox' is not run, only cat and xform that include files: write what it "
-         "makes into the file, or into one of its own beside this one\n"
-         "room.rad:9: 'cone' is not read\n",
-         AUR_ERROR_UNSUPPORTED, "a specularity of 0.5 is not read"},
-        {"void dielectric d 0 0 5 1 1 1 1.5 0\nvoid mirror unused 0 0 3 1 1 1\n" SPHERE(
+         "room.rad:8: the command 'gensurf' is not run, only cat, xform, genbox and genprism are: write what "
+         "it makes into a file and include that\n"
+         "room.rad:9: 'blob' is not read; did you mean 'glow'?\n",
+         AUR_ERROR_UNSUPPORTED, "'plastic2' is not read; did you mean 'plastic'?"},
+        {"void mixfunc d 0 0 5 1 1 1 1.5 0\nvoid mirror unused 0 0 3 1 1 1\n" SPHERE(
              "d") "void plastic q 0 0 4 1 1 1 0\n",
-         "room.rad:1: 'dielectric' is not read\n", AUR_ERROR_FORMAT, "plastic takes 5 numbers, not 4"},
+         "room.rad:1: 'mixfunc' is not read\n", AUR_ERROR_FORMAT, "plastic takes 5 numbers, not 4"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         char said[1024] = "";
@@ -331,6 +437,8 @@ int main(void) {
         cmocka_unit_test(cuts_polygons),
         cmocka_unit_test(reads_sources),
         cmocka_unit_test(glass_by_its_series),
+        cmocka_unit_test(generates_boxes_and_prisms),
+        cmocka_unit_test(takes_diffuse_parts),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(materials_may_be_unused),
         cmocka_unit_test(says_all_that_is_left_out),

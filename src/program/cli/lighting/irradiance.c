@@ -192,6 +192,7 @@ static int run(const cli_call *call) {
     load.definition_count = given->definitions.count;
     load.definitions = given->definitions.items;
     load.confine = given->definitions.confine;
+    load.diffuse = given->definitions.diffuse;
     load.model_light = given->definitions.model_light;
     load.progress = given->estimate.progress;
     load.further_count = call->operand_count - 1;

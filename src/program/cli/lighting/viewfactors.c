@@ -190,6 +190,7 @@ static int run(const cli_call *call) {
     given->facets.definition_count = given->definitions.count;
     given->facets.definitions = given->definitions.items;
     given->facets.confine = given->definitions.confine;
+    given->facets.diffuse = given->definitions.diffuse;
     given->facets.further_count = call->operand_count - 1;
     given->facets.further = (const char *const *)call->operands + 1;
     given->facets.warnings = given->factors.warnings = cli_warnings(given->common.quiet);

@@ -15,6 +15,7 @@ static int describe_scene(const cli_info_input *input, const cli_info_options *o
                                              .definition_count = options->definitions.count,
                                              .definitions = options->definitions.items,
                                              .confine = options->definitions.confine,
+                                             .diffuse = options->definitions.diffuse,
                                              .model_light = options->definitions.model_light,
                                              .warnings = cli_warnings(options->common.quiet)};
     const aur_result loaded =

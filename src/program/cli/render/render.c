@@ -264,6 +264,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
                                              .confine = command->definitions.confine,
+                                             .diffuse = command->definitions.diffuse,
                                              .model_light = command->definitions.model_light,
                                              .progress = command->options.progress,
                                              .threads = command->common.threads,

@@ -3,7 +3,6 @@
 #include <aureole/text.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "points/base/vector3d.h"
 #include "render/scene/scene_data.h"
@@ -23,10 +22,8 @@ static void find_axes(const aur_scene *scene, double up[3], double north[3]) {
         if (is_zero(north))
             memcpy(north, at->north, sizeof at->north);
     }
-    const char *const file = scene->document.tree.root->location.file;
-    const char *const dot = file != NULL ? strrchr(file, '.') : NULL;
     if (is_zero(up))
-        up[dot != NULL && strcasecmp(dot, ".rad") == 0 ? 2 : 1] = 1.0;
+        up[scene->document.from_radiance ? 2 : 1] = 1.0;
 }
 
 static aur_result add_number(aur_parameters *parameters, aur_parameter_kind kind, const char *name,

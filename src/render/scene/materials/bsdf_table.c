@@ -11,6 +11,7 @@
     ROW(twosided)                                                                                            \
     ROW(phong)                                                                                               \
     ROW(phong_lobe)                                                                                          \
+    ROW(ward)                                                                                                \
     ROW(conductor)                                                                                           \
     ROW(roughconductor)                                                                                      \
     ROW(dielectric)                                                                                          \

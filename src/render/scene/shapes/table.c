@@ -17,6 +17,7 @@
     ROW(sphere)                                                                                              \
     ROW(disk)                                                                                                \
     ROW(cylinder)                                                                                            \
+    ROW(cone)                                                                                                \
     ROW(linearcurve)                                                                                         \
     ROW(bsplinecurve)
 

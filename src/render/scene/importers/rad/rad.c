@@ -7,12 +7,54 @@
 #include "render/scene/importers/rad/rad_reader.h"
 
 bool aur_rad_is_name(const char *path) {
+    static const char *const endings[] = {".rad", ".mat", ".sky"};
     const size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".rad") == 0;
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; ++i)
+        if (length > 4 && strcmp(path + length - 4, endings[i]) == 0)
+            return true;
+    return false;
 }
 
 static const char *row_name(const void *list, size_t index) {
-    return ((const aur_rad_row *)list)[index].name;
+    return ((const aur_rad_row *const *)list)[index]->name;
+}
+
+enum { MOST_ROWS = 32 };
+
+static size_t list_rows(const aur_rad_row *rows[MOST_ROWS]) {
+    size_t count = 0;
+    for (const aur_rad_row *row = aur_rad_surfaces; row->name != NULL; ++row)
+        rows[count++] = row;
+    for (const aur_rad_row *row = aur_rad_materials; row->name != NULL; ++row)
+        rows[count++] = row;
+    return count;
+}
+
+static const aur_rad_row *find_row(aur_rad_word type) {
+    const aur_rad_row *rows[MOST_ROWS];
+    const size_t count = list_rows(rows);
+    for (size_t i = 0; i < count; ++i)
+        if (aur_rad_is_word(type, rows[i]->name))
+            return rows[i];
+    return NULL;
+}
+
+bool aur_rad_is_text(size_t size, const char *data) {
+    static const char compiled[] = "#?RADIANCE"; /* octrees, meshes, pictures */
+    if (size >= sizeof compiled - 1 && memcmp(data, compiled, sizeof compiled - 1) == 0)
+        return false;
+    aur_rad self = {.at = data, .end = data + size, .line = 1};
+    aur_rad_word modifier, type;
+    const bool comment = size > 0 && data[0] == '#';
+    if (!aur_rad_next_word(&self, &modifier))
+        return comment;
+    for (size_t i = 0; i < modifier.length; ++i)
+        if ((unsigned char)modifier.text[i] < 32)
+            return false;
+    if (modifier.text[0] == '!')
+        return true;
+    return aur_rad_next_word(&self, &type) &&
+           (find_row(type) != NULL || aur_rad_is_modifier(type) || aur_rad_is_word(type, "alias"));
 }
 
 /* --- reading */
@@ -40,10 +82,13 @@ static aur_result read_arguments(aur_rad *self, aur_rad_primitive *item) {
     for (size_t i = 0; i < item->string_count; ++i)
         if (!aur_rad_next_word(self, &self->words[i]))
             return aur_rad_fail_end(self, "a string", self->words[i]);
-    result = read_count(self, "0, the number of integers,", &integers);
-    if (result == AUR_OK && integers != 0)
-        return aur_rad_fail(self, self->line, AUR_ERROR_UNSUPPORTED, "%.*s: integers are not read",
-                            (int)item->type.length, item->type.text);
+    result = read_count(self, "the number of integers", &integers);
+    if (result == AUR_OK && integers != 0 && item->row != NULL)
+        return aur_rad_fail(self, self->line, AUR_ERROR_FORMAT, "%s takes no integers, not %zu",
+                            item->row->name, integers);
+    for (aur_rad_word word; integers > 0 && result == AUR_OK; --integers)
+        if (!aur_rad_next_word(self, &word))
+            result = aur_rad_fail_end(self, "an integer", word);
     if (result == AUR_OK)
         result = read_count(self, "the number of numbers", &item->number_count);
     if (result != AUR_OK)
@@ -53,8 +98,7 @@ static aur_result read_arguments(aur_rad *self, aur_rad_primitive *item) {
         return aur_fail_memory(self->error);
     for (size_t i = 0; i < item->number_count; ++i) {
         aur_rad_word word;
-        if (!aur_rad_next_word(self, &word) ||
-            aur_read_double(word.text, AUR_NUMBER_FINITE, &self->numbers[i]) != word.text + word.length)
+        if (!aur_rad_next_word(self, &word) || !aur_rad_number(word, &self->numbers[i]))
             return aur_rad_fail_end(self, "a number", word);
     }
     item->strings = self->words;
@@ -62,7 +106,7 @@ static aur_result read_arguments(aur_rad *self, aur_rad_primitive *item) {
     return AUR_OK;
 }
 
-static aur_rad_material *find_material(const aur_rad *self, aur_rad_word name) {
+aur_rad_material *aur_rad_find_material(const aur_rad *self, aur_rad_word name) {
     aur_rad_material *const materials = self->scene->materials;
     for (size_t i = self->scene->material_count; i-- > 0;)
         if (materials[i].name.length == name.length &&
@@ -72,19 +116,20 @@ static aur_rad_material *find_material(const aur_rad *self, aur_rad_word name) {
 }
 
 static aur_result fail_modifier(const aur_rad *self, aur_rad_word name) {
-    return aur_rad_is_word(name, "void")
-               ? aur_rad_fail(self, name.line, AUR_ERROR_UNSUPPORTED,
-                              "a surface needs a material, not 'void'")
-               : aur_rad_fail(self, name.line, AUR_ERROR_NAME, "there is no material '%.*s' above",
-                              (int)name.length, name.text);
+    return aur_rad_fail(self, name.line, AUR_ERROR_NAME, "there is no material '%.*s' above",
+                        (int)name.length, name.text);
 }
 
-/* What a surface is made of. An unsupported material is reported once, at its own place. */
-static aur_result find_modifier(const aur_rad *self, aur_rad_word name, const aur_rad_material **found) {
-    aur_rad_material *const material = find_material(self, name);
+/* What a surface is made of; surfaces of `void` are not there. An unsupported material is reported once, at
+ * its own place. */
+static aur_result find_modifier(const aur_rad *self, aur_rad_word name, aur_rad_material *found) {
+    *found = (aur_rad_material){.nothing = true};
+    if (aur_rad_is_word(name, "void"))
+        return AUR_OK;
+    aur_rad_material *const material = aur_rad_find_material(self, name);
     if (material == NULL)
         return fail_modifier(self, name);
-    *found = material;
+    *found = *material;
     if (material->unsupported == NULL)
         return AUR_OK;
     if (self->error != NULL)
@@ -120,44 +165,54 @@ static aur_result add_unsupported(aur_rad *self, const aur_rad_primitive *item) 
     aur_error *const copy = aur_arena_allocate(self->scene->arena, sizeof *copy);
     if (copy == NULL)
         return aur_fail_memory(self->error);
-    *copy = *self->error;
-    return add_material(self, (aur_rad_material){.name = item->name, .row = item->row, .unsupported = copy});
+    *copy = self->error != NULL ? *self->error : (aur_error){.result = AUR_ERROR_UNSUPPORTED};
+    return add_material(self, (aur_rad_material){.name = item->name, .unsupported = copy});
 }
 
 /* `void alias NAME KNOWN`: another name. */
 static aur_result read_alias(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_word known;
-    aur_result result = need_void(self, item);
+    aur_result result = self->scene->diffuse ? AUR_OK : need_void(self, item);
     if (result == AUR_OK && !aur_rad_next_word(self, &known))
         result = aur_rad_fail_end(self, "the name of a material", known);
     if (result != AUR_OK)
         return result;
-    const aur_rad_material *const material = find_material(self, known);
-    if (material == NULL)
-        return fail_modifier(self, known);
-    aur_rad_material copy = *material;
-    copy.name = item->name;
-    return add_material(self, copy);
+    aur_rad_material material = {.nothing = true};
+    if (!aur_rad_is_word(known, "void")) {
+        const aur_rad_material *const found = aur_rad_find_material(self, known);
+        if (found == NULL)
+            return fail_modifier(self, known);
+        material = *found;
+    }
+    material.name = item->name;
+    return add_material(self, material);
+}
+
+/* Whether the modifier of a material changes nothing: none, or another material. */
+static bool is_plain(const aur_rad *self, aur_rad_word name) {
+    const aur_rad_material *const under = aur_rad_find_material(self, name);
+    return aur_rad_is_word(name, "void") || (under != NULL && under->unsupported == NULL);
 }
 
 static aur_result read_material(aur_rad *self, const aur_rad_primitive *item) {
-    aur_result result = need_void(self, item);
-    if (result != AUR_OK)
-        return result;
-    aur_rad_material material = {.name = item->name, .row = item->row};
-    for (size_t i = 0; i < 3; ++i)
-        material.radiance[i] = item->numbers[i];
-    result = item->row->add(self, item, &material);
-    material.bsdf = self->parent->last_child;
+    aur_rad_material material = {.name = item->name};
+    const bool plain = is_plain(self, item->modifier), emits = item->row->emits;
+    aur_result result = plain || (self->scene->diffuse && !emits) ? AUR_OK : need_void(self, item);
+    if (result == AUR_OK && !plain)
+        ++self->scene->diffuse_count;
+    if (result == AUR_OK)
+        result = item->row->add(self, item, &material);
     return result == AUR_OK ? add_material(self, material) : result;
 }
 
 static aur_result fail_type(const aur_rad *self, aur_rad_word type) {
+    const aur_rad_row *rows[MOST_ROWS];
+    const size_t count = list_rows(rows);
     char name[64], hint[AUR_HINT_CAPACITY];
     const size_t length = type.length < sizeof name ? type.length : sizeof name - 1;
     memcpy(name, type.text, length);
     name[length] = '\0';
-    aur_names_hint((aur_names){AUR_RAD_ROWS, row_name, aur_rad_rows}, name, "''", hint);
+    aur_names_hint((aur_names){count, row_name, rows}, name, "''", hint);
     return aur_rad_fail(self, type.line, AUR_ERROR_UNSUPPORTED, "'%s' is not read%s", name, hint);
 }
 
@@ -174,46 +229,53 @@ static aur_result leave_out(aur_rad *self, aur_result result) {
     return AUR_OK;
 }
 
-/* Radiance's materials, patterns, textures and mixtures (its manual page "rad"), but for those of
- * aur_rad_rows. */
-static bool is_modifier(aur_rad_word type) {
-    static const char *const names[] = {
-        "illum",     "spotlight",  "mirror",    "prism1",     "prism2",     "trans",     "plastic2",
-        "metal2",    "trans2",     "ashik2",    "dielectric", "interface",  "plasfunc",  "metfunc",
-        "transfunc", "BRTDfunc",   "plasdata",  "metdata",    "transdata",  "BSDF",      "aBSDF",
-        "WGMDfunc",  "antimatter", "mist",      "texfunc",    "texdata",    "colorfunc", "brightfunc",
-        "colordata", "brightdata", "colorpict", "colortext",  "brighttext", "mixfunc",   "mixdata",
-        "mixpict",   "mixtext",    "spectrum",  "specfile",   "specfunc",   "specdata",  "specpict"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
-        if (aur_rad_is_word(type, names[i]))
-            return true;
-    return false;
+/* A modifier without a row: what it has that is diffuse, where that is asked for. A pattern or texture then
+ * changes nothing: it is what it modifies. */
+static aur_result read_modifier(aur_rad *self, const aur_rad_primitive *item) {
+    const aur_rad_material *mixed = NULL, *const under = aur_rad_find_material(self, item->modifier);
+    aur_rad_material material = {.name = item->name};
+    for (size_t i = 0; i < 2 && i < item->string_count && mixed == NULL; ++i)
+        mixed = aur_rad_find_material(self, item->strings[i]);
+    aur_result result = fail_type(self, item->type);
+    if (self->scene->diffuse)
+        result = aur_rad_add_diffuse_part(self, item, mixed, &material);
+    if (result == AUR_ERROR_UNSUPPORTED && self->scene->diffuse && under != NULL) {
+        material = *under;
+        material.name = item->name;
+        ++self->scene->diffuse_count;
+        result = AUR_OK;
+    }
+    return result == AUR_ERROR_UNSUPPORTED ? add_unsupported(self, item)
+           : result == AUR_OK              ? add_material(self, material)
+                                           : result;
+}
+
+/* A surface, in the file's pose. */
+static aur_result read_surface(aur_rad *self, const aur_rad_primitive *item) {
+    aur_rad_material material;
+    const aur_rad_word own = self->pose.modifier;
+    const aur_result result = find_modifier(self, own.length > 0 ? own : item->modifier, &material);
+    return result != AUR_OK || (material.nothing && strcmp(item->row->name, "instance") != 0)
+               ? result
+               : item->row->add(self, item, &material);
 }
 
 /* What a primitive becomes whose arguments have been read. */
 static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
-    if (item->row == NULL) {
-        const aur_result result = fail_type(self, item->type);
-        return is_modifier(item->type) ? add_unsupported(self, item) : result;
-    }
+    if (item->row == NULL)
+        return aur_rad_is_modifier(item->type) ? read_modifier(self, item) : fail_type(self, item->type);
     if (item->number_count < item->row->least || item->number_count > item->row->most)
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT, "%s takes %zu numbers%s, not %zu",
                             item->row->name, item->row->least,
                             item->row->most > item->row->least ? " or more" : "", item->number_count);
-    aur_result result = AUR_OK;
-    if (item->string_count > 0 && !item->row->names_file)
-        result = aur_rad_fail(self, item->strings[0].line, AUR_ERROR_UNSUPPORTED, "%s takes no strings",
-                              item->row->name);
+    if (item->string_count > item->row->most_strings)
+        return aur_rad_fail(self, item->strings[0].line, AUR_ERROR_FORMAT, "%s takes no %sstrings",
+                            item->row->name, item->row->most_strings > 0 ? "more " : "");
     self->nodes->location.line = item->modifier.line;
-    if (result == AUR_OK && item->row->material)
-        result = read_material(self, item);
-    if (item->row->material)
-        return result == AUR_ERROR_UNSUPPORTED ? add_unsupported(self, item) : result;
-    if (result != AUR_OK)
-        return result;
-    const aur_rad_material *material = NULL;
-    result = find_modifier(self, item->modifier, &material);
-    return result == AUR_OK ? item->row->add(self, item, material) : result;
+    if (!item->row->material)
+        return read_surface(self, item);
+    const aur_result result = read_material(self, item);
+    return result == AUR_ERROR_UNSUPPORTED ? add_unsupported(self, item) : result;
 }
 
 static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
@@ -224,64 +286,122 @@ static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
         return aur_rad_fail_end(self, "a name", item.name);
     if (aur_rad_is_word(item.type, "alias"))
         return read_alias(self, &item);
-    for (size_t i = 0; i < AUR_RAD_ROWS && item.row == NULL; ++i)
-        if (aur_rad_is_word(item.type, aur_rad_rows[i].name))
-            item.row = &aur_rad_rows[i];
+    item.row = find_row(item.type);
     const aur_result result = read_arguments(self, &item);
     if (result != AUR_OK) /* nobody knows where the next thing begins */
-        return item.row == NULL ? fail_type(self, item.type) : result;
+        return item.row == NULL && !aur_rad_is_modifier(item.type) ? fail_type(self, item.type) : result;
     return leave_out(self, use_primitive(self, &item));
 }
 
-/* The next word of the line. */
-static bool next_of_line(aur_rad *self, aur_rad_word *word) {
-    while (self->at < self->end && *self->at != '\n' && aur_is_space(*self->at))
-        ++self->at;
-    return self->at < self->end && *self->at != '\n' && *self->at != '#' && aur_rad_next_word(self, word);
+/* --- commands */
+
+/* The words of a command's line, the exclamation mark taken off the first. */
+static aur_result read_line(aur_rad *self, aur_rad_word command, size_t *count) {
+    aur_rad_word word = {command.text + 1, command.length - 1, command.line};
+    *count = 0;
+    for (bool more = word.length > 0 || aur_rad_next_of_line(self, &word); more;
+         more = aur_rad_next_of_line(self, &word)) {
+        if (!aur_array_reserve(&self->words, &self->word_capacity, *count + 1, sizeof *self->words))
+            return aur_fail_memory(self->error);
+        self->words[(*count)++] = word;
+    }
+    return *count > 0 ? AUR_OK
+                      : aur_rad_fail(self, command.line, AUR_ERROR_FORMAT, "a command must stand after '!'");
 }
 
-static aur_result add_file(aur_rad *self, aur_rad_word name, size_t index) {
-    const aur_result result = aur_rad_check_name(self, name);
+static aur_result fail_command(const aur_rad *self, aur_rad_word word, const char *after) {
+    return aur_rad_fail(self, word.line, AUR_ERROR_UNSUPPORTED,
+                        "'%.*s' is not read after %s: write what the command makes into a file of its own",
+                        word.length > 40 ? 40 : (int)word.length, word.text, after);
+}
+
+/* The words from `first` on are files. */
+static aur_result take_files(aur_rad *self, size_t first, size_t count, const char *command) {
+    for (size_t i = first; i < count; ++i) {
+        const aur_rad_word word = self->words[i];
+        if (strchr("-<>;&`$\"'*?\\", word.text[0]) != NULL)
+            return fail_command(self, word, command);
+        const aur_result result = aur_rad_check_name(self, word);
+        if (result != AUR_OK)
+            return result;
+        self->words[i - first] = word;
+    }
+    self->file_count = count - first;
+    self->next = 0;
+    return count > first ? AUR_OK
+                         : aur_rad_fail(self, self->words[0].line, AUR_ERROR_FORMAT,
+                                        "the file that is to be included is missing");
+}
+
+/* A surface that a generator makes stands in all poses of the command. */
+static aur_result take_surface(aur_rad *self, const char *type, aur_rad_word modifier, size_t count,
+                               double *numbers) {
+    double copy[3 * 1024];
+    const aur_rad_pose own = self->pose;
+    aur_rad_primitive item = {.modifier = modifier,
+                              .type = {type, strlen(type), modifier.line},
+                              .number_count = count,
+                              .numbers = copy};
+    item.row = find_row(item.type);
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < self->pose_count && result == AUR_OK; ++i) {
+        self->pose = aur_rad_pose_multiply(&own, &self->poses[i]);
+        memcpy(copy, numbers, count * sizeof *copy);
+        result = leave_out(self, use_primitive(self, &item));
+    }
+    self->pose = own;
+    return result;
+}
+
+/* Where the first `|` stands, or the end. */
+static size_t find_pipe(const aur_rad *self, size_t at, size_t count) {
+    while (at < count && !aur_rad_is_word(self->words[at], "|"))
+        ++at;
+    return at;
+}
+
+/* `| xform OPTIONS ...` after a command whose poses are known. */
+static aur_result read_pipes(aur_rad *self, size_t at, size_t count) {
+    aur_result result = AUR_OK;
+    while (at < count && result == AUR_OK) {
+        const size_t end = find_pipe(self, at + 1, count);
+        size_t used = 0;
+        if (at + 1 == end || !aur_rad_is_word(self->words[at + 1], "xform"))
+            return at + 1 == end ? fail_command(self, self->words[at], "a command")
+                                 : fail_command(self, self->words[at + 1], "'|'");
+        result = aur_rad_chain_xform(self, end - at - 2, self->words + at + 2, &used);
+        if (result == AUR_OK && used < end - at - 2)
+            result = fail_command(self, self->words[at + 2 + used], "'| xform'");
+        at = end;
+    }
+    return result;
+}
+
+/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...` and `!genprism ...`, each with pipes into xform:
+ * `command` is the word with the exclamation mark, `!` alone where a blank follows. */
+static aur_result read_command(aur_rad *self, aur_rad_word command) {
+    size_t count = 0, used = 0;
+    aur_result result = read_line(self, command, &count);
     if (result != AUR_OK)
         return result;
-    if (!aur_array_reserve(&self->words, &self->word_capacity, index + 1, sizeof *self->words))
-        return aur_fail_memory(self->error);
-    self->words[index] = name;
-    return AUR_OK;
-}
-
-/* `!cat FILE ...` and `!xform [-n NAME] FILE`, the commands that only include files: `command` is the word
- * with the exclamation mark, `!` alone where a blank follows. */
-static aur_result read_command(aur_rad *self, aur_rad_word command) {
-    static const char advice[] = "write what it makes into the file, or into one of its own beside this one";
-    aur_rad_word word = {command.text + 1, command.length - 1, command.line};
-    if (word.length == 0 && !next_of_line(self, &word))
-        return aur_rad_fail(self, command.line, AUR_ERROR_FORMAT, "a command must stand after '!'");
-    const bool moves = aur_rad_is_word(word, "xform");
-    if (!moves && !aur_rad_is_word(word, "cat"))
-        return aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
-                            "the command '%.*s' is not run, only cat and xform that include files: %s",
-                            word.length > 40 ? 40 : (int)word.length, word.text, advice);
-    size_t files = 0;
-    aur_result result = AUR_OK;
-    while (result == AUR_OK && next_of_line(self, &word)) {
-        if (moves && files == 0 && aur_rad_is_word(word, "-n")) { /* names of objects are not kept */
-            next_of_line(self, &word);
-            continue;
-        }
-        if (strchr("-|<>;&`$\"'*?\\", word.text[0]) != NULL || (moves && files > 0))
-            return aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
-                                "'%.*s' is not read after %s, which may only include files: %s",
-                                word.length > 40 ? 40 : (int)word.length, word.text, moves ? "xform" : "cat",
-                                advice);
-        result = add_file(self, word, files++);
-    }
+    const aur_rad_word name = self->words[0];
+    const size_t end = find_pipe(self, 1, count);
+    const bool moves = aur_rad_is_word(name, "xform"), includes = moves || aur_rad_is_word(name, "cat");
+    result = aur_rad_read_xform(self, moves ? end - 1 : 0, self->words + 1, &used);
+    if (result == AUR_OK)
+        result = read_pipes(self, end, count);
     self->nodes->location.line = command.line;
-    self->include_count = result == AUR_OK ? files : 0;
-    self->include_next = 0;
-    return result != AUR_OK || files > 0 ? result
-                                         : aur_rad_fail(self, command.line, AUR_ERROR_FORMAT,
-                                                        "the file that is to be included is missing");
+    if (result == AUR_OK && includes)
+        return take_files(self, 1 + used, end, moves ? "xform" : "cat");
+    bool known = true;
+    if (result == AUR_OK)
+        result = aur_rad_generate(self, end, self->words, take_surface, &known);
+    self->pose_count = 0;
+    return known ? result
+                 : aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
+                                "the command '%.*s' is not run, only cat, xform, genbox and genprism are: "
+                                "write what it makes into a file and include that",
+                                name.length > 40 ? 40 : (int)name.length, name.text);
 }
 
 aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *parent, size_t size,
@@ -304,31 +424,47 @@ aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *pa
                       .at = text,
                       .end = text + size,
                       .line = 1,
+                      .pose = scene->pose != NULL ? *scene->pose : aur_rad_pose_identity(),
                       .error = nodes->error};
+    scene->pose = NULL;
     return AUR_OK;
+}
+
+/* The file that is to be included next, in which pose. */
+static aur_result include_next(aur_rad *self, const char **included) {
+    const size_t pose = self->next / self->file_count;
+    const aur_rad_word word = self->words[self->next++ % self->file_count];
+    self->included = aur_rad_pose_multiply(&self->pose, &self->poses[pose]);
+    self->scene->pose = &self->included;
+    *included = aur_arena_copy(self->scene->arena, word.text, word.length);
+    return *included != NULL ? AUR_OK : aur_fail_memory(self->error);
 }
 
 aur_result aur_rad_next(aur_rad *self, const char **included) {
     aur_rad_word word;
     aur_result result = AUR_OK;
-    while (result == AUR_OK && self->include_next == self->include_count && aur_rad_next_word(self, &word)) {
-        if (word.text[0] != '!') {
+    *included = NULL;
+    self->scene->pose = NULL;
+    while (result == AUR_OK) {
+        if (self->next < self->file_count * self->pose_count)
+            return include_next(self, included);
+        self->file_count = self->pose_count = self->next = 0;
+        if (!aur_rad_next_word(self, &word))
+            break;
+        if (word.text[0] != '!' || word.length == 0) {
             result = read_primitive(self, word);
             continue;
         }
         result = read_command(self, word);
+        if (result != AUR_OK)
+            self->file_count = 0;
         if (result == AUR_ERROR_UNSUPPORTED) {
             result = leave_out(self, result);
-            while (next_of_line(self, &word))
+            while (aur_rad_next_of_line(self, &word))
                 continue;
         }
     }
-    *included = NULL;
-    if (result != AUR_OK || self->include_next == self->include_count)
-        return result;
-    word = self->words[self->include_next++];
-    *included = aur_arena_copy(self->scene->arena, word.text, word.length);
-    return *included != NULL ? AUR_OK : aur_fail_memory(self->error);
+    return result;
 }
 
 void aur_rad_close(aur_rad *self) {
@@ -337,6 +473,7 @@ void aur_rad_close(aur_rad *self) {
     free(self->text);
     free(self->words);
     free(self->numbers);
+    free(self->poses);
     free(self);
 }
 

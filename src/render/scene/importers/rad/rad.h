@@ -1,19 +1,25 @@
-/* Radiance's scene descriptions, the plain subset of them. */
+/* Radiance's scene descriptions. */
 #pragma once
 
 #include <stdbool.h>
 
 #include "render/scene/importers/nodes/node.h"
 
-/* Whether a scene's file is one, by its name: .rad. */
+/* Whether a scene's file is one by its name: .rad, .mat, .sky. */
 bool aur_rad_is_name(const char *path);
+/* Whether text is one by its content: it begins with a comment, a command or a primitive. */
+bool aur_rad_is_text(size_t size, const char *data);
 
 /* What the files of one scene share: the materials so far, in the order in which they are read. */
 typedef struct aur_rad_material aur_rad_material;
+typedef struct aur_rad_pose aur_rad_pose;
 typedef struct aur_rad_scene {
     aur_arena *arena; /* of names */
     size_t material_count, material_capacity;
     aur_rad_material *materials;
+    const aur_rad_pose *pose; /* of the file that is opened next; NULL: where its coordinates say */
+    bool diffuse;             /* materials that are not supported become their diffuse part */
+    size_t diffuse_count;     /* how many have */
     const aur_warnings *warnings;
     aur_error *left_out; /* the last thing that is not read; those before it have been warned of */
 } aur_rad_scene;
@@ -27,14 +33,13 @@ typedef struct aur_rad aur_rad;
  * file. Errors: MEMORY. */
 aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *parent, size_t size,
                         const char *data, aur_rad **rad);
-/* Adds elements, each at the line of its primitive, up to the next command that includes a file, at
- * nodes->location: *included is the file's name, in the scene's arena, and NULL at the end of this file.
- * What is included must be read before the next call, which may use its materials.
- * Known are the surfaces polygon, sphere, bubble, cylinder, tube, ring, mesh (of an OBJ file) and source, the
- * materials plastic and metal without specularity, glass, light and glow, aliases, and the commands cat and
- * xform where they do nothing but include. Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong;
- * NAME for a modifier that is not defined above; MEMORY. What is well-formed and not known is noted in the
- * scene's `left_out` instead, so that all of it can be said at once; a material that no surface uses may be
- * of any kind. */
+/* Adds elements, each at the line of its primitive, up to the next file that is to be included, at
+ * nodes->location: *included is its name, in the scene's arena, and NULL at the end of this file. What is
+ * included must be read before the next call, which may use its materials.
+ * Known are the surfaces and materials of the two tables of rad_reader.h, aliases, and the commands cat,
+ * xform with all of its options but files of them, genbox and genprism, in pipes too; no process is started.
+ * Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong; NAME for a modifier that is not defined
+ * above; MEMORY. What is well-formed and not known is noted in the scene's `left_out` instead, so that all of
+ * it can be said at once; a material that no surface uses may be of any kind. */
 aur_result aur_rad_next(aur_rad *rad, const char **included);
 void aur_rad_close(aur_rad *rad); /* NULL is allowed */

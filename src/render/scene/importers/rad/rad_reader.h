@@ -1,5 +1,6 @@
-/* The reader of one of Radiance's files, as its parts share it: words and messages (rad_text.c), what the
- * primitives become (rad_rows.c), and the order of things (rad.c). */
+/* The reader of one of Radiance's files, as its parts share it: words and messages (rad_text.c), what
+ * surfaces (rad_surfaces.c) and materials (rad_materials.c) become, transforms (rad_xform.c), generators
+ * (rad_generators.c), and the order of things (rad.c). */
 #pragma once
 
 #include "render/scene/importers/rad/rad.h"
@@ -9,6 +10,14 @@ typedef struct aur_rad_word {
     const char *text;
     size_t length, line;
 } aur_rad_word;
+
+/* Where the primitives of a file stand: what xform does to them. */
+struct aur_rad_pose {
+    double m[16];          /* row by row, the last one 0 0 0 1 */
+    double scale;          /* of lengths, above 0 */
+    bool inverts;          /* surfaces face the other way */
+    aur_rad_word modifier; /* of all surfaces, in place of their own; empty: their own */
+};
 
 typedef struct aur_rad_row aur_rad_row;
 
@@ -24,9 +33,10 @@ typedef struct aur_rad_primitive {
 /* A material under its name; a later one of the same name hides it. */
 struct aur_rad_material {
     aur_rad_word name; /* its text is in the scene's arena */
-    const aur_rad_row *row;
-    aur_xml_node *bsdf; /* of those that do not emit */
-    double radiance[3];
+    bool emits;
+    bool nothing; /* surfaces of it are not there */
+    aur_xml_node *bsdf, *interior, *exterior;
+    double radiance[3]; /* of those that emit */
     /* In the scene's arena, where the material is not supported: the error of the first surface that uses it.
      */
     const aur_error *unsupported;
@@ -43,24 +53,33 @@ struct aur_rad {
     aur_rad_word *words;
     double *numbers;
     size_t word_capacity, number_capacity;
-    size_t include_count, include_next; /* words of a command: files that are still to be included */
+    aur_rad_pose pose;     /* of this file */
+    aur_rad_pose included; /* of the file that is included */
+    /* Files that are still to be included, each in every pose: words, and poses in this file. */
+    size_t file_count, pose_count, pose_capacity, next;
+    aur_rad_pose *poses;
     aur_error *error;
 };
 
 /* A kind of primitive: how many numbers it takes, and what adds it. */
 struct aur_rad_row {
     const char *name;
-    size_t least, most; /* numbers */
-    bool material, emits, names_file;
-    aur_result (*add)(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material);
+    size_t least, most;  /* numbers */
+    size_t most_strings; /* what they are for is told by `add` */
+    bool material, emits;
+    /* `material`: of a surface, or the one that is to be filled. */
+    aur_result (*add)(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material);
 };
 
-enum { AUR_RAD_ROWS = 13 };
-extern const aur_rad_row aur_rad_rows[AUR_RAD_ROWS];
+extern const aur_rad_row aur_rad_surfaces[], aur_rad_materials[]; /* end with a row without a name */
 
-/* Skips blanks, line ends and comments; false at the end. */
+/* Skips blanks, line ends and comments; false at the end. A word may stand in quotes of either kind. */
 bool aur_rad_next_word(aur_rad *self, aur_rad_word *word);
+/* The next word of a command, up to the end of its line; a backslash before that continues the line. */
+bool aur_rad_next_of_line(aur_rad *self, aur_rad_word *word);
 bool aur_rad_is_word(aur_rad_word word, const char *text);
+/* Whether all of the word is a number. */
+bool aur_rad_number(aur_rad_word word, double *number);
 
 /* An error at a line of the file. */
 aur_result aur_rad_fail(const aur_rad *self, size_t line, aur_result result, const char *format, ...)
@@ -69,3 +88,32 @@ aur_result aur_rad_fail(const aur_rad *self, size_t line, aur_result result, con
 aur_result aur_rad_fail_end(const aur_rad *self, const char *what, aur_rad_word word);
 /* Errors: FORMAT for a file's name with control characters. */
 aur_result aur_rad_check_name(const aur_rad *self, aur_rad_word name);
+
+/* Whether a type is a modifier of Radiance's that no row is about. */
+bool aur_rad_is_modifier(aur_rad_word type);
+/* The diffuse part of such a modifier, for --diffuse. `foreground` and `background` are those that a mixture
+ * names, or NULL. Errors: UNSUPPORTED for those of which it is not known. */
+aur_result aur_rad_add_diffuse_part(aur_rad *self, const aur_rad_primitive *item,
+                                    const aur_rad_material *mixed, aur_rad_material *material);
+/* The material of that name, or NULL. */
+aur_rad_material *aur_rad_find_material(const aur_rad *self, aur_rad_word name);
+
+aur_rad_pose aur_rad_pose_identity(void);
+/* Moves a point (w = 1) or turns a direction (w = 0) as the file's pose says. */
+void aur_rad_pose_apply(const aur_rad_pose *pose, double w, double x[3]);
+bool aur_rad_pose_mirrors(const aur_rad_pose *pose);
+/* Reads options of xform among `count` words and puts the poses that they make, arrays too, in the place of
+ * all in self->poses. *used: words that were read, up to the first that is none of them. Errors: FORMAT,
+ * UNSUPPORTED, MEMORY. */
+aur_result aur_rad_read_xform(aur_rad *self, size_t count, const aur_rad_word *words, size_t *used);
+/* Each of self->poses goes into every one that `count` words of options make. */
+aur_result aur_rad_chain_xform(aur_rad *self, size_t count, const aur_rad_word *words, size_t *used);
+aur_rad_pose aur_rad_pose_multiply(const aur_rad_pose *outer, const aur_rad_pose *inner);
+
+/* Takes surfaces that a generator makes: type, and numbers. */
+typedef aur_result aur_rad_take(aur_rad *self, const char *type, aur_rad_word modifier, size_t count,
+                                double *numbers);
+/* genbox and genprism: `words` begins with the command. *known is false for others. Errors: FORMAT, and what
+ * `take` returns. */
+aur_result aur_rad_generate(aur_rad *self, size_t count, const aur_rad_word *words, aur_rad_take *take,
+                            bool *known);

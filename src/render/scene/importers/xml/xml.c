@@ -291,6 +291,7 @@ static aur_result read_rad(file_reading *reader, const char *data, size_t size) 
     reading *const shared = reader->shared;
     aur_nodes nodes = begin_nodes(reader, 1);
     aur_rad *rad = NULL;
+    reader->from_rad = shared->document->from_radiance = true;
     const char *included = NULL;
     aur_result result = nodes.result;
     if (result == AUR_OK)
@@ -314,24 +315,28 @@ static aur_result read_model(file_reading *reader, const char *data, size_t size
 }
 
 /* XML begins with '<', after white space and a byte order mark; of UTF-16 that mark is enough. */
-static bool may_be_xml(const char *path, const char *data, size_t size) {
+static bool begins_as_xml(size_t size, const char *data) {
     static const char *const marks[] = {"\xef\xbb\xbf", "\xfe\xff", "\xff\xfe"};
-    const char *const dot = strrchr(path, '.');
-    size_t mark = 0;
-    for (size_t i = 0; i < sizeof marks / sizeof marks[0] && mark == 0; ++i)
+    size_t at = 0;
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0] && at == 0; ++i)
         if (size >= strlen(marks[i]) && memcmp(data, marks[i], strlen(marks[i])) == 0)
-            mark = strlen(marks[i]);
-    size_t at = mark;
+            at = strlen(marks[i]);
+    const bool wide = at == 2;
     while (at < size && isspace((unsigned char)data[at]))
         ++at;
-    return mark == 2 || (at < size && data[at] == '<') || (dot != NULL && strcasecmp(dot, ".xml") == 0);
+    return wide || (at < size && data[at] == '<');
+}
+
+static bool is_named_xml(const char *path) {
+    const char *const dot = strrchr(path, '.');
+    return dot != NULL && strcasecmp(dot, ".xml") == 0;
 }
 
 static aur_result read_xml(file_reading *reader, const char *data, size_t size) {
-    if (!may_be_xml(reader->file, data, size))
+    if (!begins_as_xml(size, data) && !is_named_xml(reader->file))
         return aur_fail_at(
             reader->shared->error, (aur_location){.file = reader->file}, AUR_ERROR_FORMAT,
-            "unknown kind of file: expected a scene of XML, Radiance's .rad, or a model (.glb, .gltf, "
+            "unknown kind of file: expected a scene of XML, a file of Radiance's, or a model (.glb, .gltf, "
             ".obj, .fbx, .dae, .stl, .ply, .off, .3ds)");
     reader->expat = XML_ParserCreate(NULL);
     if (reader->expat == NULL)
@@ -375,9 +380,10 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
         if (result != AUR_OK)
             return result;
     }
-    return aur_xml_is_model(path, size, data) ? read_model(&reader, data, size)
-           : reader.from_rad                  ? read_rad(&reader, data, size)
-                                              : read_xml(&reader, data, size);
+    if (aur_xml_is_model(path, size, data))
+        return read_model(&reader, data, size);
+    const bool rad = !begins_as_xml(size, data) && (reader.from_rad || aur_rad_is_text(size, data));
+    return rad ? read_rad(&reader, data, size) : read_xml(&reader, data, size);
 }
 
 static aur_result read_file(reading *shared, const char *path, const file_reading *from,
@@ -398,7 +404,7 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
 
 /* A file more, as if the scene's own, `path`, included it at its end. */
 static aur_result read_further(reading *shared, const char *path, const char *further) {
-    const file_reading from = {.file = path, .from_rad = aur_rad_is_name(path)};
+    const file_reading from = {.file = path};
     return read_file(shared, further, &from, shared->document->tree.root);
 }
 
@@ -410,6 +416,7 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
     reading shared = {.document = document,
                       .variables = {.arena = &document->tree.arena},
                       .rad = {.arena = &document->tree.arena,
+                              .diffuse = options->diffuse,
                               .warnings = &options->warnings,
                               .left_out = &document->left_out},
                       .options = options,
@@ -426,6 +433,11 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
         result = aur_xml_settle_ids(document, error);
     if (result == AUR_OK)
         result = aur_xml_variables_finish(&shared.variables, path, error);
+    if (shared.rad.diffuse_count > 0)
+        aur_warn_at(&options->warnings, (aur_location){.file = path},
+                    "%zu patterns, textures and materials of Radiance are not read: what they have that is "
+                    "diffuse stands for them",
+                    shared.rad.diffuse_count);
     free(shared.variables.items);
     aur_rad_scene_release(&shared.rad);
     if (result != AUR_OK) {

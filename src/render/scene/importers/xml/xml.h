@@ -26,6 +26,7 @@ typedef struct aur_xml_document {
     aur_xml_tree tree;
     size_t folder_count, folder_capacity;
     const char **folders;        /* of <path> */
+    bool from_radiance;          /* a file of Radiance's is among the scene's: +z is up */
     aur_model_files model_files; /* in memory: parts of models */
     size_t file_count, file_capacity;
     char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */

@@ -1,0 +1,222 @@
+/* What surfaces become. Coordinates are placed before they become nodes, so that a file that xform moves is
+ * the same to the bit as one whose coordinates were moved. */
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "points/base/vector3d.h"
+#include "render/scene/importers/rad/rad_reader.h"
+
+static const char *boolean(bool value) {
+    return value ? "true" : "false";
+}
+
+static void refer(aur_nodes *nodes, aur_xml_node *shape, aur_xml_node *medium, const char *name) {
+    aur_xml_node *const ref = medium != NULL ? aur_node_add(nodes, shape, "ref") : NULL;
+    if (ref == NULL)
+        return;
+    ref->target = medium;
+    aur_node_set(nodes, ref, "name", "%s", name);
+}
+
+/* Adds what a surface is made of. */
+static aur_result finish(aur_rad *self, aur_xml_node *shape, const aur_rad_material *material) {
+    aur_nodes *const nodes = self->nodes;
+    if (material->emits)
+        aur_node_numbers(nodes, aur_node_object(nodes, shape, "emitter", "area"), "rgb", "radiance", 3,
+                         material->radiance);
+    else
+        aur_node_refer(nodes, shape, material->bsdf);
+    refer(nodes, shape, material->interior, "interior");
+    refer(nodes, shape, material->exterior, "exterior");
+    return nodes->result;
+}
+
+static void place(const aur_rad *self, double point[3]) {
+    aur_rad_pose_apply(&self->pose, 1.0, point);
+}
+
+static void turn(const aur_rad *self, double direction[3]) {
+    aur_rad_pose_apply(&self->pose, 0.0, direction);
+}
+
+static aur_result add_polygon(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    const size_t count = item->number_count / 3;
+    double *const x = item->numbers;
+    if (item->number_count % 3 != 0)
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                            "polygon: %zu numbers are no corners of three coordinates", item->number_count);
+    for (size_t i = 0; i < count; ++i)
+        place(self, x + 3 * i);
+    /* A mirror image faces the same way as what it mirrors. */
+    const bool mirrored = aur_rad_pose_mirrors(&self->pose);
+    for (size_t i = 0; i < count / 2 && mirrored != self->pose.inverts; ++i)
+        for (size_t k = 0; k < 3; ++k) {
+            const double swap = x[3 * i + k];
+            x[3 * i + k] = x[3 * (count - 1 - i) + k];
+            x[3 * (count - 1 - i) + k] = swap;
+        }
+    aur_xml_node *const shape = aur_node_object(self->nodes, self->parent, "shape", "polygon");
+    aur_node_numbers(self->nodes, shape, "string", "vertices", item->number_count, x);
+    return finish(self, shape, material);
+}
+
+static aur_result add_round(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    double *const x = item->numbers;
+    const bool sphere = item->number_count == 4;
+    const bool inwards = item->type.text[0] == 'b' || item->type.text[0] == 't';
+    /* A negative radius turns the surface, too. */
+    const double radius = self->pose.scale * x[sphere ? 3 : 6];
+    const bool flips = (inwards != (radius < 0.0)) != self->pose.inverts;
+    aur_nodes *const nodes = self->nodes;
+    place(self, x);
+    aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", sphere ? "sphere" : "cylinder");
+    aur_node_numbers(nodes, shape, "point", sphere ? "center" : "p0", 3, x);
+    if (!sphere) {
+        place(self, x + 3);
+        aur_node_numbers(nodes, shape, "point", "p1", 3, x + 3);
+    }
+    aur_node_property(nodes, shape, "float", "radius", "%.17g", fabs(radius));
+    aur_node_property(nodes, shape, "boolean", "flip_normals", "%s", boolean(flips));
+    return finish(self, shape, material);
+}
+
+/* cone and cup. */
+static aur_result add_cone(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    double *const x = item->numbers;
+    const bool inwards = strncmp(item->type.text, "cup", 3) == 0, below = x[6] < 0.0 || x[7] < 0.0;
+    if (x[6] * x[7] < 0.0)
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                            "%.*s: its radii must not be of different signs", (int)item->type.length,
+                            item->type.text);
+    place(self, x);
+    place(self, x + 3);
+    aur_nodes *const nodes = self->nodes;
+    aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", "cone");
+    aur_node_numbers(nodes, shape, "point", "p0", 3, x);
+    aur_node_numbers(nodes, shape, "point", "p1", 3, x + 3);
+    aur_node_property(nodes, shape, "float", "radius0", "%.17g", fabs(self->pose.scale * x[6]));
+    aur_node_property(nodes, shape, "float", "radius1", "%.17g", fabs(self->pose.scale * x[7]));
+    aur_node_property(nodes, shape, "boolean", "flip_normals", "%s",
+                      boolean((inwards != below) != self->pose.inverts));
+    return finish(self, shape, material);
+}
+
+static aur_result add_ring(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    double *const x = item->numbers;
+    const double inner = self->pose.scale * fmin(x[6], x[7]), outer = self->pose.scale * fmax(x[6], x[7]);
+    double axis[3] = {x[3], x[4], x[5]}, up[3], side[3];
+    turn(self, axis);
+    place(self, x);
+    if (!(inner >= 0.0) || !(inner < outer) || !(aur_normalize3(axis) > 0.0))
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                            "ring: it needs a direction and two different radii, none below 0");
+    for (size_t i = 0; i < 3 && self->pose.inverts; ++i)
+        axis[i] = -axis[i];
+    aur_frame3(axis, up, side);
+    const double matrix[16] = {up[0], side[0], axis[0], x[0], up[1], side[1], axis[1], x[1],
+                               up[2], side[2], axis[2], x[2], 0.0,   0.0,     0.0,     1.0};
+    aur_nodes *const nodes = self->nodes;
+    aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", "disk");
+    aur_node_property(nodes, shape, "float", "inner_radius", "%.17g", inner / outer);
+    aur_xml_node *const to_world = aur_node_add(nodes, shape, "transform");
+    aur_node_set(nodes, to_world, "name", "to_world");
+    aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "scale"), "value", 1, &outer);
+    aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, matrix);
+    return finish(self, shape, material);
+}
+
+static bool ends_with(aur_rad_word word, const char *ending) {
+    const size_t length = strlen(ending);
+    return word.length > length && strncmp(word.text + word.length - length, ending, length) == 0;
+}
+
+/* The file that a mesh or an instance names, and its poses from the options of xform that follow. */
+static aur_result read_file_and_poses(aur_rad *self, const aur_rad_primitive *item, const char *compiled,
+                                      const char *source, aur_rad_word *file) {
+    *file = item->string_count > 0 ? item->strings[0] : (aur_rad_word){"", 0, item->type.line};
+    if (file->length == 0)
+        return aur_rad_fail(self, file->line, AUR_ERROR_FORMAT, "%s: the name of a file expected",
+                            item->row->name);
+    if (ends_with(*file, compiled))
+        return aur_rad_fail(self, file->line, AUR_ERROR_UNSUPPORTED,
+                            "%s: '%.*s' is compiled for Radiance; name the %s that it was made from",
+                            item->row->name, (int)file->length, file->text, source);
+    size_t used = 0;
+    aur_result result = aur_rad_check_name(self, *file);
+    if (result == AUR_OK)
+        result = aur_rad_read_xform(self, item->string_count - 1, item->strings + 1, &used);
+    if (result == AUR_OK && used + 1 < item->string_count)
+        result =
+            aur_rad_fail(self, file->line, AUR_ERROR_FORMAT, "%s: '%.*s' is no option of xform",
+                         item->row->name, (int)item->strings[used + 1].length, item->strings[used + 1].text);
+    return result;
+}
+
+static aur_result add_mesh(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    aur_rad_word file;
+    aur_result result = read_file_and_poses(self, item, ".rtm", "OBJ file", &file);
+    if (result == AUR_OK && !ends_with(file, ".obj"))
+        result = aur_rad_fail(self, file.line, AUR_ERROR_UNSUPPORTED, "mesh: '%.*s' is no OBJ file",
+                              (int)file.length, file.text);
+    aur_nodes *const nodes = self->nodes;
+    for (size_t i = 0; i < self->pose_count && result == AUR_OK; ++i) {
+        const aur_rad_pose pose = aur_rad_pose_multiply(&self->pose, &self->poses[i]);
+        aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", "obj");
+        aur_node_property(nodes, shape, "string", "filename", "%.*s", (int)file.length, file.text);
+        aur_xml_node *const to_world = aur_node_add(nodes, shape, "transform");
+        aur_node_set(nodes, to_world, "name", "to_world");
+        aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, pose.m);
+        if (pose.inverts)
+            aur_node_property(nodes, shape, "boolean", "flip_normals", "true");
+        result = finish(self, shape, material);
+    }
+    self->pose_count = 0;
+    return result;
+}
+
+/* The file is included in each pose, as by a command. */
+static aur_result add_instance(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    aur_rad_word file;
+    const aur_result result = read_file_and_poses(self, item, ".oct", ".rad files", &file);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; i < self->pose_count && !material->nothing; ++i)
+        self->poses[i].modifier = item->modifier;
+    self->words[0] = file;
+    self->file_count = 1;
+    self->next = 0;
+    return AUR_OK;
+}
+
+static aur_result add_source(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    double *const x = item->numbers;
+    if (!material->emits)
+        return aur_rad_fail(self, item->modifier.line, AUR_ERROR_UNSUPPORTED,
+                            "source: its material must be a light or a glow");
+    if (!(x[3] >= 0.02) || x[3] > 360.0)
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                            "source: its angle must be from 0.02 to 360 degrees, not %g", x[3]);
+    turn(self, x);
+    aur_nodes *const nodes = self->nodes;
+    aur_xml_node *const sun = aur_node_object(nodes, self->parent, "emitter", "sun");
+    aur_node_property(nodes, sun, "float", "half_angle", "%.17g", 0.5 * x[3]);
+    aur_node_numbers(nodes, sun, "vector", "sun_direction", 3, x);
+    aur_node_numbers(nodes, sun, "rgb", "radiance", 3, material->radiance);
+    return nodes->result;
+}
+
+const aur_rad_row aur_rad_surfaces[] = {
+    {"polygon", 9, SIZE_MAX, 0, false, false, add_polygon},
+    {"sphere", 4, 4, 0, false, false, add_round},
+    {"bubble", 4, 4, 0, false, false, add_round},
+    {"cylinder", 7, 7, 0, false, false, add_round},
+    {"tube", 7, 7, 0, false, false, add_round},
+    {"cone", 8, 8, 0, false, false, add_cone},
+    {"cup", 8, 8, 0, false, false, add_cone},
+    {"ring", 8, 8, 0, false, false, add_ring},
+    {"mesh", 0, 0, SIZE_MAX, false, false, add_mesh},
+    {"instance", 0, 0, SIZE_MAX, false, false, add_instance},
+    {"source", 4, 4, 0, false, false, add_source},
+    {.name = NULL},
+};
