@@ -13,7 +13,7 @@ import sys
 import cffi
 
 NATIVE = [f"aureole/{name}.h" for name in
-          "core text tables pointset sphere rotations nearest statistics quadrature quality exact integrate estimate".split()]
+          "core text tables pointset sphere rotations nearest statistics quadrature quality exact estimate integrate".split()]
 LIBRARY = ["aureole/core.h", "aureole/tables.h", "aureole-render/image.h", "aureole-render/scene.h", "aureole-render/film.h",
            "aureole-render/render.h", "aureole-render/adaptive.h", "aureole-lighting/view_factors.h", "aureole-lighting/irradiance.h"]
 
@@ -21,7 +21,7 @@ LIBRARY = ["aureole/core.h", "aureole/tables.h", "aureole-render/image.h", "aure
 CALLBACKS = """
 int aureole_progress(void *user, const char *what, uint64_t done, uint64_t total);
 void aureole_warning(void *user, const char *message);
-aur_result aureole_integrand(void *user, size_t count, const double *directions, const double *along, double *values,
+aur_result aureole_integrand(void *user, size_t count, const double *points, const double *along, double *values,
                              aur_error *error);
 aur_result aureole_functional(void *user, const aur_estimate_points *points, double *values, aur_error *error);
 aur_result aureole_density(void *user, size_t count, const double *directions, double *values, aur_error *error);

@@ -325,20 +325,31 @@ inline std::vector<double> optimal_weights(
     return weights;
 }
 
-/* The integral of function(span<const double> xyz, span<const double> along, span<double> values), which
- * fills one value for each three numbers of xyz; `along` is empty where there is no axis. What it throws is
- * thrown on. */
-template <class Function> aur_integral integrate(Function &&function, const aur_integrate_options &options) {
-    detail::guarded<Function> guard{function};
+/* The integral of function(span<const double> points, span<const double> along, span<double> values), which
+ * fills options.values values per point; `along` is empty where there is no axis. `results`, unless null,
+ * gets the value and interval of each. What the function throws is thrown on. */
+template <class Function>
+aur_integral integrate(Function &&function, const aur_integrate_options &options,
+                       std::vector<aur_estimated> *results = nullptr) {
+    struct context {
+        detail::guarded<Function> guard;
+        std::size_t coordinates, values;
+    } work{{function}, aur_integrate_coordinates(&options), options.values > 0 ? options.values : 1};
     aur_integral found{};
     found.size = sizeof found;
-    const aur_integrand ask = [](void *user, size_t count, const double *directions, const double *along,
+    if (results != nullptr)
+        results->resize(work.values);
+    const aur_integrand ask = [](void *user, size_t count, const double *points, const double *along,
                                  double *values, aur_error *) {
-        return (*static_cast<detail::guarded<Function> *>(user))(
-            span<const double>(directions, 3 * count),
-            span<const double>(along, along != nullptr ? count : 0), span<double>(values, count));
+        context &c = *static_cast<context *>(user);
+        return c.guard(span<const double>(points, c.coordinates * count),
+                       span<const double>(along, along != nullptr ? count : 0),
+                       span<double>(values, c.values * count));
     };
-    guard.run([&] { detail::call(aur_integrate, ask, static_cast<void *>(&guard), &options, &found); });
+    work.guard.run([&] {
+        detail::call(aur_integrate_values, ask, static_cast<void *>(&work), &options,
+                     results != nullptr ? results->data() : nullptr, &found);
+    });
     return found;
 }
 

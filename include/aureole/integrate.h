@@ -1,12 +1,13 @@
-/* Integrals over directions to a tolerance: a function is called with many points at a time until the
- * interval about the integral is narrow enough.
+/* Integrals to a tolerance: a function is called with many points at a time until the interval about the
+ * integral is narrow enough.
  *
- * Domains are the sphere, the hemisphere (with cos^m theta, if wished) and caps about +z, and their products
- * with one more axis, a radius or an energy, from one number to another. The value is the integral over solid
- * angle, in steradians, and over the axis. */
+ * Domains are those of points (square, cube, disk, hemisphere, sphere, caps, axes, rotations), the ball, the
+ * triangle and the tetrahedron, and the product of each with one more axis, a radius or an energy. The value
+ * is the integral over area, volume or solid angle in steradians, times the axis; or the mean. */
 #ifndef AUREOLE_INTEGRATE_H
 #define AUREOLE_INTEGRATE_H
 
+#include <aureole/estimate.h>
 #include <aureole/sphere.h>
 #include <stdbool.h>
 
@@ -14,58 +15,120 @@
 extern "C" {
 #endif
 
-/* Fills values[count] at the unit vectors directions[3 * count] and, where there is an axis, the numbers
- * along[count] on it, else NULL. At most AUR_INTEGRAND_POINTS points a call, in an order that the options
- * fix, on the caller's thread. What is not AUR_OK ends the integration with that result, and may fill
- * `error`. */
-typedef aur_result (*aur_integrand)(void *user, size_t count, const double *directions, const double *along,
+/* Fills values[count * options.values], those of the first point first, at points[count * coordinates] and,
+ * where there is an axis, the numbers along[count] on it, else NULL. Points of the sphere, hemisphere and
+ * axes are unit vectors, rotations are unit quaternions w,x,y,z. At most AUR_INTEGRAND_POINTS points per
+ * call, in an order that the options fix, on the caller's thread. A result other than AUR_OK ends the
+ * integration with that result, and may fill `error`. */
+typedef aur_result (*aur_integrand)(void *user, size_t count, const double *points, const double *along,
                                     double *values, aur_error *error);
 
-enum { AUR_INTEGRAND_POINTS = 1024 };
+enum { AUR_INTEGRAND_POINTS = 1024, AUR_INTEGRATE_DIMENSION_MAX = 1024, AUR_INTEGRATE_VALUES_MAX = 65536 };
+
+/* Domains that are not domains of points. BALL: of radius 1, volume 4 pi/3. TRIANGLE, TETRAHEDRON: all
+ * coordinates >= 0 and their sum <= 1, area 1/2 and volume 1/6. */
+typedef enum aur_region {
+    AUR_REGION_DOMAIN, /* the field `domain` has the domain */
+    AUR_REGION_BALL,
+    AUR_REGION_TRIANGLE,
+    AUR_REGION_TETRAHEDRON
+} aur_region;
+
+/* A part of the domain with points of its own: where the function is large in a small place, or singular. */
+typedef struct aur_integrate_peak {
+    const double *centre; /* sphere, hemisphere, axes: a unit vector; square, cube: a point */
+    double radius;        /* degrees; square, cube: half the side of a box. 0: all of the domain */
+    double exponent;      /* >= 0: the function grows as distance^-exponent about the centre; must be below 2
+                             (square, cube: the dimension) */
+} aur_integrate_peak;
 
 typedef struct aur_integrate_options {
-    size_t size;        /* of the caller's struct, so that it can grow */
-    aur_domain domain;  /* SPHERE or HEMISPHERE */
-    double cap_degrees; /* 0: all of the domain; else the cap of that polar angle about +z */
+    size_t size; /* of the caller's struct, so that it can grow */
+    aur_domain domain;
+    double cap_degrees; /* SPHERE, HEMISPHERE; 0: all of it; else the cap of that polar angle about +z */
     double exponent;    /* the function is multiplied by cos^exponent theta; 0 to 1e9, whole HEMISPHERE */
     bool has_axis;      /* the product with [axis_from, axis_to], finite and ascending */
     double axis_from, axis_to;
-    double absolute, relative; /* the error wanted: the larger of the two, of which one must be > 0 */
+    double absolute, relative; /* the target error: the larger of the two; both 0: one level of `first` */
     double confidence;         /* of the interval, in (0,1) */
-    size_t replicates;         /* 4 to 64 */
-    uint64_t evaluations;      /* at most so many; at least 64 a replicate */
+    size_t replicates;         /* randomisations, 4 to 64 */
+    uint64_t evaluations;      /* at most so many */
     uint64_t seed;
     aur_progress progress; /* evaluations so far, of those allowed */
+
+    aur_region region; /* in the place of `domain` */
+    size_t dimension;  /* of CUBE: 1 to AUR_INTEGRATE_DIMENSION_MAX */
+    size_t values;     /* of the function: 1 to AUR_INTEGRATE_VALUES_MAX; 0 stands for 1 */
+    /* Values are separate integrals: each has its own target error and its own warnings. Otherwise they are
+     * the components of one: the target is relative to the largest of them. */
+    bool separate;
+    bool mean; /* the value is divided by the measure of the domain */
+    /* Points of a randomisation on the first level. 0: as many as give 4096 evaluations, and no result below
+     * 8192. Otherwise the caller vouches that this many see the function. */
+    size_t first;
+    size_t peak_count;
+    const aur_integrate_peak *peaks; /* a point in several peaks belongs to the first of them */
+    /* The points, a SET; then there is one level. NULL: esfg on the sphere and axes without an axis, sobol
+     * elsewhere. */
+    const char *set;
+    aur_warnings warnings; /* one message for each bit of `doubts`, and where the target was not reached */
 } aur_integrate_options;
 
-/* One percent of the value with 95 % confidence, by 8 replicates and at most 2^22 evaluations. */
+/* One percent of the value with 95 % confidence, by 16 randomisations and at most 2^22 evaluations. */
 AUR_API aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options,
                                               aur_error *error) AUR_NONNULL(2);
 
+/* Numbers per point of the options' domain: 2 to 4, or the dimension of the cube. */
+AUR_API size_t aur_integrate_coordinates(const aur_integrate_options *options) AUR_NONNULL(1);
+
 typedef enum aur_integrate_reason {
-    AUR_INTEGRATE_TOLERANCE,  /* the error wanted was reached */
-    AUR_INTEGRATE_EVALUATIONS /* one more level would take more evaluations than allowed */
+    AUR_INTEGRATE_TOLERANCE,   /* the target error was reached */
+    AUR_INTEGRATE_EVALUATIONS, /* one more level would take more evaluations than allowed */
+    AUR_INTEGRATE_CONSTANT     /* one value at all of 65536 points or more: nothing bounds what differs */
 } aur_integrate_reason;
 
+/* Reasons not to trust an interval: bits of aur_integral.doubts. */
+typedef enum aur_integrate_doubt {
+    AUR_INTEGRATE_ALL_EQUAL = 1, /* all values are equal: the interval is infinite */
+    AUR_INTEGRATE_SPARSE = 2,    /* fewer than 32 values differ from the most frequent one */
+    AUR_INTEGRATE_DOMINATED = 4, /* one point has more than half of the sum of magnitudes */
+    AUR_INTEGRATE_HEAVY_TAIL = 8 /* the largest values fall as slowly as those of infinite variance do */
+} aur_integrate_doubt;
+
 typedef struct aur_integral {
-    size_t size;     /* of the caller's struct, so that it can grow */
-    double value;    /* the mean of the replicates */
-    double error;    /* what was held against the tolerance: the larger of the interval and of difference/4 */
-    double interval; /* half the width of Student's interval about the value, over the replicates */
+    size_t size;       /* of the caller's struct, so that it can grow */
+    double value;      /* the mean of the replicates; of several values the first */
+    double error;      /* compared with the target: the larger of the interval and of difference/4; of several
+                          values the largest */
+    double interval;   /* half the width of the interval about the value */
     double difference; /* between the values of the last two levels, both from points of the last */
     uint64_t evaluations;
-    size_t levels; /* level k has 64 * 2^k points a replicate, those of the levels before among them */
+    size_t levels; /* each has twice the points of the one before, those among them */
     aur_integrate_reason reason;
+    unsigned doubts;   /* of aur_integrate_doubt */
+    double resolution; /* with 95 % probability a feature of this share of the domain has been seen: 3/N */
 } aur_integral;
 
-/* The integral of a function. On the whole sphere each replicate is a grid (esfg, Marques 2019) turned at
- * random, whose levels of up to 1024 points have exact weights of their own (exact.h) to about the degree
- * sqrt(points / 2.2) - 1; elsewhere it is a Sobol sequence with a random Owen scrambling and equal weights.
- * Both are without bias at a fixed level. The grid doubles until the error is as wanted; nothing is evaluated
- * twice. Intervals hold a little less often than `confidence` says, because they also end the work:
- * docs/choosing.md has the measured coverage. The integral's size must be set. Errors: ARGUMENT (which
- * option, and the range; a value that is not finite, and where), UNSUPPORTED, MEMORY, CANCELLED, and what the
- * function returns. */
+/* The integral of a function. On the whole sphere and for axes each replicate is a grid (esfg, Marques 2019)
+ * turned at random, with exact weights (exact.h) to about the degree sqrt(points / 2.2) - 1 for at most 1024
+ * points and to degree 6 beyond; elsewhere it is a Sobol sequence with a random Owen scrambling and equal
+ * weights. Both are without bias at a fixed level. Points double until the error is below the target;
+ * nothing is evaluated twice.
+ *
+ * The interval is Student's over the replicates, and never below what one more point in one replicate could
+ * do: by the largest lasting gap between values, and by the largest value where the tail is heavy. At least
+ * two levels are compared, and a level with a doubt is not the last. A function of one value alone ends the
+ * work after 65536 evaluations.
+ * docs/choosing.md has the measured coverage.
+ *
+ * `results`, unless NULL, has one element for each of the function's values. The integral's size must be
+ * set. Errors: ARGUMENT (which option, and the range; a value that is not finite, and where), UNSUPPORTED,
+ * MEMORY, CANCELLED, and what the function returns. */
+AUR_API aur_result aur_integrate_values(aur_integrand function, void *user,
+                                        const aur_integrate_options *options, aur_estimated *results,
+                                        aur_integral *integral, aur_error *error) AUR_NONNULL(1, 3, 5);
+
+/* The same of the first value. */
 AUR_API aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate_options *options,
                                  aur_integral *integral, aur_error *error) AUR_NONNULL(1, 3, 4);
 

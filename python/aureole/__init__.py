@@ -22,6 +22,7 @@ from ._bridge import (
     CancelledError,
     Error,
     FormatError,
+    IntegrationWarning,
     InternalError,
     OpenError,
     OutOfMemoryError,
@@ -30,7 +31,7 @@ from ._bridge import (
     WriteError,
 )
 from ._core import core as _core
-from ._integrate import Estimate, Integral, estimate, integrate
+from ._integrate import Average, Estimate, Integral, average, estimate, integrate
 from ._maps import (
     fibonacci_nearest,
     lobe_pdf,
@@ -86,6 +87,7 @@ __version__: str = _core.text(_core.lib.aur_version()) or ""
 __all__ = [
     "ArgumentError",
     "AureoleWarning",
+    "Average",
     "CancelledError",
     "Directions",
     "Error",
@@ -93,6 +95,7 @@ __all__ = [
     "ExactReport",
     "FormatError",
     "Integral",
+    "IntegrationWarning",
     "InternalError",
     "Irradiance",
     "Key",
@@ -111,6 +114,7 @@ __all__ = [
     "UnsupportedError",
     "ViewFactors",
     "WriteError",
+    "average",
     "compare",
     "estimate",
     "fibonacci_nearest",
@@ -156,7 +160,7 @@ __all__ = [
     "write_image",
 ]
 
-for _error in (Error, *Error.__subclasses__(), AureoleWarning):  # their home in messages
+for _error in (Error, *Error.__subclasses__(), AureoleWarning, IntegrationWarning):  # their home in messages
     _error.__module__ = __name__
 del _error
 

@@ -69,6 +69,10 @@ class AureoleWarning(UserWarning):
     """What is worth saying and is no error, such as a size at which a set is not as even as at others."""
 
 
+class IntegrationWarning(AureoleWarning):
+    """A reason not to trust the interval of an integral, or a target that was not reached."""
+
+
 _ERRORS = {
     -1: InternalError, -2: OutOfMemoryError, -3: CancelledError, -10: ArgumentError, -11: ArgumentError,
     -12: UnknownNameError, -13: UnsupportedError, -20: FormatError, -30: OpenError, -31: WriteError,
@@ -159,6 +163,8 @@ class Call:
         self.function = function
         self.count = 0  # of values that the function returns, where the library does not say it
         self.messages: list[str] = []
+        self.category: type = AureoleWarning  # of the messages
+        self.depth = 3  # frames from the warning to the user's
         self.raised: Optional[BaseException] = None
 
     def report(self, what: str, done: int, total: int) -> int:
@@ -182,7 +188,7 @@ class Call:
         if self.raised is not None:
             raise self.raised
         for message in self.messages if error is None else ():
-            warnings.warn(message, AureoleWarning, stacklevel=3)
+            warnings.warn(message, self.category, stacklevel=self.depth)
 
 
 class Rebuilt:

@@ -18,6 +18,7 @@ class CoreCall(Call):
 
     def __init__(self, progress: Optional[Progress] = None, function: Optional[Callable[..., Any]] = None):
         super().__init__(progress, function)
+        self.coordinates = 3  # of a point that the function is called with
         self.handle = ffi.new_handle(self)
 
     def attach(self, options: Any, progress: bool = True, warnings: bool = True) -> Any:
@@ -60,11 +61,12 @@ def _copy(pointer: Any, *shape: int) -> np.ndarray:
 
 
 @ffi.def_extern(error=CANCELLED)
-def aureole_integrand(user, count, directions, along, values, error):
-    arguments = (_copy(directions, count, 3),)
+def aureole_integrand(user, count, points, along, values, error):
+    call = ffi.from_handle(user)
+    arguments = (_copy(points, count, call.coordinates),)
     if along != ffi.NULL:
         arguments += (_copy(along, count),)
-    return _values(user, arguments, values, count)
+    return _values(user, arguments, values, count * call.count)
 
 
 @ffi.def_extern(error=CANCELLED)

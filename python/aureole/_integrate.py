@@ -2,66 +2,213 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Literal, NamedTuple, Optional
+from typing import Any, Callable, Literal, NamedTuple, Optional, Sequence
 
 import numpy as np
 
-from ._bridge import Progress
+from ._bridge import ArgumentError, IntegrationWarning, Progress, Seed, encode, vector
 from ._core import CoreCall, core, ffi, lib
 from ._points import Array
 
 
+Domain = Literal[
+    "sphere", "hemisphere", "axes", "rotations", "square", "cube", "disk", "ball", "triangle", "tetrahedron"
+]
+_REGIONS = ("ball", "triangle", "tetrahedron")
+_DOUBTS = ("all equal", "sparse", "dominated", "heavy tail")
+_REASONS = ("tolerance", "evaluations", "constant")
+
+
 class Integral(NamedTuple):
-    value: float
-    error: float  #: what was held against the tolerance
-    interval: float  #: half the width of Student's interval about the value
+    """Of a function with several values per point, `value` and `interval` have the shape of one point's values."""
+
+    value: Any
+    error: float  #: compared with the tolerance; of several values the largest
+    interval: Any  #: half the width of the interval about the value
     difference: float  #: between the values of the last two levels
     evaluations: int
     levels: int
     converged: bool  #: the tolerance was reached
+    reason: str = ""  #: "tolerance", "evaluations" or "constant": why the work ended
+    doubts: tuple[str, ...] = ()  #: "all equal", "sparse", "dominated", "heavy tail": why the interval may not hold
+    resolution: float = 0.0  #: with 95 % probability a feature of this share of the domain has been seen
+
+
+class _Shape(Exception):
+    """The function has other values per point than were expected."""
+
+
+class _Integrand:
+    """A user's function, whose values per point are known once it was called: its first ones are used again."""
+
+    def __init__(self, function: Callable[..., Any]):
+        self.function = function
+        self.shape: tuple[int, ...] = ()
+        self.type: type = float
+        self.first: Optional[tuple[tuple[Array, ...], Array]] = None
+
+    @property
+    def width(self) -> int:
+        return int(np.prod(self.shape)) * (2 if self.type is complex else 1)
+
+    def __call__(self, *arguments: Array) -> Array:
+        first, self.first = self.first, None
+        if first is not None and all(map(np.array_equal, first[0], arguments)):
+            return first[1]
+        count = len(arguments[0])
+        kept = tuple(array.copy() for array in arguments)
+        made = np.asarray(self.function(*arguments))
+        made = made.astype(np.complex128 if np.iscomplexobj(made) else np.float64)  # a copy: it may be a view of them
+        if made.ndim == 0:
+            made = np.full(count, made[()])
+        if len(made) != count:
+            raise ArgumentError(f"the function must return one row of values per point, ({count}, ...), not {made.shape}")
+        if self.type is complex:
+            made = made.astype(np.complex128)
+        if made.shape[1:] != self.shape or made.dtype.type is np.complex128 and self.type is not complex:
+            self.shape = made.shape[1:]
+            self.type = complex if np.iscomplexobj(made) else float
+            self.first = (kept, np.ascontiguousarray(made).view(np.float64).ravel())
+            raise _Shape
+        return np.ascontiguousarray(made).view(np.float64).ravel()
+
+    def shaped(self, column: Array) -> Any:
+        """Numbers of all values in the shape of one point's; a number where that has none."""
+        made = np.array(column)
+        if self.type is complex:
+            made = made.view(np.complex128)
+        return made.reshape(self.shape)[()] if self.shape else made[0].item()
+
+    def widths(self, column: Array) -> Any:
+        """The same of half widths, which are of a complex number's modulus."""
+        made = self.shaped(column)
+        return abs(made) if self.type is complex else made
+
+
+def _integrate(
+    f: Callable[..., Any], domain: str, dimension: int, axis: Optional[tuple[float, float]], peaks: Sequence[Any],
+    progress: Optional[Progress], name: Optional[str], **fields: Any,
+) -> tuple[_Integrand, Any, Array]:  # fmt: skip
+    if not callable(f):
+        raise TypeError(f"expected a function, not {type(f).__name__}")
+    options = ffi.new("aur_integrate_options *")
+    region = _REGIONS.index(domain) + 1 if domain in _REGIONS else 0
+    core.initialize(options, lib.aur_integrate_options_init, core.value("domain", "cube" if region else domain))
+    core.fill(options, region=region, dimension=dimension, **fields)
+    if axis is not None:
+        core.fill(options, has_axis=True, axis_from=axis[0], axis_to=axis[1])
+    kept, made = [name and ffi.new("char[]", encode(name))], ffi.new("aur_integrate_peak[]", len(peaks))
+    for row, (centre, radius, *exponent) in zip(made, peaks):
+        point = vector(np.atleast_1d(centre), lib.aur_integrate_coordinates(options), "the centre of a peak")
+        kept.append(ffi.new("double[]", point.tolist()))
+        core.fill(row, centre=kept[-1], radius=radius, exponent=exponent[0] if exponent else 0.0)
+    core.fill(options, peak_count=len(peaks), peaks=made, set=kept[0] or ffi.NULL)
+    integrand = _Integrand(f)
+    for _ in range(3):
+        width = integrand.width
+        options.values = width
+        results = np.empty((width, 3))
+        integral = core.options("integral")
+        try:
+            with CoreCall(progress, integrand) as call:
+                call.coordinates, call.count = lib.aur_integrate_coordinates(options), width
+                call.category, call.depth = IntegrationWarning, 4
+                call.attach(options)
+                core.call(
+                    lib.aur_integrate_values, lib.aureole_integrand, call.handle, options,
+                    core.output(results, "aur_estimated"), integral,
+                )  # fmt: skip
+            return integrand, integral, results
+        except _Shape:
+            continue
+    raise ArgumentError(f"the function's values changed their shape to {integrand.shape}")
 
 
 def integrate(
-    f: Callable[..., Any], tol: float = 0.01, *, absolute: float = 0.0,
-    domain: Literal["sphere", "hemisphere"] = "sphere", cap: float = 0.0, exponent: float = 0.0,
-    axis: Optional[tuple[float, float]] = None, confidence: float = 0.95, replicates: int = 8,
-    evaluations: int = 2**22, seed: int = 0, progress: Optional[Progress] = None,
+    f: Callable[..., Any], tol: float = 0.01, *, absolute: float = 0.0, domain: Domain = "sphere",
+    dimension: int = 0, cap: float = 0.0, exponent: float = 0.0, axis: Optional[tuple[float, float]] = None,
+    peaks: Sequence[tuple[Any, ...]] = (), separate: bool = False, mean: bool = False, confidence: float = 0.95,
+    replicates: int = 16, first: int = 0, evaluations: int = 2**22, max_points: Optional[int] = None, seed: Seed = 0,
+    progress: Optional[Progress] = None,
 ) -> Integral:  # fmt: skip
-    """The integral of a function over directions, in steradians, until its error is as wanted.
+    """The integral of a function over a domain until its error is below a tolerance.
 
     Parameters
     ----------
-    f : called with unit vectors (n, 3), and where there is an axis also with the numbers (n,) on it; returns values (n,).
-        What it raises ends the integration. The arrays are the function's own: it may keep them.
-    tol : the relative error wanted; `absolute`: the absolute one. The larger of the two counts, one must be > 0.
-    domain : "sphere" or "hemisphere"; cap : degrees; not 0: the cap of that polar angle about +z.
+    f : called with points (n, coordinates), at most 1024, and with an axis also the numbers (n,) on it; returns values
+        (n,) or (n, ...), real or complex. What it raises ends the integration. The arrays are the function's own.
+    tol : the relative target error; `absolute`: the absolute one. The larger of the two counts, one must be > 0.
+    domain : directions in steradians on the "sphere" or "hemisphere"; "axes" (z >= 0, 2 pi in all); "rotations"
+        (quaternions w,x,y,z, 1 in all); "square", "disk", "cube" of `dimension`; the unit "ball"; "triangle" and
+        "tetrahedron" (coordinates >= 0 whose sum is at most 1). `mean`: divided by the domain's measure.
+    cap : degrees; not 0: the cap of that polar angle about +z.
     exponent : the function is multiplied by cos^exponent theta, on the whole hemisphere.
     axis : (a, b): the product with one more number from a to b, a radius or an energy.
-    confidence, replicates, evaluations : of the interval; randomised replicates, 4 to 64; at most so many values of f.
+    peaks : (centre, radius) or (centre, radius, exponent): parts of the domain with points of their own, where the function
+        is large in a small place. Directions have a radius in degrees, points of the square and cube half the side of a
+        box, 0 is all of the domain. `exponent`: the function grows as distance^-exponent, and is integrated without a
+        singularity.
+    separate : each of several values is an integral with its own tolerance; else the tolerance is relative to the largest.
+    confidence, replicates : of the interval; randomisations, 4 to 64.
+    first : points of a randomisation on the first level; 0: no result comes from fewer than 8192 values.
+    evaluations, max_points : two names of the largest number of values of f.
 
-    On the sphere each replicate is a spherical Fibonacci grid that doubles (Marques 2019), with exact weights, turned at
-    random; elsewhere an Owen-scrambled Sobol sequence.
+    An `IntegrationWarning` comes where the tolerance was not reached or the interval may not hold: all values are equal
+    (the interval is then infinite), few values differ, one point has most of the sum, the tail is heavy. A feature that no
+    point has hit gives no sign: `resolution` says how small it can be, and `peaks` finds it.
 
     >>> integral = integrate(lambda u: u[:, 2] ** 2, 1e-6)
     >>> round(integral.value, 6), integral.converged  # 4 pi / 3
     (4.18879, True)
+    >>> integrate(lambda x: np.exp(2j * np.pi * x[:, :1] * [0, 0.5]), domain="square").value.round(2)
+    array([1.+0.j  , 0.+0.64j])
     """
-    options = ffi.new("aur_integrate_options *")
-    core.initialize(options, lib.aur_integrate_options_init, core.value("domain", domain))
-    core.fill(
-        options, cap_degrees=cap, exponent=exponent, relative=tol, absolute=absolute, confidence=confidence,
-        replicates=replicates, evaluations=evaluations, seed=seed,
+    integrand, integral, results = _integrate(
+        f, domain, dimension, axis, peaks, progress, None, cap_degrees=cap, exponent=exponent, relative=tol,
+        absolute=absolute, confidence=confidence, replicates=replicates, first=first, seed=seed, separate=separate,
+        mean=mean, evaluations=evaluations if max_points is None else max_points,
     )  # fmt: skip
-    if axis is not None:
-        core.fill(options, has_axis=True, axis_from=axis[0], axis_to=axis[1])
-    integral = core.options("integral")
-    with CoreCall(progress, f) as call:
-        call.attach(options, warnings=False)
-        core.call(lib.aur_integrate, lib.aureole_integrand, call.handle, options, integral)
     return Integral(
-        integral.value, integral.error, integral.interval, integral.difference, integral.evaluations, integral.levels,
-        integral.reason == lib.AUR_INTEGRATE_TOLERANCE,
+        integrand.shaped(results[:, 0]), integral.error, integrand.widths(results[:, 2]), integral.difference,
+        integral.evaluations, integral.levels, integral.reason == lib.AUR_INTEGRATE_TOLERANCE,
+        _REASONS[integral.reason], tuple(name for bit, name in enumerate(_DOUBTS) if integral.doubts >> bit & 1),
+        integral.resolution,
     )  # fmt: skip
+
+
+class Average(NamedTuple):
+    value: Any
+    error: Any  #: half the width of the interval about the value
+    evaluations: int
+
+
+def average(
+    f: Callable[..., Any], n: int, domain: Domain = "sphere", *, set: Optional[str] = None, copies: int = 16,
+    dimension: int = 0, cap: float = 0.0, exponent: float = 0.0, axis: Optional[tuple[float, float]] = None,
+    confidence: float = 0.95, seed: Seed = 0, progress: Optional[Progress] = None,
+) -> Average:  # fmt: skip
+    """The mean of a function over a domain and its error, by `copies` of one set of `n` points, each moved at random.
+
+    Sets of directions and rotations are turned; on the sphere and for axes their weights are exact to a degree that they have
+    with room to spare. Other sets are Owen-scrambled, or shifted. `set`: default "spherical-fibonacci" for sphere and axes,
+    "super-fibonacci" for rotations, "sobol" elsewhere. Other parameters as for `integrate`.
+
+    >>> found = average(lambda u: np.exp(-3 * u[:, 0] ** 2), 500, "axes")
+    >>> abs(found.value - 0.50434356) < 3 * found.error + 1e-8
+    True
+    """
+    if n < 1:
+        raise ArgumentError(f"a set must have 1 point or more, not {n}")
+    if set is None:
+        turned = axis is None and cap in (0.0, 180.0)
+        set = {"sphere": "spherical-fibonacci", "axes": "spherical-fibonacci", "rotations": "super-fibonacci"}.get(
+            domain if turned else "", "sobol"
+        )
+    integrand, integral, results = _integrate(
+        f, domain, dimension, axis, (), progress, set, cap_degrees=cap, exponent=exponent, relative=0.0,
+        confidence=confidence, replicates=copies, first=n, seed=seed, mean=True, evaluations=n * copies,
+    )  # fmt: skip
+    return Average(integrand.shaped(results[:, 0]), integrand.widths(results[:, 2]), integral.evaluations)
 
 
 class Estimate(NamedTuple):
@@ -76,7 +223,7 @@ class Estimate(NamedTuple):
 def estimate(
     f: Callable[[Array, Array], Any], dimension: int, values: int = 1, *, set: str = "sobol", tol: float = 0.01,
     absolute: float = 0.0, confidence: float = 0.95, replicates: int = 16, first: int = 16, evaluations: int = 2**20,
-    seed: int = 0, progress: Optional[Progress] = None,
+    seed: Seed = 0, progress: Optional[Progress] = None,
 ) -> Estimate:  # fmt: skip
     """Any functional of points with weights, by independent randomisations of the points, with its interval.
 

@@ -3,6 +3,7 @@
 import copy
 import gc
 import inspect
+import os
 import pickle
 import re
 import subprocess
@@ -290,7 +291,7 @@ class Domains(unittest.TestCase):
 
         aureole.estimate(lambda u, w: (keep(u, w), float(w @ u[:, 0]))[1], 2, tol=1e-9, evaluations=2**14)
         aureole.integrate(lambda u: (keep(u), u[:, 2] ** 2)[1], 1e-9, evaluations=2**14)
-        aureole.integrate(lambda u, t: (keep(u, t), t * u[:, 2] ** 2)[1], 1e-3, axis=(0, 2), evaluations=2**12)
+        aureole.integrate(lambda u, t: (keep(u, t), t * u[:, 2] ** 2)[1], 0, absolute=1, axis=(0, 2), evaluations=2**14)
         aureole.Potential(function=lambda u: (keep(u), max(float(u[2]), 0.0))[1])
         aureole.measure(aureole.points("sobol", 4096, domain="sphere"), "energy", progress=lambda *a: kept.append([]))
         garbage = [np.random.default_rng(0).random(2**k) for k in range(20)]
@@ -409,9 +410,77 @@ class Figures(unittest.TestCase):
         self.assertLess(abs(with_axis.value - 32 * np.pi / 9), 3 * with_axis.error)
         half = aureole.integrate(lambda u: np.exp(u[:, 2]), 1e-4, domain="hemisphere", exponent=1)
         self.assertLess(abs(half.value - 2 * np.pi), 3 * half.error)
-        found = aureole.integrate(lambda u: abs(u[:, 0]), 1e-12, evaluations=2048)
-        self.assertFalse(found.converged)
-        self.assertEqual(found, aureole.integrate(lambda u: abs(u[:, 0]), 1e-12, evaluations=2048))
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "the target was not reached") as caught:
+            found = aureole.integrate(lambda u: abs(u[:, 0]), 1e-12, max_points=2048)
+        self.assertEqual(os.path.basename(caught.filename), "core.py")
+        self.assertEqual((found.converged, found.reason), (False, "evaluations"))
+        with self.assertWarns(aureole.AureoleWarning):
+            self.assertEqual(found, aureole.integrate(lambda u: abs(u[:, 0]), 1e-12, evaluations=2048))
+
+    def test_integrals_that_were_not_seen(self):
+        """A sun of .27 degrees: a flat sky is suspicious, and a peak finds it over any sky."""
+        sine, sun = np.sin(np.deg2rad(0.2666)), np.array([0.6, 0, 0.8])
+        truth = 1000 * np.pi + 2e7 * np.pi * sine**2 * 0.8
+
+        def sky(u):
+            return 1000 + 2e7 * (u @ sun > np.cos(np.deg2rad(0.2666)))
+
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "all values of the function are equal"):
+            found = aureole.integrate(sky, domain="hemisphere", exponent=1)
+        self.assertEqual((found.reason, found.doubts, found.error), ("constant", ("all equal",), np.inf))
+        found = aureole.integrate(sky, domain="hemisphere", exponent=1, peaks=[(sun, 0.3)])
+        self.assertTrue(found.converged)
+        self.assertLess(abs(found.value / truth - 1), 0.01)
+        found = aureole.integrate(lambda x: x[:, 0] ** -0.9, 1e-6, domain="cube", dimension=1, peaks=[(0, 0, 0.9)])
+        self.assertAlmostEqual(found.value, 10)
+
+    def test_integrals_of_several_values(self):
+        calls = []
+
+        def waves(u):
+            calls.append(len(u))
+            return np.exp(1j * u[:, :, np.newaxis] * [1, 2])
+
+        found = aureole.integrate(waves, 1e-6, mean=True)
+        self.assertEqual((found.value.shape, found.value.dtype, found.interval.shape), ((3, 2), complex, (3, 2)))
+        self.assertLess(abs(found.value - np.sin([1, 2]) / [1, 2]).max(), 1e-6)
+        self.assertEqual(sum(calls), found.evaluations)  # none to find out the shape
+        one = aureole.integrate(lambda u: np.exp(1j * u[:, 0]), 1e-6, mean=True)
+        self.assertIsInstance(one.value, complex)
+        self.assertEqual(aureole.integrate(lambda u: u[:, 2], 0, absolute=1e-3).value.__class__, float)
+        batch = aureole.integrate(lambda x: x[:, :1] ** np.arange(1, 201), domain="square", separate=True)
+        self.assertLess((abs(batch.value * np.arange(2, 202) - 1)).max(), 0.03)
+
+    def test_integrals_over_every_domain(self):
+        truth = {"sphere": 4 * np.pi / 3, "hemisphere": 2 * np.pi / 3, "axes": 2 * np.pi / 3, "rotations": 1 / 4, "square": 1 / 3,
+                 "disk": np.pi / 4, "ball": 4 * np.pi / 15, "triangle": 1 / 12, "tetrahedron": 1 / 60}  # fmt: skip
+        for domain, value in truth.items():
+            found = aureole.integrate(lambda x: x[:, -1] ** 2, 1e-3, domain=domain)
+            self.assertLess(abs(found.value / value - 1), 3e-3, domain)
+            mean = aureole.average(lambda x: x[:, -1] ** 2, 200, domain)
+            measure = aureole.integrate(lambda x: 1 + 1e-9 * x[:, 0], 1e-3, domain=domain).value
+            self.assertLess(abs(mean.value * measure / value - 1), 0.03, domain)
+            self.assertTrue(0 < mean.error < 0.02)
+        found = aureole.average(lambda x: x.sum(axis=1), 256, "cube", dimension=64)
+        self.assertLess(abs(found.value - 32), 5 * found.error)
+
+    def test_bad_integrands(self):
+        for bad in (lambda u: u[:3, 0], lambda u: "x", lambda u: u[:, 2] / 0, lambda u: {}):
+            with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
+                aureole.integrate(bad)
+        changing = iter(range(1, 10**6))
+        with self.assertRaisesRegex(aureole.ArgumentError, "changed their shape"):
+            aureole.integrate(lambda u: np.ones((len(u), next(changing))))
+        for count in (0, -1, 2**63):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.average(lambda u: u[:, 2], count)
+        for count in (1, 2):
+            self.assertGreater(aureole.average(lambda u: u[:, 2] ** 2, count).error, 0)
+        with self.assertRaises(TypeError):
+            aureole.integrate(lambda u: u[:, 2], seed="7")
+        self.assertTrue(aureole.integrate(lambda u: u[:, 2] ** 2, seed=2**63, max_points=2**63).converged)
+        held = aureole.integrate(lambda u: u[:, 2], 0, absolute=1e-6)  # a view of the argument
+        self.assertEqual(held.value, aureole.integrate(lambda u: u[:, 2] + 0, 0, absolute=1e-6).value)
 
     def test_estimate(self):
         found = aureole.estimate(lambda u, w: [w @ u.prod(axis=1), w.sum()], 3, 2, tol=1e-3)

@@ -289,8 +289,8 @@ static void defaults(void) {
     require(estimate.size == sizeof estimate && estimate.dimension == 3 && estimate.values == 2 &&
                 estimate.replicates == 16 && estimate.confidence == 0.95,
             "aur_estimate_options_init");
-    require(exact.domain == AUR_DOMAIN_SPHERE && integrate.replicates == 8 && solve.sum_constraint &&
-                grid.angle_count == 64,
+    require(exact.domain == AUR_DOMAIN_SPHERE && integrate.replicates == 16 &&
+                aur_integrate_coordinates(&integrate) == 3 && solve.sum_constraint && grid.angle_count == 64,
             "what functions fill");
     exact.size = 0;
     refuse(aur_exact_options_init(AUR_DOMAIN_SPHERE, &exact, &error), AUR_ERROR_ARGUMENT, &error);

@@ -75,6 +75,19 @@ int main() {
         },
         tolerance);
     require(std::fabs(found.value - 4.18879020478639) < 3e-3 * found.value && largest > 0.9, "an integral");
+    aur_integrate_options square =
+        aureole::options<aur_integrate_options>(aur_integrate_options_init, AUR_DOMAIN_SQUARE);
+    square.values = 2;
+    std::vector<aur_estimated> both;
+    integrate(
+        [](span<const double> x, span<const double>, span<double> values) {
+            for (std::size_t i = 0; i < values.size(); ++i)
+                values[i] = i % 2 == 0 ? x[i] : x[i] * x[i];
+        },
+        square, &both);
+    require(both.size() == 2 && std::fabs(both[0].value - 0.5) < 0.01 &&
+                std::fabs(both[1].value - 1.0 / 3.0) < 0.01,
+            "integrals of two values");
     bool passed = false;
     try {
         integrate(

@@ -1,195 +1,551 @@
-#include <aureole/exact.h>
 #include <aureole/integrate.h>
 #include <aureole/statistics.h>
+#include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "points/base/array.h"
 #include "points/base/error.h"
 #include "points/base/parallel.h"
-#include "points/base/random.h"
-#include "points/base/vector.h"
+#include "points/quadrature/integrate/evidence.h"
 #include "points/quadrature/integrate/replicates.h"
+#include "points/quadrature/integrate/shape.h"
 
-/* Points of the first level, and of the last whose weights are exact: what is not smooth enough to be done
- * then gains nothing by them. */
-enum { FIRST = 64, EXACT_POINTS = 1024 };
+/* Evaluations of the first level and the fewest of a result, unless the caller says how many; those that make
+ * a constant function believed; numbers that are stored at most, 1 GiB. */
+static const uint64_t FIRST = 2048, FEWEST = 8192, CONSTANT = 65536, STORED = UINT64_C(1) << 27;
 
 static aur_result check(const aur_integrate_options *o, aur_error *error) {
-    const double most = o->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
-    if (o->domain != AUR_DOMAIN_SPHERE && o->domain != AUR_DOMAIN_HEMISPHERE)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "integrals are over the sphere, the hemisphere and caps");
-    if (!(o->cap_degrees >= 0.0 && o->cap_degrees <= most))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the cap must be between 0 and %g degrees, not %g", most,
-                        o->cap_degrees);
-    if (!(o->exponent >= 0.0 && o->exponent <= 1e9))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the exponent must be between 0 and 1e9, not %g",
-                        o->exponent);
-    if (o->exponent > 0.0 && (o->domain == AUR_DOMAIN_SPHERE || o->cap_degrees > 0.0))
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "powers of the cosine are for the whole hemisphere");
+    const aur_result result = aur_shape_check(o, error);
+    if (result != AUR_OK)
+        return result;
     if (o->has_axis && !(isfinite(o->axis_from) && isfinite(o->axis_to) && o->axis_from < o->axis_to))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the axis must go up from one finite number to another, "
                         "not from %g to %g",
                         o->axis_from, o->axis_to);
-    if (!(o->absolute >= 0.0 && o->relative >= 0.0 && o->absolute + o->relative > 0.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "one of the tolerances must be greater than 0, not %g and %g", o->absolute,
-                        o->relative);
+    if (!(o->absolute >= 0.0 && o->relative >= 0.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the tolerances must be 0 or more, not %g and %g",
+                        o->absolute, o->relative);
     if (!(o->confidence > 0.0 && o->confidence < 1.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the confidence must be between 0 and 1 (exclusive), not %g", o->confidence);
     if (o->replicates < 4 || o->replicates > AUR_REPLICATES_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the replicates must be 4 to %d, not %zu",
                         AUR_REPLICATES_MAX, o->replicates);
-    if (o->evaluations / FIRST < o->replicates)
+    if (o->values > AUR_INTEGRATE_VALUES_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the function must have 1 to %d values, not %zu",
+                        AUR_INTEGRATE_VALUES_MAX, o->values);
+    const uint64_t least = o->first > 0 ? o->first : 2;
+    if (o->evaluations / o->replicates < least)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "%zu replicates take at least %zu evaluations; %llu are allowed", o->replicates,
-                        FIRST * o->replicates, (unsigned long long)o->evaluations);
+                        "%zu replicates of %llu points take more than the %llu evaluations that are allowed",
+                        o->replicates, (unsigned long long)least, (unsigned long long)o->evaluations);
+    if (o->set != NULL && (o->first == 0 || o->absolute + o->relative > 0.0 || o->peak_count > 0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a set makes one level: it takes `first`, no tolerance and no peaks");
     return AUR_OK;
 }
 
-/* Steradians, times the length of the axis. */
-static double measure(const aur_integrate_options *o) {
-    const double height = aur_cap_height(o);
-    const double length = o->has_axis ? o->axis_to - o->axis_from : 1.0;
-    return length * 2.0 * AUR_PI * (o->exponent > 0.0 ? 1.0 / (o->exponent + 1.0) : height);
-}
-
-/* One integration: the values of all replicates so far, replicate after replicate. */
-typedef struct integration {
-    const aur_integrate_options *options;
+/* One part of the domain: the values of all replicates so far. */
+typedef struct stratum {
     aur_replicates *replicates;
+    double scale;                       /* its measure over that of a mean */
+    size_t count;                       /* points of a replicate that have values */
+    size_t next;                        /* of the next level */
+    size_t capacity;                    /* of each array below, in points */
+    double *values[AUR_REPLICATES_MAX]; /* NaN: the point is not of this stratum */
+    double *weights;                    /* of the points, for all replicates */
+} stratum;
+
+typedef struct integration {
+    aur_integrate_options options;
     aur_integrand function;
     void *user;
-    size_t capacity; /* points of a replicate */
-    double *values;  /* options->replicates * capacity */
-    double *weights; /* capacity: of the level */
+    size_t values, strata;
+    size_t most; /* points of a replicate */
+    stratum *parts;
+    double *results, *scratch; /* of one call: points, along, factors, values; of evidence */
+    size_t scratch_capacity;
+    double *means;  /* of one value: strata * replicates */
+    double *shares; /* strata: of the variance of the mean */
+    aur_estimated *found;
+    double *before;         /* values of the level before */
+    double (*variances)[3]; /* of each value: the mean's, on this level and the two before */
+    double quantile;        /* Student's, of the half width in standard errors */
+    bool *all_equal;        /* of each value: those of all points */
+    aur_integral integral;
 } integration;
 
-/* Values of the points from `first` to `last` of every replicate. */
-static aur_result evaluate(const integration *work, size_t first, size_t last, aur_error *error) {
-    double directions[3 * AUR_INTEGRAND_POINTS], along[AUR_INTEGRAND_POINTS];
-    const aur_integrate_options *const o = work->options;
-    for (size_t r = 0; r < o->replicates; ++r) {
-        double *const values = work->values + r * work->capacity;
-        for (size_t at = first; at < last; at += AUR_INTEGRAND_POINTS) {
-            const size_t rest = last - at, count = rest < AUR_INTEGRAND_POINTS ? rest : AUR_INTEGRAND_POINTS;
-            aur_result result =
-                aur_replicates_points(work->replicates, r, at, count, directions, along, error);
-            if (result == AUR_OK)
-                result = work->function(work->user, count, directions, o->has_axis ? along : NULL,
-                                        values + at, error);
-            if (result != AUR_OK)
-                return result;
-            for (size_t i = 0; i < count; ++i)
-                if (!isfinite(values[at + i]))
-                    return aur_fail(error, AUR_ERROR_ARGUMENT,
-                                    "the function is %g in the direction (%.17g, %.17g, %.17g)",
-                                    values[at + i], directions[3 * i], directions[3 * i + 1],
-                                    directions[3 * i + 2]);
+/* --- values */
+
+static aur_result check_values(const integration *work, size_t count, const double *points,
+                               const double *values, aur_error *error) {
+    for (size_t i = 0; i < count * work->values; ++i)
+        if (!isfinite(values[i])) {
+            char place[128];
+            size_t length = 0;
+            const size_t coordinates = aur_integrate_coordinates(&work->options);
+            for (size_t d = 0; d < coordinates && d < 4; ++d)
+                length += (size_t)snprintf(place + length, sizeof place - length, "%s%.17g",
+                                           d > 0 ? ", " : "", points[i / work->values * coordinates + d]);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "the function is %g %s (%s%s)", values[i],
+                            aur_shape_is_directions(&work->options) ? "in the direction" : "at the point",
+                            place, coordinates > 4 ? ", ..." : "");
         }
-        const uint64_t done = r * last + (o->replicates - r) * first;
-        if (aur_progress_stops(&o->progress, "integrating", done, o->evaluations))
-            return aur_fail(error, AUR_ERROR_CANCELLED, "integrating: cancelled");
-    }
     return AUR_OK;
 }
 
-/* Weights to a degree that grids have with room to spare, or equal ones. */
-static aur_result weigh(const integration *work, size_t count, aur_error *error) {
-    const aur_directions *const grid = aur_replicates_grid(work->replicates);
-    for (size_t i = 0; i < count; ++i)
-        work->weights[i] = 1.0 / (double)count;
-    if (grid == NULL || count > EXACT_POINTS)
-        return AUR_OK;
-    double *const xyz = malloc(3 * count * sizeof *xyz);
-    if (xyz == NULL)
-        return aur_fail_memory(error);
-    aur_exact_options options = {.size = sizeof options};
-    aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
-    options.threads = 1;
-    options.degree = (size_t)sqrt((double)count / 2.2) - 1;
-    aur_result result = aur_directions_points(grid, 0, count, 3 * count, xyz, NULL, error);
+/* Values of one call's points of a stratum, without those that are none of it. */
+static aur_result evaluate_call(integration *work, const stratum *part, size_t replicate, size_t first,
+                                size_t count, aur_error *error) {
+    const aur_integrate_options *const o = &work->options;
+    const size_t coordinates = aur_integrate_coordinates(o), values = work->values;
+    double *const points = work->results, *const along = points + AUR_INTEGRAND_POINTS * coordinates;
+    double *const factors = along + AUR_INTEGRAND_POINTS, *const made = factors + AUR_INTEGRAND_POINTS;
+    double *const out = part->values[replicate] + first * values;
+    aur_result result =
+        aur_replicates_points(part->replicates, replicate, first, count, points, along, factors, error);
+    size_t inside = 0;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        if (factors[i] != 0.0) {
+            memmove(points + coordinates * inside, points + coordinates * i, coordinates * sizeof *points);
+            along[inside++] = along[i];
+        }
+    if (result == AUR_OK && inside > 0)
+        result = work->function(work->user, inside, points, o->has_axis ? along : NULL, made, error);
     if (result == AUR_OK)
-        result = aur_weights_exact(count, xyz, &options, count, work->weights, NULL, error);
-    free(xyz);
-    return result == AUR_ERROR_ARGUMENT ? AUR_OK : result; /* no positive ones: they stay equal */
+        result = check_values(work, inside, points, made, error);
+    work->integral.evaluations += inside;
+    for (size_t i = count; i > 0 && result == AUR_OK; --i) {
+        const double factor = factors[i - 1];
+        inside -= factor != 0.0;
+        for (size_t v = 0; v < values; ++v)
+            out[(i - 1) * values + v] = factor != 0.0 ? factor * made[inside * values + v] : (double)NAN;
+    }
+    return result;
 }
 
-/* The mean over the replicates and its interval. */
-static void judge(const integration *work, size_t count, aur_integral *integral) {
-    const aur_integrate_options *const o = work->options;
+static aur_result reserve(const integration *work, stratum *part, size_t count, aur_error *error) {
+    if (count <= part->capacity)
+        return AUR_OK;
+    for (size_t r = 0; r < work->options.replicates; ++r) {
+        size_t bytes;
+        double *grown = NULL;
+        if (aur_size_product(count, work->values * sizeof *grown, &bytes))
+            grown = realloc(part->values[r], bytes);
+        if (grown == NULL)
+            return aur_fail_memory(error);
+        part->values[r] = grown;
+    }
+    double *const weights = realloc(part->weights, count * sizeof *weights);
+    if (weights == NULL)
+        return aur_fail_memory(error);
+    part->weights = weights;
+    part->capacity = count;
+    return AUR_OK;
+}
+
+/* Brings a stratum to the points of the next level. */
+static aur_result evaluate(integration *work, stratum *part, aur_error *error) {
+    const aur_integrate_options *const o = &work->options;
+    const size_t count = part->next;
+    if (count == part->count)
+        return AUR_OK;
+    aur_result result = reserve(work, part, count, error);
+    for (size_t r = 0; r < o->replicates && result == AUR_OK; ++r) {
+        for (size_t at = part->count; at < count && result == AUR_OK; at += AUR_INTEGRAND_POINTS) {
+            const size_t rest = count - at;
+            result = evaluate_call(work, part, r, at,
+                                   rest < AUR_INTEGRAND_POINTS ? rest : AUR_INTEGRAND_POINTS, error);
+        }
+        if (result == AUR_OK &&
+            aur_progress_stops(&o->progress, "integrating", work->integral.evaluations, o->evaluations))
+            result = aur_fail(error, AUR_ERROR_CANCELLED, "integrating: cancelled");
+    }
+    if (result == AUR_OK)
+        result = aur_replicates_weights(part->replicates, count, part->weights, error);
+    part->count = count;
+    return result;
+}
+
+/* --- intervals */
+
+/* The means of one value over each stratum and replicate, times the measures. */
+static void add_up(const integration *work, size_t value) {
+    const size_t replicates = work->options.replicates;
+    for (size_t s = 0; s < work->strata; ++s) {
+        const stratum *const part = &work->parts[s];
+        for (size_t r = 0; r < replicates; ++r) {
+            const double *const values = part->values[r] + value;
+            double sum = 0.0;
+            for (size_t i = 0; i < part->count; ++i) {
+                const double term = values[i * work->values];
+                sum += isnan(term) ? 0.0 : part->weights[i] * term;
+            }
+            work->means[s * replicates + r] = part->scale * sum;
+        }
+    }
+}
+
+/* Over the replicates, of one stratum or of all. */
+static aur_moments moments_of(const integration *work, size_t only) {
+    const size_t replicates = work->options.replicates;
     aur_moments moments = {0};
-    for (size_t r = 0; r < o->replicates; ++r) {
+    for (size_t r = 0; r < replicates; ++r) {
         double sum = 0.0;
-        for (size_t i = 0; i < count; ++i)
-            sum += work->weights[i] * work->values[r * work->capacity + i];
+        for (size_t s = 0; s < work->strata; ++s)
+            sum += only == work->strata || s == only ? work->means[s * replicates + r] : 0.0;
         aur_moments_add(&moments, sum);
     }
-    const double scale = measure(o), value = scale * moments.mean;
-    integral->difference = integral->levels > 0 ? fabs(value - integral->value) : INFINITY;
-    integral->value = value;
-    integral->interval = scale * aur_moments_interval(&moments, o->confidence);
-    integral->error = fmax(integral->interval, 0.25 * integral->difference);
-    integral->evaluations = o->replicates * count;
-    ++integral->levels;
+    return moments;
 }
 
-static aur_result integrate(integration *work, aur_integral *integral, aur_error *error) {
-    const aur_integrate_options *const o = work->options;
-    size_t before = 0;
-    for (size_t count = FIRST;; count *= 2) {
-        aur_result result = evaluate(work, before, count, error);
+/* The variance of a mean, given that of this level and what those of the levels before let expect: where
+ * replicates agree by chance, the work would end. Variances fall between n^-1 (random points) and n^-4. */
+static double pooled(const double variance[3], size_t levels) {
+    if (levels < 2 || !(variance[2] > 0.0))
+        return variance[0];
+    const double fall = fmin(fmax(variance[1] / variance[2], 1.0 / 16.0), 0.5);
+    return fmax(variance[0], 0.5 * (variance[0] + fall * variance[1]));
+}
+
+/* A value and its interval over the replicates alone; adds the strata's variances to their shares. */
+static void judge_replicates(integration *work, size_t value) {
+    add_up(work, value);
+    const aur_moments all = moments_of(work, work->strata);
+    double *const variance = work->variances[value];
+    variance[0] = pow(aur_moments_standard_error(&all), 2.0);
+    const double error = sqrt(pooled(variance, work->integral.levels));
+    work->found[value] = (aur_estimated){all.mean, error, work->quantile * error};
+    for (size_t s = 0; s < work->strata; ++s) {
+        const aur_moments own = moments_of(work, s);
+        work->shares[s] += pow(aur_moments_standard_error(&own), 2.0);
+    }
+}
+
+/* The values of one stratum, those of two levels ago first, for `evidence`; how many are of it. */
+static size_t gather(const integration *work, const stratum *part, size_t value, size_t *older) {
+    size_t count = 0;
+    const size_t quarter = part->count / 4;
+    for (size_t round = 0; round < 2; ++round) {
+        for (size_t r = 0; r < work->options.replicates; ++r)
+            for (size_t i = round == 0 ? 0 : quarter; i < (round == 0 ? quarter : part->count); ++i) {
+                const double term = part->values[r][i * work->values + value];
+                if (!isnan(term))
+                    work->scratch[count++] = term;
+            }
+        *older = round == 0 ? count : *older;
+    }
+    return count;
+}
+
+/* Widens the interval by what one more point in one replicate may do. If all R replicates hold the same
+ * count, the probability phi that one holds one more is, at alpha/2, below 1 - (alpha/2)^(1/R), about
+ * ln(2/alpha)/R: the mean is uncertain by ln(2/alpha) jump/(R n), which the half width is made to contain.
+ */
+static void widen(integration *work, size_t value, size_t s, const aur_evidence *evidence) {
+    const stratum *const part = &work->parts[s];
+    const double alpha = 1.0 - work->options.confidence;
+    const double points = (double)(work->options.replicates * part->count);
+    const double rounding = 8.0 * DBL_EPSILON * part->scale * evidence->magnitude;
+    const double floor = log(2.0 / alpha) * part->scale * evidence->jump / points + rounding;
+    aur_estimated *const found = &work->found[value];
+    found->half_width = hypot(found->half_width, floor);
+    found->error = hypot(found->error, floor / work->quantile);
+    work->shares[s] += pow(floor / work->quantile, 2.0);
+}
+
+/* What is known of the function beside the spread of replicates, over all values. */
+typedef struct doubts {
+    bool all_equal; /* all values of all points outside of peaks, without any in them */
+    unsigned bits;
+} doubts;
+
+static unsigned bits_of(const aur_evidence *evidence) {
+    return (evidence->sparse ? AUR_INTEGRATE_SPARSE : 0U) |
+           (evidence->dominated ? AUR_INTEGRATE_DOMINATED : 0U) |
+           (evidence->heavy_tail ? AUR_INTEGRATE_HEAVY_TAIL : 0U);
+}
+
+static void judge_all_replicates(integration *work) {
+    for (size_t s = 0; s < work->strata; ++s)
+        work->shares[s] = 0.0;
+    for (size_t v = 0; v < work->values; ++v)
+        judge_replicates(work, v);
+}
+
+/* The same intervals by all evidence. */
+static aur_result judge_values(integration *work, doubts *doubt, aur_error *error) {
+    size_t most = 0;
+    for (size_t s = 0; s < work->strata; ++s)
+        most = work->parts[s].count > most ? work->parts[s].count : most;
+    if (!aur_array_reserve(&work->scratch, &work->scratch_capacity, 2 * most * work->options.replicates,
+                           sizeof *work->scratch))
+        return aur_fail_memory(error);
+    bool varies = false;
+    for (size_t v = 0; v < work->values; ++v) {
+        bool equal = true;
+        for (size_t s = 0; s < work->strata; ++s) {
+            size_t older;
+            const size_t count = gather(work, &work->parts[s], v, &older);
+            const aur_evidence evidence = aur_evidence_of(count, older, work->scratch, work->scratch + count);
+            widen(work, v, s, &evidence);
+            doubt->bits |= bits_of(&evidence);
+            equal = equal && evidence.all_equal;
+        }
+        work->all_equal[v] = equal;
+        varies = varies || !equal;
+        doubt->all_equal = doubt->all_equal || (equal && work->options.separate);
+    }
+    doubt->all_equal = work->options.peak_count == 0 && (doubt->all_equal || !varies);
+    return AUR_OK;
+}
+
+/* The errors of the level, compared with the target. */
+static bool compare(integration *work) {
+    const aur_integrate_options *const o = &work->options;
+    aur_integral *const integral = &work->integral;
+    double largest = 0.0;
+    for (size_t v = 0; v < work->values; ++v)
+        largest = fmax(largest, fabs(work->found[v].value));
+    bool met = true;
+    integral->error = 0.0;
+    for (size_t v = 0; v < work->values; ++v) {
+        const aur_estimated *const found = &work->found[v];
+        const double change = integral->levels > 0 ? fabs(found->value - work->before[v]) : INFINITY;
+        const double own = fmax(found->half_width, 0.25 * change);
+        const double target = o->separate ? fabs(found->value) : largest;
+        met = met && own <= fmax(o->absolute, o->relative * target);
+        integral->error = fmax(integral->error, own);
+        if (v == 0)
+            integral->difference = change;
+    }
+    integral->value = work->found[0].value;
+    integral->interval = work->found[0].half_width;
+    return met;
+}
+
+/* --- levels */
+
+/* Doubles the strata that matter. False: it would take more evaluations than allowed. */
+static bool choose(integration *work) {
+    double largest = 0.0;
+    uint64_t evaluations = 0, stored = 0;
+    for (size_t s = 0; s < work->strata; ++s)
+        largest = fmax(largest, work->shares[s]);
+    for (size_t s = 0; s < work->strata; ++s) {
+        stratum *const part = &work->parts[s];
+        part->next = work->shares[s] >= 0.125 * largest ? 2 * part->count : part->count;
+        evaluations += (uint64_t)part->next * work->options.replicates;
+        stored += (uint64_t)part->next * (work->options.replicates * work->values + 1);
+        if (part->next > work->most)
+            return false;
+    }
+    return evaluations <= work->options.evaluations && stored <= STORED;
+}
+
+/* All values were equal: nothing is known of what differs from them. */
+static void judge_constant(integration *work) {
+    aur_integral *const integral = &work->integral;
+    integral->doubts |= AUR_INTEGRATE_ALL_EQUAL;
+    if (integral->evaluations >= CONSTANT)
+        integral->reason = AUR_INTEGRATE_CONSTANT;
+    for (size_t v = 0; v < work->values; ++v)
+        if (work->all_equal[v])
+            work->found[v].half_width = work->found[v].error = INFINITY;
+    integral->interval = work->found[0].half_width;
+    integral->error = INFINITY;
+}
+
+/* Whether the level is the last. */
+static aur_result judge_level(integration *work, bool *last, aur_error *error) {
+    const aur_integrate_options *const o = &work->options;
+    aur_integral *const integral = &work->integral;
+    const bool to_target = o->absolute + o->relative > 0.0;
+    judge_all_replicates(work);
+    const bool met = compare(work);
+    if (to_target && !met && choose(work))
+        return AUR_OK;
+    doubts doubt = {0};
+    const aur_result result = judge_values(work, &doubt, error);
+    if (result != AUR_OK)
+        return result;
+    integral->doubts = doubt.bits;
+    const uint64_t fewest = doubt.all_equal ? CONSTANT : o->first > 0 ? 0 : FEWEST;
+    const bool done = met && to_target && doubt.bits == 0 && compare(work) && !doubt.all_equal &&
+                      integral->evaluations >= fewest;
+    *last = done || !to_target || (doubt.all_equal && integral->evaluations >= fewest) || !choose(work);
+    integral->reason = done ? AUR_INTEGRATE_TOLERANCE : AUR_INTEGRATE_EVALUATIONS;
+    compare(work);
+    if (*last && doubt.all_equal)
+        judge_constant(work);
+    return AUR_OK;
+}
+
+static aur_result integrate(integration *work, aur_error *error) {
+    for (bool last = false; !last;) {
+        aur_result result = AUR_OK;
+        for (size_t s = 0; s < work->strata && result == AUR_OK; ++s)
+            result = evaluate(work, &work->parts[s], error);
         if (result == AUR_OK)
-            result = weigh(work, count, error);
+            result = judge_level(work, &last, error);
         if (result != AUR_OK)
             return result;
-        judge(work, count, integral);
-        before = count;
-        integral->reason = AUR_INTEGRATE_TOLERANCE;
-        if (integral->error <= fmax(o->absolute, o->relative * fabs(integral->value)))
-            return AUR_OK;
-        integral->reason = AUR_INTEGRATE_EVALUATIONS;
-        if (2 * count > work->capacity)
-            return AUR_OK;
+        ++work->integral.levels;
+        for (size_t v = 0; v < work->values; ++v) {
+            work->before[v] = work->found[v].value;
+            memmove(work->variances[v] + 1, work->variances[v], 2 * sizeof **work->variances);
+        }
     }
+    work->integral.resolution = 3.0 / (double)work->integral.evaluations;
+    return AUR_OK;
+}
+
+static void warn(const integration *work) {
+    static const char *const words[] = {
+        "all values of the function are equal: features smaller than a share of %.2g of the domain may not "
+        "have been seen (peaks with points of their own and more evaluations help)",
+        "fewer than 32 values of the function differ from the others: the error may be larger (resolution: a "
+        "share of %.2g of the domain)",
+        "one point has more than half of the sum of the values: the error may be larger (resolution: a share "
+        "of %.2g of the domain)",
+        "the largest values fall as slowly as those of infinite variance do: the interval may not hold "
+        "(resolution: a share of %.2g of the domain; declare a singularity by the exponent of a peak)"};
+    const aur_integral *const integral = &work->integral;
+    const aur_integrate_options *const o = &work->options;
+    for (size_t bit = 0; bit < sizeof words / sizeof words[0]; ++bit)
+        if (integral->doubts >> bit & 1U)
+            aur_warn_at(&o->warnings, (aur_location){0}, words[bit], integral->resolution);
+    if (integral->reason == AUR_INTEGRATE_EVALUATIONS && o->absolute + o->relative > 0.0)
+        aur_warn_at(&o->warnings, (aur_location){0},
+                    "the target was not reached: the error is %.3g after %llu evaluations", integral->error,
+                    (unsigned long long)integral->evaluations);
+}
+
+/* --- the call */
+
+static size_t power_of_two(uint64_t least) {
+    size_t power = 1;
+    while (power < least)
+        power *= 2;
+    return power;
+}
+
+/* Points of the rest of the domain on the first level. */
+static size_t first_points(const integration *work) {
+    const aur_integrate_options *const o = &work->options;
+    if (o->set != NULL)
+        return o->first;
+    if (o->first > 0)
+        return power_of_two(o->first);
+    size_t first = power_of_two(FIRST / o->replicates);
+    while (first > 2 &&
+           (2 * first * o->replicates > o->evaluations || 2 * first * o->replicates * work->values > STORED))
+        first /= 2;
+    return first;
+}
+
+static aur_result open_strata(integration *work, aur_error *error) {
+    const aur_integrate_options *const o = &work->options;
+    const size_t first = first_points(work), least = first < 16 ? first : 16;
+    const uint64_t share = o->evaluations / o->replicates;
+    work->most = o->set != NULL ? first : power_of_two(share < STORED ? share : STORED);
+    uint64_t points = 0;
+    aur_result result = AUR_OK;
+    for (size_t s = 0; s < work->strata && result == AUR_OK; ++s) {
+        stratum *const part = &work->parts[s];
+        const size_t of_peak = power_of_two(first / work->strata);
+        part->next = s == o->peak_count ? first : of_peak > least ? of_peak : least;
+        points += (uint64_t)part->next * o->replicates;
+        result = aur_replicates_create(o, s, work->most, &part->replicates, error);
+        if (result == AUR_OK)
+            part->scale = aur_replicates_measure(part->replicates);
+    }
+    if (result == AUR_OK && points > o->evaluations)
+        result = aur_fail(error, AUR_ERROR_ARGUMENT,
+                          "the first level takes %llu evaluations, and %llu are allowed",
+                          (unsigned long long)points, (unsigned long long)o->evaluations);
+    const double total = work->parts[o->peak_count].scale;
+    for (size_t s = 0; s < work->strata && o->mean && result == AUR_OK; ++s)
+        work->parts[s].scale /= total;
+    return result;
+}
+
+static aur_result open(integration *work, aur_error *error) {
+    const aur_integrate_options *const o = &work->options;
+    const size_t coordinates = aur_integrate_coordinates(o);
+    work->values = o->values > 0 ? o->values : 1;
+    work->strata = o->peak_count + 1;
+    work->parts = calloc(work->strata, sizeof *work->parts);
+    work->results = malloc((coordinates + 2 + work->values) * AUR_INTEGRAND_POINTS * sizeof *work->results);
+    work->means = malloc(work->strata * (o->replicates + 1) * sizeof *work->means);
+    work->found = malloc(work->values * sizeof *work->found);
+    work->before = malloc(work->values * sizeof *work->before);
+    work->all_equal = calloc(work->values, sizeof *work->all_equal);
+    work->variances = calloc(work->values, sizeof *work->variances);
+    work->quantile = aur_student_quantile(o->replicates - 1, 0.5 + 0.5 * o->confidence);
+    if (work->parts == NULL || work->results == NULL || work->means == NULL || work->found == NULL ||
+        work->before == NULL || work->all_equal == NULL || work->variances == NULL)
+        return aur_fail_memory(error);
+    work->shares = work->means + work->strata * o->replicates;
+    return open_strata(work, error);
+}
+
+static void release(integration *work) {
+    for (size_t s = 0; s < work->strata && work->parts != NULL; ++s) {
+        aur_replicates_destroy(work->parts[s].replicates);
+        for (size_t r = 0; r < AUR_REPLICATES_MAX; ++r)
+            free(work->parts[s].values[r]);
+        free(work->parts[s].weights);
+    }
+    free(work->parts);
+    free(work->results);
+    free(work->means);
+    free(work->found);
+    free(work->before);
+    free(work->all_equal);
+    free(work->variances);
+    free(work->scratch);
+}
+
+aur_result aur_integrate_values(aur_integrand function, void *user, const aur_integrate_options *options,
+                                aur_estimated *results, aur_integral *integral, aur_error *error) {
+    integration work = {.options = {.size = sizeof work.options},
+                        .function = function,
+                        .user = user,
+                        .integral = {.size = sizeof work.integral}};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &work.options, NULL);
+    aur_result result =
+        aur_options_read(options, sizeof work.options, &work.options, "aur_integrate_options", error);
+    if (result == AUR_OK)
+        result = check(&work.options, error);
+    if (result == AUR_OK)
+        result = open(&work, error);
+    if (result == AUR_OK)
+        result = integrate(&work, error);
+    if (result == AUR_OK)
+        result = aur_description_write(&work.integral, sizeof work.integral, integral, "aur_integral", error);
+    if (result == AUR_OK && results != NULL)
+        memcpy(results, work.found, work.values * sizeof *results);
+    if (result == AUR_OK)
+        warn(&work);
+    release(&work);
+    return result;
 }
 
 aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate_options *options,
                          aur_integral *integral, aur_error *error) {
-    aur_integrate_options own = {.size = sizeof own};
-    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_integrate_options", error);
-    if (result == AUR_OK)
-        result = check(&own, error);
-    if (result != AUR_OK)
-        return result;
-    integration work = {.options = &own, .function = function, .user = user, .capacity = FIRST};
-    while (2 * work.capacity <= own.evaluations / own.replicates)
-        work.capacity *= 2;
-    work.values = malloc((own.replicates + 1) * work.capacity * sizeof *work.values);
-    aur_integral found = {.size = sizeof found};
-    if (work.values == NULL) {
-        result = aur_fail_memory(error);
-    } else {
-        work.weights = work.values + own.replicates * work.capacity;
-        result = aur_replicates_create(&own, work.capacity, &work.replicates, error);
-        if (result == AUR_OK)
-            result = integrate(&work, &found, error);
-        aur_replicates_destroy(work.replicates);
-    }
-    free(work.values);
-    return result == AUR_OK ? aur_description_write(&found, sizeof found, integral, "aur_integral", error)
-                            : result;
+    return aur_integrate_values(function, user, options, NULL, integral, error);
 }
 
 aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options, aur_error *error) {
     static const aur_integrate_options defaults = {.size = sizeof defaults,
                                                    .relative = 0.01,
                                                    .confidence = 0.95,
-                                                   .replicates = 8,
+                                                   .replicates = 16,
                                                    .evaluations = UINT64_C(1) << 22};
     const aur_result result =
         aur_description_write(&defaults, sizeof defaults, options, "aur_integrate_options", error);

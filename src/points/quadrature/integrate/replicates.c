@@ -1,58 +1,101 @@
 #include "points/quadrature/integrate/replicates.h"
 
+#include <aureole/exact.h>
+#include <aureole/rotations.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "points/base/error.h"
 #include "points/base/random.h"
 #include "points/base/vector.h"
+#include "points/quadrature/integrate/shape.h"
 #include "points/sphere/map.h"
 
+/* Points of the last level with weights of a high degree: what is not smooth enough to be done then gains
+ * nothing by them. Beyond, degree 6 makes up for grids that are uneven between their complete levels. */
+enum { EXACT_POINTS = 1024, EXACT_DEGREE = 6 };
+
 struct aur_replicates {
-    aur_integrate_options options;
-    aur_directions *grid;                       /* or NULL */
-    aur_pointset *sets[AUR_REPLICATES_MAX];     /* where there is no grid */
-    aur_rotation rotations[AUR_REPLICATES_MAX]; /* where there is one */
+    const aur_integrate_options *options;
+    size_t peak;
+    aur_directions *grid;                       /* turned by the rotations; or NULL */
+    aur_rotations *turns;                       /* a set of rotations, turned likewise; or NULL */
+    aur_pointset *sets[AUR_REPLICATES_MAX];     /* elsewhere */
+    aur_rotation rotations[AUR_REPLICATES_MAX]; /* of the grid */
+    double quaternions[AUR_REPLICATES_MAX][4];  /* of the set of rotations */
+    double *cube;                               /* AUR_INTEGRAND_POINTS points of the sets */
 };
 
-double aur_cap_height(const aur_integrate_options *options) {
-    if (options->cap_degrees > 0.0)
-        return 2.0 * pow(sin(0.5 * options->cap_degrees / 180.0 * AUR_PI), 2.0);
-    return options->domain == AUR_DOMAIN_SPHERE ? 2.0 : 1.0;
+static bool is_rest(const aur_replicates *r) {
+    return r->peak == r->options->peak_count;
 }
 
-static aur_result make_grid(aur_replicates *replicates, size_t capacity, aur_error *error) {
+static aur_result make_grid(aur_replicates *r, size_t capacity, aur_error *error) {
+    const aur_integrate_options *const o = r->options;
     aur_directions_options options = {.size = sizeof options};
-    aur_directions_options_init(capacity, AUR_DOMAIN_SPHERE, &options, NULL);
-    for (size_t r = 0; r < replicates->options.replicates; ++r)
-        aur_rotation_uniform(aur_hash3(replicates->options.seed, 0x7475726e, r), &replicates->rotations[r]);
-    return aur_directions_create("esfg:base=64", &options, &replicates->grid, error);
+    aur_directions_options_init(capacity, o->domain, &options, NULL);
+    for (size_t i = 0; i < o->replicates; ++i)
+        aur_rotation_uniform(aur_hash3(o->seed, 0x7475726e, i), &r->rotations[i]);
+    char grid[32];
+    snprintf(grid, sizeof grid, "esfg:base=%zu", capacity < 64 ? capacity : 64);
+    return aur_directions_create(o->set != NULL ? o->set : grid, &options, &r->grid, error);
 }
 
-static aur_result make_sets(aur_replicates *replicates, size_t capacity, aur_error *error) {
+static aur_result make_turns(aur_replicates *r, size_t capacity, aur_error *error) {
+    aur_rotations_options options = {.size = sizeof options};
+    aur_rotations_options_init(capacity, &options, NULL);
+    for (size_t i = 0; i < r->options->replicates; ++i)
+        aur_quaternion_uniform(aur_hash3(r->options->seed, 0x7475726e, i), r->quaternions[i]);
+    return aur_rotations_create(r->options->set, &options, &r->turns, error);
+}
+
+static size_t cube_dimension(const aur_integrate_options *options) {
+    return aur_shape_dimension(options) + (options->has_axis ? 1 : 0);
+}
+
+static aur_result make_sets(aur_replicates *r, size_t capacity, aur_error *error) {
+    const aur_integrate_options *const o = r->options;
     aur_pointset_options options = {.size = sizeof options};
     aur_pointset_options_init(capacity, &options, NULL);
-    options.dimension = replicates->options.has_axis ? 3 : 2;
-    options.scramble = AUR_SCRAMBLE_OWEN;
-    aur_result result = AUR_OK;
-    for (size_t r = 0; r < replicates->options.replicates && result == AUR_OK; ++r) {
-        options.seed = aur_hash3(replicates->options.seed, 0x6f77656e, r);
-        result = aur_pointset_create("sobol", &options, &replicates->sets[r], error);
+    options.dimension = cube_dimension(o);
+    const char *const set = o->set != NULL ? o->set : "sobol";
+    r->cube = malloc(options.dimension * AUR_INTEGRAND_POINTS * sizeof *r->cube);
+    aur_result result = r->cube != NULL ? AUR_OK : aur_fail_memory(error);
+    for (size_t i = 0; i < o->replicates && result == AUR_OK; ++i) {
+        const uint64_t seed = aur_hash3(o->seed, 0x6f77656e, i);
+        options.seed = is_rest(r) ? seed : aur_hash2(seed, r->peak);
+        options.scramble = AUR_SCRAMBLE_OWEN;
+        result = aur_pointset_create(set, &options, &r->sets[i], error);
+        options.scramble = AUR_SCRAMBLE_SHIFT;
+        if (result == AUR_ERROR_UNSUPPORTED)
+            result = aur_pointset_create(set, &options, &r->sets[i], error);
     }
     return result;
 }
 
-aur_result aur_replicates_create(const aur_integrate_options *options, size_t capacity,
+/* A whole domain that random rotations take to itself. */
+static bool is_turned(const aur_replicates *r) {
+    const aur_integrate_options *const o = r->options;
+    return is_rest(r) && !o->has_axis && aur_shape_is_directions(o) &&
+           (o->domain == AUR_DOMAIN_AXES ||
+            (o->domain == AUR_DOMAIN_SPHERE && aur_shape_cap_height(o) == 2.0));
+}
+
+aur_result aur_replicates_create(const aur_integrate_options *options, size_t peak, size_t capacity,
                                  aur_replicates **replicates, aur_error *error) {
-    *replicates = calloc(1, sizeof **replicates);
-    if (*replicates == NULL)
+    aur_replicates *const r = *replicates = calloc(1, sizeof *r);
+    if (r == NULL)
         return aur_fail_memory(error);
-    (*replicates)->options = *options;
-    const bool turned = aur_cap_height(options) == 2.0 && !options->has_axis;
-    const aur_result result =
-        turned ? make_grid(*replicates, capacity, error) : make_sets(*replicates, capacity, error);
+    r->options = options;
+    r->peak = peak;
+    const bool rotations = options->region == AUR_REGION_DOMAIN && options->domain == AUR_DOMAIN_ROTATIONS;
+    const aur_result result = is_turned(r) ? make_grid(r, capacity, error)
+                              : rotations && options->set != NULL && !options->has_axis
+                                  ? make_turns(r, capacity, error)
+                                  : make_sets(r, capacity, error);
     if (result != AUR_OK) {
-        aur_replicates_destroy(*replicates);
+        aur_replicates_destroy(r);
         *replicates = NULL;
     }
     return result;
@@ -61,38 +104,101 @@ aur_result aur_replicates_create(const aur_integrate_options *options, size_t ca
 void aur_replicates_destroy(aur_replicates *replicates) {
     if (replicates == NULL)
         return;
-    for (size_t r = 0; r < replicates->options.replicates; ++r)
+    for (size_t r = 0; r < replicates->options->replicates; ++r)
         aur_pointset_destroy(replicates->sets[r]);
     aur_directions_destroy(replicates->grid);
+    aur_rotations_destroy(replicates->turns);
+    free(replicates->cube);
     free(replicates);
 }
 
-const aur_directions *aur_replicates_grid(const aur_replicates *replicates) {
-    return replicates->grid;
+double aur_replicates_measure(const aur_replicates *replicates) {
+    const aur_integrate_options *const o = replicates->options;
+    const double measure =
+        is_rest(replicates) ? aur_shape_measure(o) : aur_shape_peak_measure(o, o->peaks + replicates->peak);
+    return measure * (o->has_axis ? o->axis_to - o->axis_from : 1.0);
 }
 
-aur_result aur_replicates_points(const aur_replicates *replicates, size_t replicate, size_t first,
-                                 size_t count, double *directions, double *along, aur_error *error) {
-    const aur_integrate_options *const o = &replicates->options;
-    if (replicates->grid != NULL) {
-        const aur_result made =
-            aur_directions_points(replicates->grid, first, count, 3 * count, directions, NULL, error);
-        aur_rotation_apply(&replicates->rotations[replicate], count, directions);
-        return made;
+/* Points that a peak before this stratum's has are none of it. */
+static void exclude(const aur_replicates *r, size_t count, const double *points, double *factors) {
+    const aur_integrate_options *const o = r->options;
+    const size_t coordinates = aur_integrate_coordinates(o);
+    for (size_t i = 0; i < count; ++i)
+        for (size_t p = 0; p < r->peak && factors[i] != 0.0; ++p)
+            if (aur_shape_peak_holds(o, o->peaks + p, points + coordinates * i))
+                factors[i] = 0.0;
+}
+
+static aur_result turned_points(const aur_replicates *r, size_t replicate, size_t first, size_t count,
+                                double *points, aur_error *error) {
+    if (r->turns != NULL) {
+        const aur_result result = aur_rotations_points(r->turns, first, count, 4 * count, points, error);
+        for (size_t i = 0; i < count && result == AUR_OK; ++i)
+            aur_quaternion_multiply(r->quaternions[replicate], points + 4 * i, points + 4 * i);
+        return result;
     }
-    double square[3 * AUR_INTEGRAND_POINTS];
-    const size_t dimension = o->has_axis ? 3 : 2;
-    const double height = aur_cap_height(o);
-    const aur_lobe lobe = {.exponent = o->exponent};
-    const aur_result result =
-        aur_pointset_points(replicates->sets[replicate], first, count, dimension * count, square, error);
-    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        double *const direction = directions + 3 * i;
-        aur_point_to_cap(AUR_MAP_LAMBERT, height, square + dimension * i, direction);
-        if (o->exponent > 0.0)
-            aur_lobe_warp(&lobe, 1, direction, direction);
-        if (o->has_axis)
-            along[i] = o->axis_from + (o->axis_to - o->axis_from) * square[dimension * i + 2];
+    const aur_result result = aur_directions_points(r->grid, first, count, 3 * count, points, NULL, error);
+    if (result != AUR_OK)
+        return result;
+    aur_rotation_apply(&r->rotations[replicate], count, points);
+    for (size_t i = 0; i < 3 * count && r->options->domain == AUR_DOMAIN_AXES; i += 3) {
+        const double sign = points[i + 2] < 0.0 ? -1.0 : 1.0;
+        for (size_t d = 0; d < 3; ++d)
+            points[i + d] *= sign;
     }
+    return AUR_OK;
+}
+
+aur_result aur_replicates_points(const aur_replicates *r, size_t replicate, size_t first, size_t count,
+                                 double *points, double *along, double *factors, aur_error *error) {
+    const aur_integrate_options *const o = r->options;
+    const size_t dimension = cube_dimension(o), coordinates = aur_integrate_coordinates(o);
+    for (size_t i = 0; i < count; ++i)
+        factors[i] = 1.0;
+    aur_result result;
+    if (r->sets[0] == NULL) {
+        result = turned_points(r, replicate, first, count, points, error);
+    } else {
+        result = aur_pointset_points(r->sets[replicate], first, count, dimension * count, r->cube, error);
+        for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+            const double *const cube = r->cube + dimension * i;
+            if (is_rest(r))
+                aur_shape_point(o, cube, points + coordinates * i);
+            else
+                aur_shape_peak_point(o, o->peaks + r->peak, cube, points + coordinates * i, factors + i);
+            if (o->has_axis)
+                along[i] = o->axis_from + (o->axis_to - o->axis_from) * cube[dimension - 1];
+        }
+    }
+    if (result == AUR_OK)
+        exclude(r, count, points, factors);
     return result;
+}
+
+aur_result aur_replicates_weights(const aur_replicates *r, size_t count, double *weights, aur_error *error) {
+    for (size_t i = 0; i < count; ++i)
+        weights[i] = 1.0 / (double)count;
+    if (r->grid == NULL || count < 2)
+        return AUR_OK;
+    double *const xyz = malloc(3 * count * sizeof *xyz);
+    if (xyz == NULL)
+        return aur_fail_memory(error);
+    const bool axes = r->options->domain == AUR_DOMAIN_AXES;
+    aur_exact_options options = {.size = sizeof options};
+    aur_exact_options_init(r->options->domain, &options, NULL);
+    options.threads = 1;
+    const size_t degree = (size_t)fmax(sqrt((double)count * (axes ? 2.0 : 1.0) / 2.2) - 1.0, 0.0);
+    options.degree = count > EXACT_POINTS && degree > EXACT_DEGREE ? EXACT_DEGREE : degree;
+    /* A set's own weights may be exact to a higher degree: the nearest to them are they themselves. */
+    double *const own = r->options->set != NULL ? weights : NULL;
+    aur_result result = aur_directions_points(r->grid, 0, count, 3 * count, xyz, own, error);
+    double sum = 0.0;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        sum += weights[i];
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        weights[i] /= sum;
+    if (result == AUR_OK)
+        result = aur_weights_exact(count, xyz, &options, count, weights, NULL, error);
+    free(xyz);
+    return result == AUR_ERROR_ARGUMENT ? AUR_OK : result; /* no positive ones: they stay */
 }

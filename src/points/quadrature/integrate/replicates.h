@@ -4,23 +4,26 @@
 
 #include <aureole/integrate.h>
 
+/* The replicates of one stratum of the domain: of one peak, or of what the peaks leave. */
 typedef struct aur_replicates aur_replicates;
 
 enum { AUR_REPLICATES_MAX = 64 };
 
-/* 1 - cos of the polar angle of the domain or cap. */
-double aur_cap_height(const aur_integrate_options *options);
-
-/* options->replicates of them with `capacity` points each. On the whole sphere without an axis they are one
- * grid and its random turns, else Sobol points with random scramblings. On failure *replicates is NULL. */
-aur_result aur_replicates_create(const aur_integrate_options *options, size_t capacity,
+/* options->replicates of them with `capacity` points each. `peak` is an index, or peak_count for the rest of
+ * the domain. The options must outlive the replicates. On failure *replicates is NULL. */
+aur_result aur_replicates_create(const aur_integrate_options *options, size_t peak, size_t capacity,
                                  aur_replicates **replicates, aur_error *error);
 void aur_replicates_destroy(aur_replicates *replicates); /* NULL is allowed */
 
-/* The grid before it is turned; NULL where the points are Sobol's. */
-const aur_directions *aur_replicates_grid(const aur_replicates *replicates);
+/* The measure that means over the points are multiplied by, with the axis. */
+double aur_replicates_measure(const aur_replicates *replicates);
 
-/* Points first .. first + count - 1 of one replicate: directions[3 * count] and, with an axis, along[count].
- */
+/* Points first .. first + count - 1 of one replicate: points[count * coordinates], along[count] with an axis,
+ * and factors[count] of the function there: 0 where the point is not of this stratum. */
 aur_result aur_replicates_points(const aur_replicates *replicates, size_t replicate, size_t first,
-                                 size_t count, double *directions, double *along, aur_error *error);
+                                 size_t count, double *points, double *along, double *factors,
+                                 aur_error *error);
+
+/* weights[count] of the first `count` points, of sum 1, for all replicates. */
+aur_result aur_replicates_weights(const aur_replicates *replicates, size_t count, double *weights,
+                                  aur_error *error);

@@ -1,10 +1,11 @@
-# Weights for any points: what docs/choosing.md says holds by a wide margin, and intervals hold about as often as they say
-# (50 runs of .95: fewer than 40 come once in 10^4 rows).
+# Weights for any points: what docs/choosing.md says holds by a wide margin, and intervals hold about as often as they say.
 awk -F, '!/^#/ && NR > 1 { ++rows
     if ($2 == 256 && $3 == "smooth" && !($7 < $4 / 10 && $5 < $4 / 5 && $6 < $4)) bad = 1
     if ($2 == 256 && $3 == "smooth" && $1 != "random" && !($9 < $5 / 2 && $10 < $9 / 2)) bad = 1
     if ($3 == "discontinuous" && $1 != "random" && !($5 < 1.2 * $4 && $5 > 0.8 * $4)) bad = 1 }
   END { exit bad || rows != 24 }' "$results/weights-choosing/weights-choosing.csv" ||
   fail "choosing weights"
-awk -F, '!/^#/ && NR > 1 { ++rows; if (!($5 >= 0.8 && $7 >= $5 && $9 < 1)) bad = 1 } END { exit bad || rows != 8 }' \
+# 20 runs of .95: fewer than 14 come once in 10^5 rows. A sun that is not declared, over a sky that varies, cannot be seen.
+awk -F, '!/^#/ && NR > 1 { ++rows; seen = $2 != "sun over a cosine sky"
+    if ($9 != 0 || (seen && ($8 != 0 || ($3 == "finite" && $6 < 0.65)))) { bad = 1; print } } END { exit bad || rows < 50 }' \
   "$results/integrate-coverage/integrate-coverage.csv" || fail "intervals of integrals"
