@@ -13,7 +13,7 @@ import zipfile
 
 import tables
 
-DIMENSIONS = 1024
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
 CODES = {"u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "i8": "q", "u8": "Q"}
 
 
@@ -39,16 +39,25 @@ def read_array(archive, name):
     return [list(values[r * columns:(r + 1) * columns]) for r in range(rows)]
 
 
+def pack(polynomial, degree, numbers):
+    """The letter of the degree, then the bits that are not always 1, from the lowest on, six a letter."""
+    bits, count = polynomial >> 1 & (1 << (degree - 1)) - 1, degree - 1
+    for k, m in enumerate(numbers):
+        bits |= m >> 1 << count
+        count += k
+    return LETTERS[degree] + "".join(LETTERS[bits >> at & 63] for at in range(0, count, 6))
+
+
 def main():
     with zipfile.ZipFile(sys.argv[1]) as archive:
-        polynomials = read_array(archive, "poly.npy")[:DIMENSIONS]
-        initial = read_array(archive, "vinit.npy")[:DIMENSIONS]
+        polynomials = read_array(archive, "poly.npy")
+        initial = read_array(archive, "vinit.npy")
     rows = []
     for polynomial, row in zip(polynomials[1:], initial[1:]):
         degree = polynomial.bit_length() - 1
         if any(m % 2 == 0 or m >= 2 << k for k, m in enumerate(row[:degree])):
             raise SystemExit("a direction number is not an odd number below its power of two")
-        rows.append(" ".join(map(str, [polynomial, *row[:degree]])))
+        rows.append(f'"{pack(polynomial, degree, row[:degree])}"')
     tables.write("sobol", rows)
 
 

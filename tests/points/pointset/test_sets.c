@@ -66,23 +66,55 @@ static void sobol_is_stratified_in_every_dimension(void **state) {
     free(points);
 }
 
+/* Coordinates of one dimension, one after another. */
+static void fill_dimension(const aur_pointset *set, size_t dimension, size_t count, double *values) {
+    const aur_output output = {.doubles = values, .capacity = count};
+    assert_int_equal(aur_pointset_coordinates(set, dimension, 1, 0, count, &output, NULL), AUR_OK);
+}
+
+/* SciPy 1.17's points 3, 77 and 255 in natural order, up to the last dimension of Joe and Kuo's table. */
+static void sobol_has_all_published_dimensions(void **state) {
+    (void)state;
+    static const struct {
+        size_t dimension;
+        double values[3];
+    } known[] = {{1024, {0x1p-2, 0x1.e8p-2, 0x1.2p-5}},
+                 {3000, {0x1.8p-1, 0x1.88p-2, 0x1.fcp-2}},
+                 {13425, {0x1p-2, 0x1.9cp-1, 0x1.a4p-2}},
+                 {21200, {0x1.8p-1, 0x1.34p-1, 0x1.44p-2}}};
+    aur_pointset *const set = make_set(
+        "sobol",
+        (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 256, .dimension = 21201});
+    double values[256];
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k) {
+        fill_dimension(set, known[k].dimension, 256, values);
+        assert_near(values[3], known[k].values[0], 0.0);
+        assert_near(values[77], known[k].values[1], 0.0);
+        assert_near(values[255], known[k].values[2], 0.0);
+    }
+    aur_pointset_destroy(set);
+}
+
 /* A dimension and its repeat are as independent as random ones: the correlation of 2^12 points is below five
  * standard deviations (1/64 each) of independent uniform numbers'. */
 static void sobol_repeats_are_uncorrelated(void **state) {
     (void)state;
-    enum { COUNT = 1 << 12, DIMENSION = 2060 };
-    double *const points = make_points(
-        "sobol",
-        (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = COUNT, .dimension = DIMENSION});
+    enum { COUNT = 1 << 12, TABLE = 21201 };
+    static double first[COUNT], second[COUNT];
+    aur_pointset *const set = make_set("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                       .count = COUNT,
+                                                                       .dimension = 2 * TABLE + 12});
     for (size_t d = 0; d < 12; ++d) {
-        for (size_t repeat = d + 1024; repeat < DIMENSION; repeat += 1024) {
+        fill_dimension(set, d, COUNT, first);
+        for (size_t repeat = d + TABLE; repeat < 2 * TABLE + 12; repeat += TABLE) {
+            fill_dimension(set, repeat, COUNT, second);
             double sum = 0.0;
             for (size_t i = 0; i < COUNT; ++i)
-                sum += (points[i * DIMENSION + d] - 0.5) * (points[i * DIMENSION + repeat] - 0.5);
+                sum += (first[i] - 0.5) * (second[i] - 0.5);
             assert_near(12.0 * sum / COUNT, 0.0, 5.0 / 64.0);
         }
     }
-    free(points);
+    aur_pointset_destroy(set);
 }
 
 static const aur_scramble digital[] = {AUR_SCRAMBLE_NONE, AUR_SCRAMBLE_DIGIT, AUR_SCRAMBLE_OWEN};
@@ -370,6 +402,7 @@ int main(void) {
         cmocka_unit_test(halton_begins_as_published),
         cmocka_unit_test(sobol_begins_as_published),
         cmocka_unit_test(sobol_is_stratified_in_every_dimension),
+        cmocka_unit_test(sobol_has_all_published_dimensions),
         cmocka_unit_test(sobol_repeats_are_uncorrelated),
         cmocka_unit_test(nets_stay_nets),
         cmocka_unit_test(sobol_is_a_sequence),

@@ -1,19 +1,47 @@
 /* Sobol 1967 with the direction numbers of Joe and Kuo 2008, in natural order (not Gray code): the first two
  * dimensions are a (0,2)-sequence, every aligned run of 2^m points is a (t,m,s)-net. Random access, n up to
- * 2^53, any dimension: beyond the 1024 of the table the dimensions repeat, at an index that is shuffled
+ * 2^53, any dimension: beyond the 21201 of the table the dimensions repeat, at an index that is shuffled
  * within its net and Owen-scrambled, both by hashes that depend on the repeat (Burley 2020). n that is not a
  * power of two leaves a net incomplete: a warning. Error O(log^d N / N). */
 #include "points/pointset/digits/digital.h"
 
-enum { DIMENSIONS = 1024, DEGREE_MAX = 13 };
+enum { DIMENSIONS = 21201, DEGREE_MAX = 18, LETTERS = 32 };
 
-/* Of each dimension after the first: its polynomial, and as many numbers m_1, m_2, ... as its degree. */
-static const uint16_t directions[DIMENSIONS - 1][1 + DEGREE_MAX] = {
+/* Of each dimension after the first its degree and the bits of its polynomial and numbers, as the table's
+ * head says. */
+static const char packed[DIMENSIONS - 1][LETTERS] = {
 #include "data/sobol.inc"
 };
 
-static unsigned degree_of(uint16_t polynomial) {
-    return 31u - (unsigned)__builtin_clz(polynomial);
+typedef struct directions {
+    unsigned degree;
+    uint32_t polynomial;
+    uint32_t numbers[DEGREE_MAX];
+} directions;
+
+static unsigned value_of(char letter) {
+    return letter == '_'   ? 63u
+           : letter == '-' ? 62u
+           : letter < 'A'  ? (unsigned)(letter - '0') + 52u
+           : letter < 'a'  ? (unsigned)(letter - 'A')
+                           : (unsigned)(letter - 'a') + 26u;
+}
+
+/* The next bits of a row, from bit *at on. */
+static uint32_t take_bits(const char *letters, unsigned count, unsigned *at) {
+    uint32_t bits = 0;
+    for (unsigned k = 0; k < count; ++k, ++*at)
+        bits |= (value_of(letters[*at / 6]) >> *at % 6 & 1u) << k;
+    return bits;
+}
+
+static directions unpack(const char row[LETTERS]) {
+    directions d = {.degree = value_of(row[0])};
+    unsigned at = 6;
+    d.polynomial = take_bits(row, d.degree - 1, &at) << 1 | 1u | 1u << d.degree;
+    for (unsigned k = 0; k < d.degree; ++k)
+        d.numbers[k] = take_bits(row, k, &at) << 1 | 1u;
+    return d;
 }
 
 static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
@@ -22,16 +50,16 @@ static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS])
             columns[k] = UINT64_C(1) << (63 - k);
         return;
     }
-    const uint16_t polynomial = directions[dimension - 1][0], *const numbers = directions[dimension - 1] + 1;
-    const unsigned degree = degree_of(polynomial);
+    const directions of = unpack(packed[dimension - 1]);
+    const unsigned degree = of.degree;
     for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k) {
         if (k < degree) {
-            columns[k] = (uint64_t)numbers[k] << (63 - k);
+            columns[k] = (uint64_t)of.numbers[k] << (63 - k);
             continue;
         }
         columns[k] = columns[k - degree] ^ columns[k - degree] >> degree;
         for (unsigned j = 1; j < degree; ++j)
-            if (polynomial >> (degree - j) & 1u)
+            if (of.polynomial >> (degree - j) & 1u)
                 columns[k] ^= columns[k - j];
     }
 }
@@ -86,7 +114,8 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *er
 
 const aur_square_set aur_set_sobol = {
     .description = {.row = {.name = "sobol",
-                            .summary = "(t,s)-sequence in base 2 of any dimension",
+                            .summary = "(t,s)-sequence in base 2 in 21201 dimensions; further ones repeat "
+                                       "them, shuffled and scrambled",
                             .source = "Sobol 1967; Joe, Kuo 2008; Burley 2020"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .dimensions = {1, SIZE_MAX},
