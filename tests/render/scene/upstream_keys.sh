@@ -77,5 +77,5 @@ for body in "<shape type='serialized'><string name='filename' value='none'/>@</s
   grep -o 'it has: .*' listed.said | sed 's/it has: //; s/, /\n/g' | sort | uniq -d >twice
   grep -q 'it has: ' listed.said && [ ! -s twice ] || { echo "named twice, or nothing is listed:"; cat listed.said; exit 1; }
 done
-image advice "<medium type='homogeneous' id='m'><float name='sigma_a' value='1'/></medium><shape type='sphere'><ref name='interior' id='m'/></shape>" >/dev/null && exit 1
-grep -q "has no 'sigma_a'; it has: sigma_t, " advice.said || { cat advice.said; exit 1; }
+image advice "<medium type='homogeneous' id='m'><float name='sigma_b' value='1'/></medium><shape type='sphere'><ref name='interior' id='m'/></shape>" >/dev/null && exit 1
+grep -q "has no 'sigma_b'; it has: sigma_" advice.said || { cat advice.said; exit 1; }

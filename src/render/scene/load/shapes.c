@@ -144,15 +144,17 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
     aur_scene *const scene = self->scene;
     void *found = NULL;
     aur_result result = aur_loader_nested(self, parameters, "emitter", &found);
-    aur_emitter *const emitter = found;
+    aur_emitter *emitter = found;
     if (result == AUR_OK)
         result = aur_loader_nested(self, parameters, "bsdf", &found);
     const aur_bsdf *bsdf = found;
     if (result == AUR_OK && bsdf == NULL)
         result = default_bsdf(self, emitter != NULL, &bsdf);
-    if (result == AUR_OK && emitter != NULL && !emitter->descriptor->needs_shape)
+    if (result == AUR_OK && emitter != NULL && emitter->descriptor->is_far)
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
                              "emitter '%s' cannot stand inside a shape", emitter->descriptor->row.name);
+    if (emitter != NULL && !emitter->descriptor->needs_shape) /* a spot shines from its own place */
+        emitter = NULL;
     if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
         result =
             aur_xml_fail(self->node, self->error, "the emitter of this shape already belongs to another one");

@@ -10,16 +10,51 @@ typedef struct homogeneous {
 static const aur_key keys[] = {
     {AUR_VOLUME_KEY("albedo", "0.75", "the part of the light it meets that it scatters, from 0 to 1")},
     {AUR_VOLUME_KEY("sigma_t", "1", "extinction: scattering and absorption, an inverse length")},
+    {AUR_VOLUME_KEY("sigma_s", NULL,
+                    "scattering, with sigma_a in place of albedo and sigma_t (Mitsuba 0.6)")},
+    {AUR_VOLUME_KEY("sigma_a", NULL, "absorption")},
     {AUR_KEY_OF_REAL(homogeneous, "scale", scale, 0.0, 1e30, "1", "factor of sigma_t")},
 };
+
+/* Extinction and albedo by scattering and absorption; false: they are given themselves. */
+static aur_result read_parts(aur_parameters *parameters, homogeneous *self, aur_volume_value *extinction,
+                             bool *given, aur_error *error) {
+    aur_volume_value scattering = {.volume = NULL}, absorption = {.volume = NULL};
+    *given = aur_parameters_find(parameters, "sigma_s") != NULL ||
+             aur_parameters_find(parameters, "sigma_a") != NULL;
+    if (!*given)
+        return AUR_OK;
+    if (aur_parameters_find(parameters, "sigma_t") != NULL ||
+        aur_parameters_find(parameters, "albedo") != NULL)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "give 'sigma_s' and 'sigma_a', or 'sigma_t' and 'albedo', not both");
+    aur_result result = aur_volume_value_read(parameters, "sigma_s", 0.0f, 1e30f, &scattering, error);
+    if (result == AUR_OK)
+        result = aur_volume_value_read(parameters, "sigma_a", 0.0f, 1e30f, &absorption, error);
+    if (result == AUR_OK && (scattering.volume != NULL || absorption.volume != NULL))
+        return aur_parameters_fail(
+            parameters, error, AUR_ERROR_FORMAT,
+            "'sigma_s' and 'sigma_a' must be numbers or colours: 'heterogeneous' with sigma_t and "
+            "albedo is the medium for what varies");
+    extinction->constant = aur_vector_add(scattering.constant, absorption.constant);
+    for (size_t c = 0; c < 3; ++c) {
+        const float all = *aur_channel(&extinction->constant, c),
+                    part = *aur_channel(&scattering.constant, c);
+        *aur_channel(&self->albedo.constant, c) = all > 0.0f ? part / all : 0.0f;
+    }
+    return result;
+}
 
 static aur_result create(aur_parameters *parameters, aur_medium *medium, aur_error *error) {
     homogeneous *const self = medium->data;
     aur_result result = aur_keys_read(sizeof keys / sizeof keys[0], keys, parameters, self, error);
     aur_volume_value extinction = {.volume = NULL};
+    bool by_parts = false;
     if (result == AUR_OK)
+        result = read_parts(parameters, self, &extinction, &by_parts, error);
+    if (result == AUR_OK && !by_parts)
         result = aur_volume_value_read(parameters, "albedo", 0.75f, 1.0f, &self->albedo, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK && !by_parts)
         result = aur_volume_value_read(parameters, "sigma_t", 1.0f, 1e30f, &extinction, error);
     if (result == AUR_OK && extinction.volume != NULL)
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,

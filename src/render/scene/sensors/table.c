@@ -5,6 +5,7 @@
     ROW(perspective)                                                                                         \
     ROW(thinlens)                                                                                            \
     ROW(orthographic)                                                                                        \
+    ROW(radiancemeter)                                                                                       \
     ROW(batch)
 
 #define DECLARE(name) extern const aur_sensor_descriptor aur_sensor_##name;

@@ -3,10 +3,12 @@
 
 typedef struct same {
     aur_vector value;
+    aur_transform to_world; /* changes nothing */
 } same;
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_VECTOR(same, "value", value, 0.0, 1e30, "1", "a number or a colour")},
+    {AUR_KEY_OF_TRANSFORM(same, "to_world", to_world, "accepted; it changes nothing")},
 };
 
 static aur_result create(aur_parameters *parameters, aur_volume *volume, aur_error *error) {

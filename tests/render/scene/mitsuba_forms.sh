@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Plugins and keys of Mitsuba that say what others say too: the pictures are the same, to the byte where the same numbers are drawn.
+set -u
+aureole=$1
+failures=0
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+film="<film type='hdrfilm'><integer name='width' value='8'/><integer name='height' value='8'/><rfilter type='box'/></film>"
+camera="<sensor type='perspective'><float name='fov' value='30'/><transform name='to_world'><lookat origin='0,-4,3' target='0,0,0' up='0,0,1'/></transform>$film</sensor>"
+light="<emitter type='point'><point name='position' x='1' y='1' z='3'/></emitter>"
+render() { # render NAME BODY [OPTION...]
+  local name=$1
+  echo "<scene version='3.0.0'>$2</scene>" >"$name.xml"
+  "$aureole" render -q --spp 16 "$name.xml" -o "$name.pfm" "${@:3}" 2>said || fail "$name: $(cat said)"
+}
+same() { # same WHAT BODY BODY
+  render a "$2"
+  render b "$3"
+  cmp -s a.pfm b.pfm || fail "$1: not the same picture"
+}
+refused() { # refused WORDS BODY
+  echo "<scene version='3.0.0'>$2</scene>" >refused.xml
+  "$aureole" render -q --spp 1 refused.xml -o refused.pfm 2>said && fail "this loads: $2"
+  grep -qF -- "$1" said || fail "expected '$1', not '$(cat said)'"
+}
+
+# A spot inside a shape shines from its own place, and the shape is no light.
+spot="<emitter type='spot'><transform name='to_world'><lookat origin='0,0,3' target='0,0,0' up='0,1,0'/></transform></emitter>"
+ball="<shape type='sphere'><point name='center' x='0' y='0' z='5'/><float name='radius' value='.1'/><bsdf type='diffuse'/>"
+same "a spot in a shape" "$camera<shape type='rectangle'/>$ball$spot</shape>" "$camera<shape type='rectangle'/>$ball</shape>$spot"
+refused "emitter 'constant' cannot stand inside a shape" "$camera$ball<emitter type='constant'/></shape>"
+
+# A medium by scattering and absorption.
+medium() { echo "<integrator type='volpath'/>$camera<emitter type='constant'/><shape type='sphere'><bsdf type='null'/><medium name='interior' type='homogeneous'>$1</medium></shape>"; }
+same "sigma_s and sigma_a" "$(medium "<rgb name='sigma_s' value='1,2,3'/><rgb name='sigma_a' value='1,0,1'/>")" \
+  "$(medium "<rgb name='sigma_t' value='2,2,4'/><rgb name='albedo' value='.5,1,.75'/>")"
+same "sigma_a alone" "$(medium "<float name='sigma_a' value='2'/>")" "$(medium "<float name='sigma_t' value='2'/><float name='albedo' value='0'/>")"
+refused "or 'sigma_t' and 'albedo', not both" "$(medium "<float name='sigma_s' value='1'/><float name='sigma_t' value='1'/>")"
+
+# A volume that is the same everywhere may be moved.
+volume() { medium "<volume name='albedo' type='constvolume'><float name='value' value='.5'/>$1</volume>"; }
+same "constvolume with to_world" "$(volume "<transform name='to_world'><scale value='3'/></transform>")" "$(volume "")"
+
+near() { # near WHAT BODY BODY: pictures of diffuse floors differ by rounding alone
+  render a "$2"
+  render b "$3"
+  [ "$(wc -c <a.pfm)" -gt 200 ] || fail "$1: no picture"
+  python3 - a.pfm b.pfm <<'PY' || fail "$1: the pictures differ"
+import struct, sys
+def values(name):
+    data = open(name, "rb").read()[-8 * 8 * 3 * 4:]
+    return struct.unpack("<192f", data)
+a, b = (values(name) for name in sys.argv[1:])
+sys.exit(not (max(b) > 0 and all(abs(x - y) <= 1e-5 * max(b) for x, y in zip(a, b))))
+PY
+}
+# A radiancemeter sees what the middle of a camera sees, by either way of saying where it looks.
+meter() { echo "$light<shape type='rectangle'/><sensor type='radiancemeter'>$1$film</sensor>"; }
+aimed="<point name='origin' x='0' y='-4' z='3'/><vector name='direction' x='0' y='4' z='-3'/>"
+turned="<transform name='to_world'><lookat origin='0,-4,3' target='0,0,0' up='0,0,1'/></transform>"
+near "a radiancemeter" "$(meter "$aimed")" "$(meter "$turned")"
+near "a radiancemeter and a camera" "$(meter "$aimed")" \
+  "$light<shape type='rectangle'/><sensor type='perspective'><float name='fov' value='1e-4'/>$turned$film</sensor>"
+refused "'origin' with 'direction'" "$(meter "<point name='origin' x='0' y='-4' z='3'/>")"
+
+exit $((failures > 0))
