@@ -1,10 +1,8 @@
 #!/usr/bin/env bash
-# report.sh PROGRAM RESULTS: keeps a full run of the lab (lab run --all -o RESULTS) in docs/report: the tables, which are the same to the
-# bit in every run, and one small page of everything, docs/report/index.html. Times and pictures stay in RESULTS; the pages of the papers
-# take theirs from there by papers_pictures.sh.
+# report.sh RESULTS: copies the tables of a full run of the lab (lab run --all -o RESULTS) to docs/report/results. They are the same to the
+# bit in every run. Times and pictures stay in RESULTS; the pages of the papers take theirs from there by papers_pictures.sh.
 set -eu
-program=$(realpath "$1")
-results=$(realpath "$2")
+results=$(realpath "$1")
 cd "$(dirname "$0")/../docs/report"
 for folder in "$results"/*/; do
   name=$(basename "$folder")
@@ -24,4 +22,3 @@ for folder in "$results"/*/; do
     esac
   done
 done
-"$program" lab report "$results" -o . --small
