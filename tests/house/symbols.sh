@@ -27,9 +27,11 @@ done
 cat aureole.txt aureole-render.txt aureole-lighting.txt >shown.txt
 sed 's/@.*//' shown.txt | sort | uniq -d | grep . && { echo "two libraries have these"; status=1; }
 
-# A private name is one that another library needs; points/base shows all of its names.
-nm -D --undefined-only "$build"/libaureole-{render,lighting}.so | awk '{ sub(/@.*/, "", $NF); print $NF }' | sort -u >needed.txt
-sed -n 's/@@AUREOLE_[A-Z_]*PRIVATE_.*//p' aureole-render.txt aureole-lighting.txt | sort | comm -23 - needed.txt | grep . &&
+# A private name is one that another library needs, or the module of ranks.
+nm -D --undefined-only "$build"/libaureole-{render,lighting}.so | awk '{ sub(/@.*/, "", $NF); print $NF }' >needed.txt
+grep -ohE '\baur_[a-z0-9_]+\b' "$source_tree"/src/program/mpi/*.c >>needed.txt
+sort -u -o needed.txt needed.txt
+sed -n 's/@@AUREOLE_[A-Z_]*PRIVATE_.*//p' aureole.txt aureole-render.txt aureole-lighting.txt | sort | comm -23 - needed.txt | grep . &&
   { echo "these are AUR_INTERNAL, and no other library needs them"; status=1; }
 
 # Every struct of options has a function that fills its defaults, which bindings can call: no inline code does.

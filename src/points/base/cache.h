@@ -4,18 +4,20 @@
 
 #include <aureole/core.h>
 
+#include "points/base/error.h"
+
 typedef struct aur_cache aur_cache;
 
 /* NULL when out of memory. */
-aur_cache *aur_cache_create(void);
-void aur_cache_destroy(aur_cache *cache);
+AUR_INTERNAL aur_cache *aur_cache_create(void);
+AUR_INTERNAL void aur_cache_destroy(aur_cache *cache);
 
 /* The thing stored under `key`, or NULL. It lives as long as the cache. */
-void *aur_cache_find(aur_cache *cache, const char *key);
+AUR_INTERNAL void *aur_cache_find(aur_cache *cache, const char *key);
 /* Takes ownership of `thing`, which took so many rays to make, in every case; `destroy` ends it. Fails with
  * AUR_ERROR_MEMORY only. */
-aur_result aur_cache_store(aur_cache *cache, const char *key, void *thing, uint64_t rays,
-                           void (*destroy)(void *));
+AUR_INTERNAL aur_result aur_cache_store(aur_cache *cache, const char *key, void *thing, uint64_t rays,
+                                        void (*destroy)(void *));
 
 /* Which things were used, and the rays that these took to make, now or earlier: what renders are prepared
  * with costs the same whichever was the first to ask for it. Zero at first. */
@@ -28,5 +30,5 @@ typedef struct aur_cache_uses {
 
 /* From here on things that are found and stored are counted in `uses` (NULL: nowhere). Returns where they
  * were before. */
-aur_cache_uses *aur_cache_count(aur_cache *cache, aur_cache_uses *uses);
-void aur_cache_uses_release(aur_cache_uses *uses);
+AUR_INTERNAL aur_cache_uses *aur_cache_count(aur_cache *cache, aur_cache_uses *uses);
+AUR_INTERNAL void aur_cache_uses_release(aur_cache_uses *uses);

@@ -24,11 +24,11 @@ typedef struct aur_io {
  * before, which must stay valid meanwhile. */
 const aur_io *aur_io_use(const aur_io *io);
 /* What this thread uses, NULL when it is alone; and whether it reads and writes itself. */
-const aur_io *aur_io_here(void);
-bool aur_io_leads(void);
+AUR_INTERNAL const aur_io *aur_io_here(void);
+AUR_INTERNAL bool aur_io_leads(void);
 /* Replaces data[size] by the leader's; nothing where this thread is alone. Fails with what has gone wrong
  * between the processes. */
-aur_result aur_io_agree(size_t size, void *data, aur_error *error);
+AUR_INTERNAL aur_result aur_io_agree(size_t size, void *data, aur_error *error);
 
 /* A file that is being written beside its destination. "-" is standard output. */
 typedef struct aur_file_writer {
@@ -43,27 +43,29 @@ typedef struct aur_file_writer {
  * Where the system has files without a name the new one has none until it is complete, so that a killed
  * process leaves nothing behind. Pipes, devices and links to nothing are written as they are. On failure
  * nothing is left behind and *writer is zero. */
-aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error);
+AUR_INTERNAL aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error);
 
 /* Flushes, syncs and renames. On any failure (a full disk, say) the temporary file is removed, the
  * destination is as it was, and AUR_ERROR_WRITE is returned with the path and the reason. Ends the writer in
  * every case. */
-aur_result aur_file_commit(aur_file_writer *writer, aur_error *error);
+AUR_INTERNAL aur_result aur_file_commit(aur_file_writer *writer, aur_error *error);
 
 /* Removes the temporary file. Safe on a zero writer and after a commit. */
-void aur_file_abandon(aur_file_writer *writer);
+AUR_INTERNAL void aur_file_abandon(aur_file_writer *writer);
 
 /* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
  * that is not counted. Refuses files beyond `limit` bytes, and what is neither a regular file nor handed over
  * by the shell as /dev/fd/N: opening a pipe could block forever, a device might never end. Of several
  * processes with an aur_io one reads, and writes, for all. Errors: OPEN, FORMAT, MEMORY;
  * ARGUMENT for an output of this process. */
-aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+AUR_INTERNAL aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size,
+                                      aur_error *error);
 /* The same for a file that this program wrote and may replace, such as a checkpoint: no input. */
-aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+AUR_INTERNAL aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_t *size,
+                                           aur_error *error);
 
 /* stat(2), likewise; false where there is no such file. */
-bool aur_file_status(const char *path, struct stat *status);
+AUR_INTERNAL bool aur_file_status(const char *path, struct stat *status);
 
 /* Which files this process reads and which it writes, so that no output replaces an input. Nothing is
  * recorded before aur_file_announce_output (core.h) has been called. Files are compared by device and inode.
@@ -83,16 +85,16 @@ aur_result aur_file_refuse_input(const char *path, const struct stat *status, au
  * what cannot be written is not kept. Any number of processes and threads may do both at once. */
 
 /* What was kept: data[*size] from malloc, with a zero byte behind it that is not counted; or NULL. */
-char *aur_cache_file_read(const char *kind, const char *key, size_t *size);
+AUR_INTERNAL char *aur_cache_file_read(const char *kind, const char *key, size_t *size);
 /* Files of the cache that were not used for the longest time are removed until all have no more than the
  * limit together: AUREOLE_CACHE_MIB, 1024 unless it is set. Data of more than a quarter of it are not kept.
  */
-void aur_cache_file_write(const char *kind, const char *key, size_t size, const void *data);
+AUR_INTERNAL void aur_cache_file_write(const char *kind, const char *key, size_t size, const void *data);
 
 /* Stands for this build of the program and of every library that is loaded, but for those of modules, for
  * keys of what follows from their code; 0 where the system does not tell: then nothing that does may be kept.
  */
-uint64_t aur_build_identity(void);
+AUR_INTERNAL uint64_t aur_build_identity(void);
 
 /* Modules: what stands beside the libraries in a file of its own, so that only those who need it pay for what
  * it links. A build may lack one. */
@@ -103,4 +105,4 @@ uint64_t aur_build_identity(void);
 void (*aur_module_find(const char *file, const char *symbol, bool global))(void);
 
 /* The path of a program of ours that stands beside the library; false where there is none. */
-bool aur_module_find_program(const char *file, size_t capacity, char *path) AUR_NONNULL(1, 3);
+AUR_INTERNAL bool aur_module_find_program(const char *file, size_t capacity, char *path) AUR_NONNULL(1, 3);

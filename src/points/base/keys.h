@@ -72,14 +72,15 @@ typedef struct aur_color {
  * it has one. The field of a key that is absent and has none stays as it is. Errors: FORMAT with the value's
  * place for what does not parse or is out of range. What nobody asked for is refused by
  * aur_parameters_finish. */
-aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *parameters, void *fields,
-                         aur_error *error);
+AUR_INTERNAL aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *parameters,
+                                      void *fields, aur_error *error);
 /* The same for a row, and then aur_parameters_finish. */
-aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error);
+AUR_INTERNAL aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fields,
+                                     aur_error *error);
 
 /* The names of a table's rows. */
-aur_names aur_names_of_table(const aur_table *table);
+AUR_INTERNAL aur_names aur_names_of_table(const aur_table *table);
 
 /* The row that parameters->plugin names, or a NAME error with the nearest name or all of them. */
-aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,
-                          aur_error *error);
+AUR_INTERNAL aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters,
+                                       const aur_row **row, aur_error *error);

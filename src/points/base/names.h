@@ -11,10 +11,10 @@ typedef struct aur_names {
 } aur_names;
 
 /* The names of an array of strings, which must outlive them. */
-aur_names aur_names_of(size_t count, const char *const *strings);
+AUR_INTERNAL aur_names aur_names_of(size_t count, const char *const *strings);
 
 /* The index of the row called `wanted`, or names.count. */
-size_t aur_names_find(aur_names names, const char *wanted);
+AUR_INTERNAL size_t aur_names_find(aur_names names, const char *wanted);
 
 /* The nearest name by edit distance, or NULL when none is near enough to suggest. */
 const char *aur_names_nearest(aur_names names, const char *wanted);
@@ -23,8 +23,8 @@ enum { AUR_HINT_CAPACITY = 96 };
 
 /* The end of a message about an unknown name, written into `hint` and returned: "; did you mean 'NAME'?",
  * with the two characters of `quotes` around it, or nothing when no name is near. */
-const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
-                           char hint[AUR_HINT_CAPACITY]);
+AUR_INTERNAL const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
+                                        char hint[AUR_HINT_CAPACITY]);
 
 /* The end of a message about an unknown name, written into `text` and returned: "; did you mean 'NAME'?", or
  * "; OTHERS: a, b, c" when no name is near. */
@@ -44,9 +44,9 @@ aur_names aur_names_by_distance(aur_names names, const char *wanted, aur_sorted_
 
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
  * does. */
-size_t aur_names_list(aur_names names, size_t capacity, char *text);
+AUR_INTERNAL size_t aur_names_list(aur_names names, size_t capacity, char *text);
 
 /* AUR_OK with the index of the row called `wanted`, or AUR_ERROR_NAME with "unknown KIND 'WANTED'; did you
  * mean 'NAME'?" or, when nothing is near, "unknown KIND 'WANTED'; there are: a, b, c". */
-aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
-                            size_t *index, aur_error *error);
+AUR_INTERNAL aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted,
+                                         aur_location location, size_t *index, aur_error *error);

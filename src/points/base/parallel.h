@@ -47,8 +47,8 @@ typedef struct aur_parallel_options {
  * lowest index that was run is returned, `error` says "WHAT: the result's name", and no new item starts.
  * Items may call this function, which then uses their thread alone; so may progress callbacks, whose
  * calls have their own threads. */
-aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
-                            void *context, aur_error *error);
+AUR_INTERNAL aur_result aur_parallel_for(const aur_parallel_options *options, size_t count,
+                                         aur_parallel_function function, void *context, aur_error *error);
 
 /* Rays that this thread has traced (render/trace/embree.h), and that others have in loops which it has run.
  * What a piece of work has traced is the difference between its end and its beginning, on the thread that
@@ -57,16 +57,17 @@ extern AUR_INTERNAL _Thread_local uint64_t aur_rays_traced __attribute__((tls_mo
 
 /* Calls a progress callback, from wherever the work is; true: it asks the work to stop. Whatever the callback
  * calls in the library is work of its own, as if it were called outside of all items. */
-bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t done, uint64_t total);
+AUR_INTERNAL bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t done,
+                                     uint64_t total);
 
 /* Asks from within a long item whether the work is to stop: the progress function is called as at the end of
  * an item, with the items that are finished. True: the item may leave at once, with AUR_ERROR_CANCELLED.
  * False outside of an item. */
-bool aur_parallel_stops(void);
+AUR_INTERNAL bool aur_parallel_stops(void);
 
 /* The number of threads that `threads` stands for. 0: as many as there are processors for this process, or as
  * OMP_NUM_THREADS says. At most four a processor (but 16 on a small machine) and 1024. */
-size_t aur_parallel_threads(size_t threads);
+AUR_INTERNAL size_t aur_parallel_threads(size_t threads);
 
 /* Progress of work that consists of pieces which report their own. */
 
@@ -87,8 +88,8 @@ typedef struct aur_progress_share {
 
 /* Reports that so much work is done, and so much thought to be left; INFINITY: nobody knows, and the share
  * waits. Returns what the callback, which is not NULL, returns. */
-int aur_progress_tell(const aur_progress *progress, const char *what, aur_progress_share *share, double done,
-                      double left);
+AUR_INTERNAL int aur_progress_tell(const aur_progress *progress, const char *what, aur_progress_share *share,
+                                   double done, double left);
 
 /* For the pieces; without a function where the whole has none. */
-aur_progress aur_progress_within(aur_progress_span *span);
+AUR_INTERNAL aur_progress aur_progress_within(aur_progress_span *span);

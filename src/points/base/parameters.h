@@ -45,38 +45,42 @@ typedef struct aur_parameters {
 } aur_parameters;
 
 /* `location.file` must outlive the parameters; the other strings are copied. */
-aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
-                               aur_location location, aur_error *error);
-void aur_parameters_release(aur_parameters *parameters);
+AUR_INTERNAL aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
+                                            aur_location location, aur_error *error);
+AUR_INTERNAL void aur_parameters_release(aur_parameters *parameters);
 /* A copy in which nothing is used yet. */
-aur_result aur_parameters_copy(const aur_parameters *parameters, aur_parameters *copy, aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_copy(const aur_parameters *parameters, aur_parameters *copy,
+                                            aur_error *error);
 
 /* Parses "NAME[:key=value[,key=value...]]" into initialised parameters. A value that has commas of its own
  * stands in parentheses: finalgather:pattern=(esfg:base=64,levels=1),rotations=0. */
-aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, const char *text,
-                                aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, const char *text,
+                                             aur_error *error);
 
 /* A second value of one name is an error that names both places. */
-aur_result aur_parameters_add_text(aur_parameters *parameters, aur_parameter_kind kind, const char *name,
-                                   const char *text, aur_location location, aur_error *error);
-aur_result aur_parameters_add_transform(aur_parameters *parameters, const char *name,
-                                        const double transform[16], aur_location location, aur_error *error);
-aur_result aur_parameters_add_object(aur_parameters *parameters, const char *name, const char *object_kind,
-                                     const void *object, aur_location location, aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_add_text(aur_parameters *parameters, aur_parameter_kind kind,
+                                                const char *name, const char *text, aur_location location,
+                                                aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_add_transform(aur_parameters *parameters, const char *name,
+                                                     const double transform[16], aur_location location,
+                                                     aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_add_object(aur_parameters *parameters, const char *name,
+                                                  const char *object_kind, const void *object,
+                                                  aur_location location, aur_error *error);
 
 /* The value of a name if it is there, marked as used; else NULL. `name` must be a string literal. */
-const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name);
+AUR_INTERNAL const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name);
 
 /* A value of that name and text counts as not given from now on, although its name is known. */
 void aur_parameters_leave_out(aur_parameters *parameters, const char *name, const char *text);
 
 /* "KIND 'PLUGIN': " and the formatted text, with the place of the whole. */
-aur_result aur_parameters_fail(const aur_parameters *parameters, aur_error *error, aur_result result,
-                               const char *format, ...) AUR_PRINTF(4, 5);
+AUR_INTERNAL aur_result aur_parameters_fail(const aur_parameters *parameters, aur_error *error,
+                                            aur_result result, const char *format, ...) AUR_PRINTF(4, 5);
 
 /* "KIND 'PLUGIN': 'NAME' must be EXPECTED, not 'VALUE'", with the value's place. */
-aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,
-                                     const char *expected, aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,
+                                                  const char *expected, aur_error *error);
 
 /* An error for the first value that nobody asked for. */
-aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);
+AUR_INTERNAL aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <time.h>
 
+#include "points/base/error.h"
 #include "points/base/file.h"
 
 /* What carries bytes from rank to rank. All of it is called by one thread. */
@@ -67,7 +68,7 @@ typedef struct aur_ranks {
 } aur_ranks;
 
 /* The job that the calling thread is in; NULL outside of one. */
-aur_ranks *aur_ranks_here(void);
+AUR_INTERNAL aur_ranks *aur_ranks_here(void);
 /* Lets the thread be outside of its job until it is put back: within an item of work that ranks do each for
  * themselves. */
 aur_ranks *aur_ranks_set_aside(void);
@@ -99,18 +100,18 @@ aur_result aur_ranks_failure(const aur_ranks *ranks, aur_error *error);
 bool aur_ranks_spread(aur_ranks *ranks, bool last, size_t size, const void *data);
 bool aur_ranks_take(aur_ranks *ranks, aur_message *piece);
 /* Rank 0's data[*size] for all; the others' *data is allocated with malloc, with a zero byte after it. */
-aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_error *error);
+AUR_INTERNAL aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_error *error);
 
 /* Gives rank 0 the data of each other rank, one after the other in their order. */
 typedef aur_result (*aur_ranks_add)(void *context, size_t rank, size_t size, const void *data);
-aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur_ranks_add add, void *context,
-                            aur_error *error);
+AUR_INTERNAL aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur_ranks_add add,
+                                         void *context, aur_error *error);
 
 /* Seconds of one clock on the wall, rank 0's, and of all ranks' processors. */
-void aur_ranks_share_seconds(double *wall, double *cpu);
+AUR_INTERNAL void aur_ranks_share_seconds(double *wall, double *cpu);
 
 /* Sleeps, longer the longer nothing has come: *pause is in nanoseconds, 0 at first and after each message. */
-void aur_ranks_pause(long *pause);
+AUR_INTERNAL void aur_ranks_pause(long *pause);
 double aur_ranks_seconds(clockid_t clock);
 /* Counts the thread's processor time since `start` as talk. */
 double aur_ranks_messages_begin(void);

@@ -10,7 +10,7 @@ typedef enum aur_isa { AUR_ISA_PORTABLE = 0, AUR_ISA_AVX2 = 2, AUR_ISA_AVX512 = 
 
 /* The widest set that both the processor and the environment variable AUREOLE_ISA (portable, avx2, avx512; a
  * limit, for tests and measurements) allow. AVX2 implies FMA; AVX-512 means F, DQ, BW and VL. */
-aur_isa aur_isa_available(void);
+AUR_INTERNAL aur_isa aur_isa_available(void);
 
 /* Lets the next call look at the environment again: for tests of several instruction sets in one process. */
 void aur_isa_ask_again(void);
@@ -18,9 +18,9 @@ void aur_isa_ask_again(void);
 /* The same for Embree's kernels, with AUREOLE_EMBREE_ISA in the place of AUREOLE_ISA where it is set.
  * Embree's hits differ in the last bits between its kernels; ours do not, so a test of our bits holds
  * Embree's kernels fixed. */
-aur_isa aur_isa_of_rays(void);
+AUR_INTERNAL aur_isa aur_isa_of_rays(void);
 
-const char *aur_isa_name(aur_isa isa);
+AUR_INTERNAL const char *aur_isa_name(aur_isa isa);
 
 /* AUR_OK where the processor has the set called `name`, whatever the environment says. Errors: NAME where no
  * set is called so, with the nearest; UNSUPPORTED where the processor is without it. */

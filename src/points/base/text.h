@@ -5,6 +5,8 @@
 #include <aureole/text.h>
 #include <stdarg.h>
 
+#include "points/base/error.h"
+
 static inline bool aur_is_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -25,15 +27,16 @@ typedef enum aur_number_class { AUR_NUMBER_FINITE, AUR_NUMBER_INFINITE, AUR_NUMB
 
 /* Reads the decimal number (or `inf`, `infinity`, `nan`, if the class allows it) that starts exactly at
  * `text`. Returns the first character after it, or NULL, *value untouched, when there is none. */
-const char *aur_read_double(const char *text, aur_number_class allowed, double *value);
+AUR_INTERNAL const char *aur_read_double(const char *text, aur_number_class allowed, double *value);
 
 /* Reads the decimal digits that start exactly at `text`. Returns the first character after them, or NULL,
  * *value untouched, when there are none or the number is larger than `maximum`. */
-const char *aur_read_integer(const char *text, uint64_t maximum, uint64_t *value);
+AUR_INTERNAL const char *aur_read_integer(const char *text, uint64_t maximum, uint64_t *value);
 
 /* Parses up to `capacity` numbers split by blanks or single commas; returns how many there are, or SIZE_MAX
  * when a piece is not a number. Infinities are numbers, NaN is not. */
-size_t aur_parse_doubles(const char *text, double *values, size_t capacity);
+AUR_INTERNAL size_t aur_parse_doubles(const char *text, double *values, size_t capacity);
 
 /* vsnprintf whose numbers have a decimal point under every locale. */
-int aur_format_list(char *text, size_t capacity, const char *format, va_list arguments) AUR_PRINTF(3, 0);
+AUR_INTERNAL int aur_format_list(char *text, size_t capacity, const char *format, va_list arguments)
+    AUR_PRINTF(3, 0);

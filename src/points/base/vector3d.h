@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "points/base/error.h"
+
 static inline double aur_dot3(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -52,7 +54,7 @@ static inline void aur_frame3(const double z[3], double x[3], double y[3]) {
 /* Twice the signed area of the triangle a, b, c: positive when it turns to the left. The sign is exact
  * (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates"), and
  * so is 0, for coordinates whose products neither overflow nor underflow; the value is rounded. */
-double aur_orientation(const double a[2], const double b[2], const double c[2]);
+AUR_INTERNAL double aur_orientation(const double a[2], const double b[2], const double c[2]);
 
 /* Plane convex polygons in double precision, counter-clockwise seen from their front. */
 
@@ -69,11 +71,12 @@ static inline double aur_plane_height(const aur_plane *plane, const double point
 
 /* The area, and the plane through the corners' mean (Newell's normal). The plane is zero when there is no
  * area. */
-double aur_polygon_plane(size_t count, const double (*corners)[3], aur_plane *plane);
+AUR_INTERNAL double aur_polygon_plane(size_t count, const double (*corners)[3], aur_plane *plane);
 
 /* Twice the area by the length of the outline: half to all of the width of what is long and narrow. */
-double aur_polygon_width(size_t count, const double (*corners)[3]);
+AUR_INTERNAL double aur_polygon_width(size_t count, const double (*corners)[3]);
 
 /* The part in front of the plane: cut[count + 1], which must not overlap `corners`. Returns its number of
  * corners, 0 when nothing is in front. */
-size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plane *plane, double (*cut)[3]);
+AUR_INTERNAL size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plane *plane,
+                                     double (*cut)[3]);
