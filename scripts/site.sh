@@ -33,5 +33,8 @@ manuals=()
 while IFS= read -r page; do manuals+=(--manual "$page"); done < <(find "${BUILD:-build/release}/man" -name '*.[1-8]' 2>/dev/null | sort)
 # What the lab found, from the tables in the tree.
 aureole=${BUILD:-build/release}/aureole
-[ ! -x "$aureole" ] || "$aureole" lab report docs/report/results --small -o "$out/docs/report" >/dev/null || exit 1
+if [ -x "$aureole" ] && [ -d docs/report/results ]; then
+  mkdir -p "$out/docs"
+  "$aureole" lab report docs/report/results --small -o "$out/docs/report" >/dev/null
+fi
 exec "$python" scripts/site/pages.py "$out" "${reference[@]}" "${manuals[@]}"
