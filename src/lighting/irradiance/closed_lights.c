@@ -42,6 +42,18 @@ static void set_sphere(aur_closed_light *light, const double (*corners)[3]) {
     }
 }
 
+/* Corners of a parallelogram follow one another as those of its first triangle: the other way round where it
+ * is flipped. */
+static uint32_t vertex_of(const aur_shape *shape, size_t polygon, size_t corner) {
+    const uint32_t *const indices = shape->mesh.indices;
+    if (!shape->parallelogram)
+        return indices[3 * polygon + corner];
+    size_t origin = 0;
+    while (indices[origin] != 0)
+        ++origin;
+    return (uint32_t)(indices[(origin + 1) % 3] == 1 ? corner : (4 - corner) % 4);
+}
+
 static void fill(const aur_shape *shape, const aur_emitter *emitter, size_t first, double (*corners)[3],
                  aur_closed_light *light) {
     *light = (aur_closed_light){.emitter = emitter->index,
@@ -50,11 +62,9 @@ static void fill(const aur_shape *shape, const aur_emitter *emitter, size_t firs
                                 .corner_count = shape->parallelogram ? 4 : 3};
     aur_vector_to_doubles(emitter->radiance.constant, light->radiance);
     for (size_t i = 0; i < light->polygon_count; ++i)
-        for (size_t k = 0; k < light->corner_count; ++k) {
-            const uint32_t vertex = shape->parallelogram ? (uint32_t)k : shape->mesh.indices[3 * i + k];
-            aur_vector_to_doubles(aur_mesh_position(&shape->mesh, vertex),
+        for (size_t k = 0; k < light->corner_count; ++k)
+            aur_vector_to_doubles(aur_mesh_position(&shape->mesh, vertex_of(shape, i, k)),
                                   corners[first + i * light->corner_count + k]);
-        }
     set_sphere(light, (const double(*)[3])(corners + first));
     const double(*const c)[3] = (const double(*)[3])(corners + first);
     double x[3], y[3];
@@ -139,7 +149,7 @@ static double pilot(const aur_scene *scene, const aur_closed_light *light, size_
         const float cosine = aur_vector_dot(up, drawn.direction);
         if (!(cosine > 0.0f) || !(drawn.pdf > 0.0f))
             continue;
-        const aur_ray ray = {from, 0.0f, drawn.direction, drawn.distance * (1.0f - 1e-4f)};
+        const aur_ray ray = aur_ray_between(from, drawn.position);
         const double brings = (double)(cosine / drawn.pdf);
         all += brings;
         seen += aur_scene_occluded(scene, &ray) ? 0.0 : brings;

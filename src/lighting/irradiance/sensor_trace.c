@@ -262,11 +262,7 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
         const float weight = alone ? 1.0f : aur_light_weight(&drawn, AUR_VERTEX_ONE_EACH, cosine / AUR_PI_F);
         known[k] = share > 0.0f ? (double)share : 0.0;
         aur_vector_to_doubles(aur_vector_scale(drawn.radiance, weight * cosine / drawn.pdf), light[k]);
-        const aur_vector way = aur_vector_subtract(drawn.position, surface_point->position);
-        const float distance = aur_vector_length(way);
-        const aur_ray ray = {surface_point->position, 0.0f,
-                             aur_vector_scale(way, 1.0f / aur_larger(distance, 1e-30f)),
-                             distance * (1.0f - 1e-4f)};
+        const aur_ray ray = aur_ray_between(surface_point->position, drawn.position);
         aur_packet_set(&g->shadows, k, &ray);
         drawn_lanes |= 1u << k;
         sky |= (uint32_t)drawn.environment << k;

@@ -44,6 +44,11 @@ static inline float aur_vector_dot(aur_vector a, aur_vector b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* The same of the absolute values of the components. */
+static inline float aur_vector_dot_absolute(aur_vector a, aur_vector b) {
+    return fabsf(a.x * b.x) + fabsf(a.y * b.y) + fabsf(a.z * b.z);
+}
+
 static inline aur_vector aur_vector_cross(aur_vector a, aur_vector b) {
     return (aur_vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -75,6 +80,15 @@ static inline float aur_larger(float a, float b) {
 
 static inline float aur_smaller(float a, float b) {
     return a < b ? a : b;
+}
+
+/* Component by component. */
+static inline aur_vector aur_vector_larger(aur_vector a, aur_vector b) {
+    return (aur_vector){aur_larger(a.x, b.x), aur_larger(a.y, b.y), aur_larger(a.z, b.z)};
+}
+
+static inline aur_vector aur_vector_smaller(aur_vector a, aur_vector b) {
+    return (aur_vector){aur_smaller(a.x, b.x), aur_smaller(a.y, b.y), aur_smaller(a.z, b.z)};
 }
 
 static inline float aur_vector_max(aur_vector a) {

@@ -112,7 +112,9 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
     const float square = aur_vector_dot(offset, offset);
     const aur_vector direction = aur_vector_scale(offset, 1.0f / sqrtf(square));
     const float cosine = -aur_vector_dot(direction, point->normal);
-    aur_light_sample sample = {.position = point->position, .direction = direction};
+    aur_light_sample sample = {
+        .position = aur_surface_target(position, point->position, point->normal, point->rounding),
+        .direction = direction};
     if (cosine > 0.0f && square > 0.0f) {
         sample.pdf = aur_bright_texels_density(from->bright, known.radiance) * (float)from->bright_draws *
                      square / cosine;

@@ -129,5 +129,6 @@ aur_bright_point aur_bright_texels_sample(const aur_bright_texels *bright, const
     point.position = aur_vector_add_scaled(aur_vector_add_scaled(corner[0], point.u, across), point.v, along);
     const aur_vector normal = aur_vector_normalize(aur_vector_cross(across, along));
     point.normal = patch->behind ? aur_vector_scale(normal, -1.0f) : normal;
+    point.rounding = aur_triangle_rounding(corner[0], corner[1], corner[2], normal);
     return point;
 }

@@ -31,6 +31,7 @@ typedef struct aur_bright_point {
     bool behind;
     aur_vector position;
     aur_vector normal; /* of the side that shines */
+    float rounding;    /* aur_triangle_rounding */
 } aur_bright_point;
 
 /* Only texels of shapes whose class is plain count. Errors: MEMORY. */

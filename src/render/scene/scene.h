@@ -74,6 +74,39 @@ static inline float aur_triangle_offset(aur_vector a, aur_vector b, aur_vector c
     return aur_surface_offset(reach, normal);
 }
 
+/* How far rounding puts a point, a corner and shares of two sides, off the triangle that rays meet, with
+ * u = 2^-24: 4 u of the reach along axes in which the triangle extends (two sums 2, the fourth corner of a
+ * parallelogram 2), u of all (the point is moved, aur_surface_target), and 13 u of the extent (the shares 4,
+ * Embree's normal 5 and its distance to a corner 4). */
+static inline float aur_triangle_rounding(aur_vector a, aur_vector b, aur_vector c, aur_vector normal) {
+    const aur_vector low = aur_vector_smaller(a, aur_vector_smaller(b, c));
+    const aur_vector high = aur_vector_larger(a, aur_vector_larger(b, c));
+    const aur_vector zero = {0}, extent = aur_vector_subtract(high, low);
+    const aur_vector reach = aur_vector_larger(high, aur_vector_subtract(zero, low));
+    const aur_vector summed = {extent.x > 0.0f ? reach.x : 0.0f, extent.y > 0.0f ? reach.y : 0.0f,
+                               extent.z > 0.0f ? reach.z : 0.0f};
+    return 2.4e-7f * aur_vector_dot_absolute(summed, normal) +
+           6e-8f * aur_vector_dot_absolute(reach, normal) + 7.8e-7f * aur_vector_dot_absolute(extent, normal);
+}
+
+/* Where a ray from `from` ends to be short of the surface on which the point lies: moved along the unit
+ * normal by all that may be rounded, at most half the way to the plane of `from`. To the `rounding` of the
+ * point, the ray adds 11 u of its way: the difference of its ends 1, the direction 2, Embree's difference
+ * from a corner 1, its products with the normal and their sums 3, those of the direction 3, their
+ * comparison 1. */
+static inline aur_vector aur_surface_target(aur_vector from, aur_vector position, aur_vector normal,
+                                            float rounding) {
+    const aur_vector way = aur_vector_subtract(from, position);
+    const float all = rounding + 6.6e-7f * aur_vector_dot_absolute(way, normal);
+    return aur_vector_add_scaled(position, aur_smaller(all, 0.5f * aur_vector_dot(way, normal)), normal);
+}
+
+/* The same of a light without a size, which may stand in a surface: as of one that faces `from`, `back` the
+ * unit direction there. */
+static inline aur_vector aur_point_target(aur_vector from, aur_vector position, aur_vector back) {
+    return aur_surface_target(from, position, back, 1.2e-7f * aur_vector_dot_absolute(position, back));
+}
+
 /* A point beside the surface, on the side of `direction`. */
 static inline aur_vector aur_surface_leave(const aur_surface *surface, aur_vector direction) {
     const float side = aur_vector_dot(direction, surface->geometric_normal) < 0.0f ? -1.0f : 1.0f;
@@ -85,19 +118,24 @@ static inline aur_ray aur_surface_ray(const aur_surface *surface, aur_vector dir
     return (aur_ray){aur_surface_leave(surface, direction), 0.0f, direction, INFINITY};
 }
 
-/* A ray from the surface that stops just short of the point `target`; *distance is the whole way. */
-static inline aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target, float *distance) {
-    const aur_vector from = aur_surface_leave(surface, aur_vector_subtract(target, surface->position));
+/* A ray from one point to another. It meets no surface on which the other is an aur_surface_target. */
+static inline aur_ray aur_ray_between(aur_vector from, aur_vector target) {
     const aur_vector way = aur_vector_subtract(target, from);
-    *distance = aur_vector_length(way);
-    return (aur_ray){from, 0.0f, aur_vector_scale(way, 1.0f / aur_larger(*distance, 1e-30f)),
-                     *distance * (1.0f - 1e-4f)};
+    const float distance = aur_vector_length(way);
+    return (aur_ray){from, 0.0f, aur_vector_scale(way, 1.0f / aur_larger(distance, 1e-30f)), distance};
+}
+
+/* The same from a point beside the surface. */
+static inline aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target) {
+    return aur_ray_between(aur_surface_leave(surface, aur_vector_subtract(target, surface->position)),
+                           target);
 }
 
 /* --- lights */
 
 typedef struct aur_light_sample {
-    aur_vector position;  /* on the light; beyond the scene for lights that are infinitely far */
+    aur_vector position;  /* just before the light (aur_surface_target), where rays towards it end; beyond the
+                             scene for lights that are infinitely far */
     aur_vector normal;    /* of the light there */
     aur_vector direction; /* unit, from the reference point to the light */
     float distance;

@@ -20,10 +20,11 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
 }
 
 /* Of two triangles, (0, 1, 2) and (0, 2, 3). */
-static float parallelogram_offset(const aur_mesh *mesh, aur_vector normal) {
+static void round_parallelogram(const aur_mesh *mesh, aur_shape_point *point) {
     const aur_vector a = aur_mesh_position(mesh, 0), b = aur_mesh_position(mesh, 1);
-    const aur_vector c = aur_mesh_position(mesh, 2), d = aur_mesh_position(mesh, 3);
-    return aur_larger(aur_triangle_offset(a, b, c, normal), aur_triangle_offset(a, c, d, normal));
+    const aur_vector c = aur_mesh_position(mesh, 2), d = aur_mesh_position(mesh, 3), n = point->normal;
+    point->offset = aur_larger(aur_triangle_offset(a, b, c, n), aur_triangle_offset(a, c, d, n));
+    point->rounding = aur_larger(aur_triangle_rounding(a, b, c, n), aur_triangle_rounding(a, c, d, n));
 }
 
 aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles,
@@ -38,11 +39,12 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     aur_shape_point point;
     point.normal = aur_triangle_normal(corner);
     point.offset = aur_triangle_offset(corner[0], corner[1], corner[2], point.normal);
+    point.rounding = aur_triangle_rounding(corner[0], corner[1], corner[2], point.normal);
     if (shape->parallelogram) {
         const aur_vector origin = aur_mesh_position(mesh, 0);
         const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);
         const aur_vector y = aur_vector_subtract(aur_mesh_position(mesh, 3), origin);
-        point.offset = parallelogram_offset(mesh, point.normal);
+        round_parallelogram(mesh, &point);
         point.position = aur_vector_add_scaled(aur_vector_add_scaled(origin, u[1], x), u[2], y);
         point.texture = (aur_bsdf_point){.u = u[1], .v = u[2]};
         return point;
@@ -50,9 +52,8 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     const float root = sqrtf(u[1]);
     const float b1 = root * (1.0f - u[2]);
     const float b2 = root * u[2];
-    point.position = aur_vector_scale(corner[0], 1.0f - b1 - b2);
-    point.position = aur_vector_add_scaled(point.position, b1, corner[1]);
-    point.position = aur_vector_add_scaled(point.position, b2, corner[2]);
+    point.position = aur_vector_add_scaled(corner[0], b1, aur_vector_subtract(corner[1], corner[0]));
+    point.position = aur_vector_add_scaled(point.position, b2, aur_vector_subtract(corner[2], corner[0]));
     point.texture = aur_mesh_texture(mesh, triangle, b1, b2);
     return point;
 }

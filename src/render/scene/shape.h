@@ -18,7 +18,8 @@ typedef struct aur_mesh_file aur_mesh_file;
 typedef struct aur_shape_point {
     aur_vector position, normal;
     aur_bsdf_point texture;
-    float offset; /* aur_surface_offset */
+    float offset;   /* aur_surface_offset */
+    float rounding; /* how far it may be off the surface that rays meet, as aur_triangle_rounding */
 } aur_shape_point;
 
 /* Strings of points with radii, such as hair. */
@@ -121,11 +122,15 @@ static inline size_t aur_shape_primitives(const aur_shape *shape) {
     return shape->curves.segment_count != 0 ? shape->curves.segment_count : 1;
 }
 
-/* aur_surface_offset where rays meet the shape in doubles and `position` was found in doubles: it is rounded
- * once, and the origin of the ray once more, which are 2 of the 4 roundings of 6e-8 here. Doubles have some
- * 1e-15 of `size`, that of all coordinates. */
-static inline float aur_round_offset(aur_vector position, aur_vector normal, float size) {
-    return 0.16f * aur_surface_rounding(position, normal) + 1e-15f * size + AUR_LEAST_OFFSET;
+/* Of a point and its unit normal, offset and rounding where rays meet the shape in doubles and `position` was
+ * found in doubles: it is rounded once, and the origin of the ray once more, which are 2 of the 4 roundings
+ * of 6e-8 here. Doubles have some 1e-15 of `size`, that of all coordinates. */
+static inline void aur_round_point(aur_vector position, aur_vector normal, float size,
+                                   aur_shape_point *point) {
+    point->position = position;
+    point->normal = normal;
+    point->rounding = 0.16f * aur_surface_rounding(position, normal) + 1e-15f * size;
+    point->offset = point->rounding + AUR_LEAST_OFFSET;
 }
 
 static inline float aur_coordinate_sum(aur_vector a) {

@@ -64,8 +64,7 @@ bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light
     const aur_vector radiance = aur_vector_multiply(value, light->radiance);
     if (aur_vector_is_zero(radiance))
         return false;
-    float distance;
-    shadow->ray = aur_surface_ray_to(surface, light->position, &distance);
+    shadow->ray = aur_surface_ray_to(surface, light->position);
     shadow->radiance = aur_vector_scale(radiance, weight / light->pdf);
     return true;
 }
@@ -117,6 +116,23 @@ bool aur_panes_exist(const aur_scene *scene) {
     return false;
 }
 
+aur_ray aur_ray_behind(const aur_ray *ray, const aur_surface *surface) {
+    aur_ray rest = aur_surface_ray(surface, ray->direction);
+    if (!isfinite(ray->farthest))
+        return rest;
+    double end[3], from[3], direction[3];
+    aur_vector_to_doubles(ray->direction, direction);
+    aur_vector_to_doubles(ray->origin, end);
+    aur_vector_to_doubles(rest.origin, from);
+    for (size_t d = 0; d < 3; ++d)
+        end[d] += (double)ray->farthest * direction[d] - from[d];
+    const aur_vector left = {(float)end[0], (float)end[1], (float)end[2]};
+    rest.farthest = aur_vector_dot(left, ray->direction) > 0.0f ? aur_vector_length(left) : 0.0f;
+    if (rest.farthest > 0.0f)
+        rest.direction = aur_vector_scale(left, 1.0f / rest.farthest);
+    return rest;
+}
+
 aur_vector aur_panes_passed(const aur_scene *scene, const aur_ray *ray, size_t most) {
     aur_vector left = {1.0f, 1.0f, 1.0f};
     aur_ray rest = *ray;
@@ -129,9 +145,7 @@ aur_vector aur_panes_passed(const aur_scene *scene, const aur_ray *ray, size_t m
         const aur_vector view = aur_vector_scale(rest.direction, -1.0f);
         left = aur_vector_multiply(
             left, aur_bsdf_passed(surface.bsdf, surface.texture, aur_frame_to_local(&surface.frame, view)));
-        const float farthest = rest.farthest - hit.distance;
-        rest = aur_surface_ray(&surface, rest.direction);
-        rest.farthest = farthest;
+        rest = aur_ray_behind(ray, &surface);
     }
     return (aur_vector){0};
 }

@@ -156,6 +156,9 @@ static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitter
 /* Whether the scene has any. */
 AUR_INTERNAL bool aur_panes_exist(const aur_scene *scene);
 
+/* The rest of the ray behind a surface, to the same end: its direction is found anew, as its length is. */
+aur_ray aur_ray_behind(const aur_ray *ray, const aur_surface *surface);
+
 /* What the surfaces on a ray, at most `most` of them, leave of the light that comes along it; 0 where one of
  * them lets none through. */
 aur_vector aur_panes_passed(const aur_scene *scene, const aur_ray *ray, size_t most);

@@ -77,7 +77,7 @@ static void lanes_shadow(aur_vertex_lanes *restrict lanes, aur_packet *restrict 
         rays->dir_x[k] = way.x * scale;
         rays->dir_y[k] = way.y * scale;
         rays->dir_z[k] = way.z * scale;
-        rays->tfar[k] = distance * (1.0f - 1e-4f);
+        rays->tfar[k] = distance;
     }
 }
 

@@ -33,7 +33,7 @@ static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t
     const float x = point->film.x, y = point->film.y;
     if (!(x >= (float)layout->x0 && x < (float)layout->x1 && y >= (float)layout->y0 && y < (float)layout->y1))
         return false;
-    const aur_ray ray = {camera, 0.0f, light->direction, light->distance * (1.0f - 1e-4f)};
+    const aur_ray ray = aur_ray_between(camera, light->position);
     return !aur_scene_occluded(scene, &ray);
 }
 

@@ -35,10 +35,8 @@ bool aur_volume_shadow(const aur_scene *scene, bool passes, float reach, const a
             return false;
         walk->throughput = aur_vector_multiply(walk->throughput, passed);
         aur_surface_medium(scene, &surface, rest.direction, &medium);
-        const float left = rest.farthest - hit.distance;
         reach = aur_larger(reach - hit.distance, 0.0f);
-        rest = aur_surface_ray(&surface, rest.direction);
-        rest.farthest = left;
+        rest = aur_ray_behind(ray, &surface);
     }
     ++counters->cut;
     return false;
@@ -144,7 +142,7 @@ static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scen
     aur_light_sample light;
     if (medium->samples_emitters && draw_light(scene, &reference, walk->pairs, &light)) {
         const float value = aur_phase_evaluate(medium->phase, from, aur_vector_dot(before, light.direction));
-        const aur_ray ray = {from, 0.0f, light.direction, light.distance * (1.0f - 1e-4f)};
+        const aur_ray ray = aur_ray_between(from, light.position);
         add_drawn_light(data, scene, walk, &light, &ray, medium, (aur_vector){value, value, value}, value,
                         &walk->sum, counters);
     }
@@ -181,9 +179,9 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     const aur_light_reference reference = aur_shading_reference(&shading);
     aur_light_sample light;
     if (!last && draw_light(scene, &reference, walk->pairs, &light)) {
-        float pdf, distance;
+        float pdf;
         const aur_vector scattered = aur_vertex_evaluate(&shading, AUR_VERTEX_ALL, light.direction, &pdf);
-        const aur_ray ray = aur_surface_ray_to(surface, light.position, &distance);
+        const aur_ray ray = aur_surface_ray_to(surface, light.position);
         const aur_medium *medium = walk->medium;
         aur_surface_medium(scene, surface, light.direction, &medium);
         add_drawn_light(data, scene, walk, &light, &ray, medium, scattered, pdf, &walk->sum, counters);

@@ -41,8 +41,7 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
         const aur_light_reference at = {reference, normals[i % 3]};
         if (aur_light_sample_direct(scene, &at, u, &sample)) {
             const aur_surface eye = {.position = reference, .geometric_normal = sample.direction};
-            float distance;
-            const aur_ray ray = aur_surface_ray_to(&eye, sample.position, &distance);
+            const aur_ray ray = aur_surface_ray_to(&eye, sample.position);
             const double value =
                 aur_scene_occluded(scene, &ray)
                     ? 0.0
@@ -59,7 +58,7 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
                 aur_surface surface;
                 aur_scene_surface(scene, &continuation, &hit, &surface);
                 assert_relative(aur_light_pdf_direct(scene, &at, &surface), sample.pdf, 4e-3);
-                assert_near(hit.distance, distance, 2e-3 * distance);
+                assert_near(hit.distance, ray.farthest, 2e-3 * ray.farthest);
             }
         }
         const aur_ray ray = {reference, 0.0f, aur_sample_sphere(unit(4, i), unit(5, i)), INFINITY};

@@ -1,5 +1,5 @@
-/* Rays that leave a surface never meet it, wherever the surface is near to the origin and however it is
- * turned. */
+/* Rays that leave a surface or end at a light on it never meet it, wherever the surface is near to the origin
+ * and however it is turned; and what is just before a light hides it. */
 #include "scene_text.h"
 
 #include "points/base/random.h"
@@ -88,8 +88,8 @@ static size_t leave(const aur_scene *scene, const aur_surface *surface, double s
     return met;
 }
 
-/* How often a ray of many met what it left. */
-static size_t test_place(size_t shape, double size, size_t turn, double away, size_t *tried) {
+/* `more` stands in the shape, as a light does. Its middle is away * size * (1, .4, -.7). */
+static aur_scene *load_shape(size_t shape, double size, size_t turn, double away, const char *more) {
     char transform[512], body[2048];
     const aur_vector middle = shapes[shape].middle;
     const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
@@ -107,9 +107,15 @@ static size_t test_place(size_t shape, double size, size_t turn, double away, si
         snprintf(body, sizeof body, "%.*s%s</shape>", (int)(end - text), text,
                  transform + strlen("<transform name='to_world'>"));
     } else {
-        snprintf(body, sizeof body, "%.*s%s%s", (int)(gap - text), text, transform, gap + 1);
+        snprintf(body, sizeof body, "%.*s%s%s%s", (int)(gap - text), text, transform, more, gap + 1);
     }
-    aur_scene *const scene = must_load_body(body);
+    return must_load_body(body);
+}
+
+/* How often a ray of many met what it left. */
+static size_t test_place(size_t shape, double size, size_t turn, double away, size_t *tried) {
+    const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
+    aur_scene *const scene = load_shape(shape, size, turn, away, "");
     const aur_vector place = aur_place_from(aur_scene_origin(scene), at);
     size_t met = 0;
     for (uint64_t i = 0; i < 60; ++i) {
@@ -150,7 +156,52 @@ static void never_meets_itself(void **state) {
     assert_int_equal(bad, 0);
 }
 
+/* Rays to points on a light, from near to far and at all angles, meet nothing: there is nothing else. */
+static size_t test_light(size_t shape, double size, size_t turn, double away, size_t *tried) {
+    enum { RAYS = 400 };
+    const double at[3] = {away * size, 0.4 * away * size, -0.7 * away * size};
+    aur_scene *const scene = load_shape(shape, size, turn, away, "<emitter type='area'/>");
+    const aur_vector place = aur_place_from(aur_scene_origin(scene), at);
+    size_t met = 0;
+    for (uint64_t i = 0; i < RAYS; ++i) {
+        const float distance = (float)size * powf(10.0f, 5.0f * unit(i, 6) - 2.0f);
+        const aur_light_reference reference = {
+            .position = aur_vector_add_scaled(place, distance, aur_sample_sphere(unit(i, 7), unit(i, 8)))};
+        aur_light_sample light;
+        if (!aur_light_sample_direct(scene, &reference,
+                                     (const float[3]){unit(i, 9), unit(i, 10), unit(i, 11)}, &light))
+            continue;
+        const aur_ray ray = aur_ray_between(reference.position, light.position);
+        met += aur_scene_occluded(scene, &ray);
+        ++*tried;
+    }
+    aur_scene_destroy(scene);
+    return met;
+}
+
+static void lights_never_hide_themselves(void **state) {
+    (void)state;
+    static const double sizes[] = {1e-5, 1.0, 1e5}, ways[] = {0.0, 0.3, 30.0, 1e6};
+    size_t bad = 0;
+    write_grid();
+    for (size_t shape = 0; shape < sizeof shapes / sizeof shapes[0]; ++shape) {
+        size_t tried = 0, met = 0;
+        if (strstr(shapes[shape].body, "instance") != NULL)
+            continue;
+        for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; ++s)
+            for (size_t turn = 0; turn < sizeof turns / sizeof turns[0]; ++turn)
+                for (size_t w = 0; w < sizeof ways / sizeof ways[0]; ++w)
+                    met += test_light(shape, sizes[s], turn, ways[w], &tried);
+        if (met > 0)
+            print_message("light %zu: %zu of %zu rays met it\n", shape, met, tried);
+        assert_true(tried > 5000);
+        bad += met;
+    }
+    assert_int_equal(bad, 0);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(never_meets_itself)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(never_meets_itself),
+                                       cmocka_unit_test(lights_never_hide_themselves)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

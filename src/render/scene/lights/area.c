@@ -19,22 +19,16 @@ typedef struct area_light {
     const aur_shape *shape;
     aur_distribution triangles; /* of meshes, by area */
     bool is_mesh, is_rectangle;
+    float offset;                  /* of rays that leave a parallelogram */
     aur_rectangle_light rectangle; /* drawn by the solid angle under which it is seen */
     const aur_rectangle_kernels *kernels;
 } area_light;
 
-/* Points that are drawn lie off the surface by more than they are rounded, so that rays to them do not end at
- * the light itself just before. */
-static aur_vector lifted(aur_vector position, const aur_shape_point *on) {
-    return aur_vector_add_scaled(position, on->offset, on->normal);
-}
-
-/* `on`: any of its points. */
-static bool find_rectangle(const aur_shape *shape, const aur_shape_point *on, aur_rectangle *rectangle) {
+static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
     const aur_vector corner = aur_mesh_position(&shape->mesh, 0);
     const aur_vector x = aur_vector_subtract(aur_mesh_position(&shape->mesh, 1), corner);
     const aur_vector y = aur_vector_subtract(aur_mesh_position(&shape->mesh, 3), corner);
-    *rectangle = (aur_rectangle){.corner = lifted(corner, on),
+    *rectangle = (aur_rectangle){.corner = corner,
                                  .x = aur_vector_normalize(x),
                                  .y = aur_vector_normalize(y),
                                  .width = aur_vector_length(x),
@@ -72,7 +66,9 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     if (shape->parallelogram) {
         const aur_shape_point on = aur_shape_sample(shape, NULL, (const float[3]){0.0f});
         light->rectangle.normal = on.normal;
-        light->is_rectangle = find_rectangle(shape, &on, &light->rectangle.rectangle);
+        light->rectangle.rounding = on.rounding;
+        light->offset = on.offset;
+        light->is_rectangle = find_rectangle(shape, &light->rectangle.rectangle);
     }
     light->rectangle.area = (float)shape->area;
     light->rectangle.radiance = emitter->radiance.constant;
@@ -90,6 +86,8 @@ static aur_shape_point sample_area(const area_light *light, const float u[3]) {
         const aur_vector along = aur_vector_add_scaled(r->corner, u[1] * r->width, r->x);
         return (aur_shape_point){.position = aur_vector_add_scaled(along, u[2] * r->height, r->y),
                                  .normal = light->rectangle.normal,
+                                 .offset = light->offset,
+                                 .rounding = light->rectangle.rounding,
                                  .texture = {.u = u[1], .v = u[2]}};
     }
     return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
@@ -165,7 +163,7 @@ static bool finish_sample(const aur_emitter *emitter, aur_vector reference, cons
     if (!(cosine > 0.0f) || !(squared > 0.0f))
         return false;
     const area_light *const light = emitter->data;
-    drawn->position = light->is_rectangle ? point->position : lifted(point->position, point);
+    drawn->position = aur_surface_target(reference, point->position, point->normal, point->rounding);
     drawn->normal = point->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
     drawn->pdf = pdf_of(light, density, squared, cosine);

@@ -17,6 +17,7 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
 typedef struct beam {
     const aur_shape *shape;
     aur_vector origin, normal;
+    float rounding;      /* of points on the shape (aur_shape_point) */
     aur_vector along[2]; /* products with what leads from the origin are coordinates along the edges */
 } beam;
 
@@ -42,7 +43,9 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     const float scale = 1.0f / aur_vector_dot(across, across);
     self->along[0] = aur_vector_scale(aur_vector_cross(y, across), scale);
     self->along[1] = aur_vector_scale(aur_vector_cross(across, x), scale);
-    self->normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
+    const aur_shape_point on = aur_shape_sample(shape, NULL, (const float[3]){0.0f, 1.0f, 0.0f});
+    self->normal = on.normal;
+    self->rounding = on.rounding;
     emitter->extent = shape->area;
     return AUR_OK;
 }
@@ -66,7 +69,11 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
                                                  aur_vector_dot(way, self->along[1]), &texture))
         return false;
     drawn->direction = aur_vector_scale(self->normal, -1.0f);
-    drawn->position = aur_vector_add_scaled(query->reference.position, drawn->distance, drawn->direction);
+    /* The distance is a sum of three products, and the normal's length is rounded: 6 roundings. */
+    drawn->position = aur_surface_target(
+        query->reference.position,
+        aur_vector_add_scaled(query->reference.position, drawn->distance, drawn->direction), self->normal,
+        self->rounding + 3.6e-7f * aur_vector_dot_absolute(way, self->normal));
     drawn->normal = self->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, texture);
     drawn->pdf = 1.0f;

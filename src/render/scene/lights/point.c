@@ -154,10 +154,10 @@ static bool sample_place(const aur_emitter *emitter, const aur_light_query *quer
     const float squared = aur_vector_dot(way, way);
     if (!(squared > 0.0f))
         return false;
-    drawn->position = self->position;
     drawn->distance = sqrtf(squared);
     drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
     drawn->normal = aur_vector_scale(drawn->direction, -1.0f);
+    drawn->position = aur_point_target(query->reference.position, self->position, drawn->normal);
     const float share = falloff(self, -aur_vector_dot(drawn->direction, self->frame.z));
     drawn->radiance = aur_vector_scale(aur_vector_scale(emitter->radiance.constant, 1.0f / squared), share);
     if (self->picture.texture != NULL && share > 0.0f)

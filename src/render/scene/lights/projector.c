@@ -82,9 +82,10 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
                                .v = 0.5f - 0.5f * local.y / (local.z * self->half_height)};
     if (!(at.u >= 0.0f && at.u <= 1.0f && at.v >= 0.0f && at.v <= 1.0f))
         return false;
-    drawn->position = self->position;
     drawn->distance = sqrtf(squared);
     drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
+    drawn->position = aur_point_target(query->reference.position, self->position,
+                                       aur_vector_scale(drawn->direction, -1.0f));
     drawn->normal = self->frame.z;
     const float cosine = -aur_vector_dot(drawn->direction, self->frame.z);
     drawn->radiance =

@@ -53,6 +53,7 @@ typedef struct aur_rectangle_light {
     aur_vector normal; /* of the side that shines */
     aur_vector radiance;
     float area, probability;
+    float rounding; /* aur_triangle_rounding */
 } aur_rectangle_light;
 
 /* Samples of the light for sixteen points: by solid angle where the light is large enough, else by area. */

@@ -178,12 +178,13 @@ static void rectangle_lanes(const aur_rectangle_light *given, const aur_light_re
         const float along_x = seen ? s[k] : moved_u[k], along_y = seen ? t[k] : moved_v[k];
         const aur_vector point =
             aur_vector_add_scaled(aur_vector_add_scaled(r->corner, along_x, x), along_y, y);
-        const aur_vector way = aur_vector_subtract(aur_lane_vector(reference, k), point);
+        const aur_vector from = aur_lane_vector(reference, k);
+        const aur_vector way = aur_vector_subtract(from, point);
         const float height = aur_vector_dot(way, light.normal), squared = aur_vector_dot(way, way);
         const float by_area = squared * sqrtf(squared) / (height * light.area);
         const float by_angle = 1.0f / angle[k];
         const float pdf = light.probability * density[k] * (seen ? by_angle : by_area);
-        aur_lane_set(&drawn->position, k, point);
+        aur_lane_set(&drawn->position, k, aur_surface_target(from, point, light.normal, light.rounding));
         aur_lane_set(&drawn->radiance, k, light.radiance);
         drawn->pdf[k] = height > 0.0f ? pdf : 0.0f;
         drawn->reachable[k] = 1.0f;

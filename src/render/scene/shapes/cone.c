@@ -73,13 +73,13 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
         aur_vector_scale(aur_vector_add_scaled(outwards, -slope, shape->axis[2]), scale);
     const aur_vector foot = aur_vector_add_scaled(shape->center, z, shape->axis[2]);
     const aur_vector position = aur_vector_add_scaled(foot, (float)radius_at(shape, (double)z), outwards);
-    return (aur_shape_point){
-        position,
-        aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-        {.u = aur_shape_azimuth(cosine, sine), .v = area_below(shape, z)},
-        /* coordinates, radius and height are rounded once each, in floats */
-        4.0f *
-            aur_round_offset(position, normal, aur_coordinate_sum(shape->center) + shape->radius + fabsf(z))};
+    aur_shape_point point = {.texture = {.u = aur_shape_azimuth(cosine, sine), .v = area_below(shape, z)}};
+    aur_round_point(position, aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+                    aur_coordinate_sum(shape->center) + shape->radius + fabsf(z), &point);
+    /* Coordinates, radius and height are rounded once each, in floats. */
+    point.offset *= 4.0f;
+    point.rounding *= 4.0f;
+    return point;
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,

@@ -82,11 +82,12 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
                                     : aur_vector_normalize((aur_vector){-along.y, along.x, 0.0f});
     const float x = aur_vector_dot(away, side), y = aur_vector_dot(away, aur_vector_cross(along, side));
     const aur_vector normal = normal_of(curves, &middle, away);
-    *point = (aur_shape_point){
-        position,
-        aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-        {.u = aur_shape_azimuth(x, y), .v = ((float)hit->primitive + hit->u) / (float)curves->segment_count},
-        aur_surface_offset(position, normal)};
+    *point =
+        (aur_shape_point){.position = position,
+                          .normal = aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+                          .texture = {.u = aur_shape_azimuth(x, y),
+                                      .v = ((float)hit->primitive + hit->u) / (float)curves->segment_count},
+                          .offset = aur_surface_offset(position, normal)};
     if (tangents == NULL)
         return;
     /* C + r d, whose d turns with the middle line and, where that bends sideways, with the direction across

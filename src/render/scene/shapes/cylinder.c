@@ -54,12 +54,10 @@ static aur_vector place_of(const aur_shape *shape, aur_vector normal, float z) {
 static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine, float z) {
     aur_vector normal = aur_vector_scale(shape->axis[0], cosine);
     normal = aur_vector_add_scaled(normal, sine, shape->axis[1]);
-    const aur_vector position = place_of(shape, normal, z);
-    return (aur_shape_point){
-        position,
-        aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-        {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length},
-        aur_round_offset(position, normal, aur_coordinate_sum(shape->center) + shape->radius + fabsf(z))};
+    aur_shape_point point = {.texture = {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length}};
+    aur_round_point(place_of(shape, normal, z), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+                    aur_coordinate_sum(shape->center) + shape->radius + fabsf(z), &point);
+    return point;
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,

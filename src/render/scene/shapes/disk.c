@@ -52,13 +52,12 @@ static aur_vector place_of(const aur_shape *shape, double x, double y) {
 }
 
 static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
-    aur_shape_point point;
-    point.position = place_of(shape, (double)x, (double)y);
-    point.offset = aur_round_offset(point.position, shape->axis[2],
-                                    aur_coordinate_sum(shape->center) + aur_coordinate_sum(shape->axis[0]) +
-                                        aur_coordinate_sum(shape->axis[1]));
-    point.normal = aur_vector_scale(shape->axis[2], shape->flipped ? -1.0f : 1.0f);
-    point.texture = (aur_bsdf_point){.u = hypotf(x, y), .v = aur_shape_azimuth(x, y)};
+    aur_shape_point point = {.texture = {.u = hypotf(x, y), .v = aur_shape_azimuth(x, y)}};
+    aur_round_point(place_of(shape, (double)x, (double)y),
+                    aur_vector_scale(shape->axis[2], shape->flipped ? -1.0f : 1.0f),
+                    aur_coordinate_sum(shape->center) + aur_coordinate_sum(shape->axis[0]) +
+                        aur_coordinate_sum(shape->axis[1]),
+                    &point);
     return point;
 }
 

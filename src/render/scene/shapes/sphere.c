@@ -38,15 +38,14 @@ static aur_vector place_of(const aur_shape *shape, aur_vector normal) {
 
 /* The point that has this unit normal before flipping. */
 static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
-    const aur_vector position = place_of(shape, normal);
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]);
-    return (aur_shape_point){
-        position,
-        aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-        {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F},
-        aur_round_offset(position, normal, aur_coordinate_sum(shape->center) + shape->radius)};
+    aur_shape_point point = {
+        .texture = {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
+    aur_round_point(place_of(shape, normal), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+                    aur_coordinate_sum(shape->center) + shape->radius, &point);
+    return point;
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
