@@ -31,7 +31,7 @@ from ._bridge import (
     WriteError,
 )
 from ._core import core as _core
-from ._integrate import Average, Estimate, Integral, average, estimate, integrate
+from ._integrate import Average, Estimate, Integral, average, estimate, integrate, point_group, symmetric_rule
 from ._maps import (
     fibonacci_nearest,
     lobe_pdf,
@@ -132,6 +132,7 @@ __all__ = [
     "measure",
     "measures",
     "names",
+    "point_group",
     "points",
     "read",
     "read_image",
@@ -144,6 +145,7 @@ __all__ = [
     "rule",
     "sets",
     "student_quantile",
+    "symmetric_rule",
     "symmetry_group",
     "symmetry_reduce",
     "symmetry_select",

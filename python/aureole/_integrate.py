@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Callable, Literal, NamedTuple, Optional, Sequence
 
 import numpy as np
 
-from ._bridge import ArgumentError, IntegrationWarning, Progress, Seed, encode, vector
+from ._bridge import ArgumentError, IntegrationWarning, Progress, Seed, UnsupportedError, encode, vector
 from ._core import CoreCall, core, ffi, lib
 from ._points import Array
 
@@ -124,11 +125,79 @@ def _integrate(
     raise ArgumentError(f"the function's values changed their shape to {integrand.shape}")
 
 
+def point_group(name: str) -> Array:
+    """The matrices (order, 3, 3) of a point group by its Schoenflies symbol, the identity first.
+
+    "Ci" (u and -u), "Cs" (a mirror plane), "Cn", "Cnv", "Cnh", "Sn", "Dn", "Dnh", "Dnd" with n from 1 to 30, "T", "Td", "Th",
+    "O", "Oh", "I", "Ih". The main axis is z, mirror planes and axes across it contain x. A box along the axes has "D2h".
+
+    >>> point_group("D2h").shape
+    (8, 3, 3)
+    """
+    group = ffi.new("aur_point_group *")
+    core.call(lib.aur_point_group_from_name, encode(name), group)
+    return np.array([list(group.elements[i].m) for i in range(group.order)]).reshape(-1, 3, 3)
+
+
+def symmetric_rule(n: int, symmetry: str) -> tuple[Array, Array]:
+    """At most `n` directions (n, 3) and weights of sum 1 for the mean over the sphere of functions with a symmetry.
+
+    Their images under the point group are a product rule: Gauss-Legendre heights times equal azimuths. It is exact for
+    polynomials to a degree of about sqrt(2 n order) - 1. `symmetry`: as for `point_group`.
+
+    >>> xyz, w = symmetric_rule(900, "D2h")
+    >>> round(float(w @ np.sinc(8 * xyz[:, 2] / np.pi) ** 2), 12)
+    0.188618568844
+    """
+    group = ffi.new("aur_point_group *")
+    core.call(lib.aur_point_group_from_name, encode(symmetry), group)
+    if n < 1:
+        raise ArgumentError(f"a rule must have 1 point or more, not {n}")
+    xyz, weights, count = np.empty((n, 3)), np.empty(n), ffi.new("size_t *")
+    core.call(lib.aur_symmetric_rule, group, n, 3 * n, core.output(xyz), core.output(weights), count)
+    return xyz[: count[0]], weights[: count[0]]
+
+
+def _symmetric(f: Callable[..., Any], n: int, symmetry: str) -> tuple[Any, int, bool]:
+    """The mean by a symmetric rule, its number of points, and whether all values were equal."""
+    xyz, weights = symmetric_rule(n, symmetry)
+    made = np.asarray(f(xyz.copy()))
+    if made.shape[:1] != (len(xyz),):
+        raise ArgumentError(f"the function must return one row of values per point, ({len(xyz)}, ...), not {made.shape}")
+    made = made.astype(np.complex128 if np.iscomplexobj(made) else np.float64)
+    if not np.isfinite(made).all():
+        raise ArgumentError("the function has a value that is not finite")
+    return np.tensordot(weights, made, 1)[()], len(xyz), bool((made == made[0]).all())
+
+
+def _integrate_symmetric(
+    f: Callable[..., Any], symmetry: str, tol: float, absolute: float, scale: float, first: int, evaluations: int
+) -> Integral:
+    """Rules of four times the points, and so of twice the degree, until their values agree."""
+    value, change, used, levels, n = 0.0, np.inf, 0, 0, max(first, 256)
+    while True:
+        before = value
+        mean, points, equal = _symmetric(f, n, symmetry)
+        value, used, levels, n = scale * mean, used + points, levels + 1, 4 * n
+        change = np.abs(value - before).max() if levels > 1 and not equal else np.inf
+        converged = bool(change <= max(absolute, tol * np.abs(value).max()))
+        if converged or used + n > evaluations or equal and used >= 65536:
+            break
+    if not converged:
+        message = f"the target was not reached: the error is {change:.3g} after {used} evaluations"
+        warnings.warn("all values of the function are equal" if equal else message, IntegrationWarning, stacklevel=3)
+    reason = "tolerance" if converged else "constant" if equal and used >= 65536 else "evaluations"
+    interval = np.full(np.shape(value), change)[()]
+    return Integral(
+        value, float(change), interval, float(change), used, levels, converged, reason, ("all equal",) * equal, 3 / used
+    )
+
+
 def integrate(
     f: Callable[..., Any], tol: float = 0.01, *, absolute: float = 0.0, domain: Domain = "sphere",
     dimension: int = 0, cap: float = 0.0, exponent: float = 0.0, axis: Optional[tuple[float, float]] = None,
-    peaks: Sequence[tuple[Any, ...]] = (), separate: bool = False, mean: bool = False, confidence: float = 0.95,
-    replicates: int = 16, first: int = 0, evaluations: int = 2**22, max_points: Optional[int] = None, seed: Seed = 0,
+    peaks: Sequence[tuple[Any, ...]] = (), symmetry: Optional[str] = None, separate: bool = False, mean: bool = False,
+    confidence: float = 0.95, replicates: int = 16, first: int = 0, evaluations: int = 2**22, max_points: Optional[int] = None, seed: Seed = 0,
     progress: Optional[Progress] = None,
 ) -> Integral:  # fmt: skip
     """The integral of a function over a domain until its error is below a tolerance.
@@ -148,6 +217,9 @@ def integrate(
         is large in a small place. Directions have a radius in degrees, points of the square and cube half the side of a
         box, 0 is all of the domain. `exponent`: the function grows as distance^-exponent, and is integrated without a
         singularity.
+    symmetry : the point group of a smooth function on the sphere, see `point_group`: each value counts as often as the group
+        has elements, by product rules (`symmetric_rule`) whose degrees double until two agree. No random move keeps mirror
+        planes: error and interval are the change from the rule before, an estimate for smooth functions only.
     separate : each of several values is an integral with its own tolerance; else the tolerance is relative to the largest.
     confidence, replicates : of the interval; randomisations, 4 to 64.
     first : points of a randomisation on the first level; 0: no result comes from fewer than 8192 values.
@@ -163,10 +235,15 @@ def integrate(
     >>> integrate(lambda x: np.exp(2j * np.pi * x[:, :1] * [0, 0.5]), domain="square").value.round(2)
     array([1.+0.j  , 0.+0.64j])
     """
+    most = evaluations if max_points is None else max_points
+    if symmetry is not None:
+        if domain != "sphere" or cap or axis is not None or len(peaks) or separate or not max(tol, absolute) > 0:
+            raise UnsupportedError("a symmetry is for the whole sphere without peaks, with a tolerance above 0")
+        return _integrate_symmetric(f, symmetry, tol, absolute, 1.0 if mean else 4 * np.pi, first, most)
     integrand, integral, results = _integrate(
         f, domain, dimension, axis, peaks, progress, None, cap_degrees=cap, exponent=exponent, relative=tol,
         absolute=absolute, confidence=confidence, replicates=replicates, first=first, seed=seed, separate=separate,
-        mean=mean, evaluations=evaluations if max_points is None else max_points,
+        mean=mean, evaluations=most,
     )  # fmt: skip
     return Integral(
         integrand.shaped(results[:, 0]), integral.error, integrand.widths(results[:, 2]), integral.difference,
@@ -178,14 +255,14 @@ def integrate(
 
 class Average(NamedTuple):
     value: Any
-    error: Any  #: half the width of the interval about the value
+    error: Any  #: half the width of the interval about the value; of a symmetric rule the change from a smaller one
     evaluations: int
 
 
 def average(
     f: Callable[..., Any], n: int, domain: Domain = "sphere", *, set: Optional[str] = None, copies: int = 16,
     dimension: int = 0, cap: float = 0.0, exponent: float = 0.0, axis: Optional[tuple[float, float]] = None,
-    confidence: float = 0.95, seed: Seed = 0, progress: Optional[Progress] = None,
+    symmetry: Optional[str] = None, confidence: float = 0.95, seed: Seed = 0, progress: Optional[Progress] = None,
 ) -> Average:  # fmt: skip
     """The mean of a function over a domain and its error, by `copies` of one set of `n` points, each moved at random.
 
@@ -193,12 +270,20 @@ def average(
     with room to spare. Other sets are Owen-scrambled, or shifted. `set`: default "spherical-fibonacci" for sphere and axes,
     "super-fibonacci" for rotations, "sobol" elsewhere. Other parameters as for `integrate`.
 
+    `symmetry`: of a smooth function on the sphere, by one symmetric rule of at most n points and one of a quarter of them,
+    whose difference is the error.
+
     >>> found = average(lambda u: np.exp(-3 * u[:, 0] ** 2), 500, "axes")
     >>> abs(found.value - 0.50434356) < 3 * found.error + 1e-8
     True
     """
     if n < 1:
         raise ArgumentError(f"a set must have 1 point or more, not {n}")
+    if symmetry is not None:
+        if domain != "sphere" or set is not None or cap or axis is not None:
+            raise UnsupportedError("a symmetry is for the whole sphere, and has its own set")
+        (coarse, few, _), (value, many, equal) = (_symmetric(f, k, symmetry) for k in (max(n // 4, 1), n))
+        return Average(value, np.full(np.shape(value), np.inf)[()] if equal else np.abs(value - coarse), few + many)
     if set is None:
         turned = axis is None and cap in (0.0, 180.0)
         set = {"sphere": "spherical-fibonacci", "axes": "spherical-fibonacci", "rotations": "super-fibonacci"}.get(

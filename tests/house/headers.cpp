@@ -21,6 +21,7 @@
 #include <aureole/rotations.h>
 #include <aureole/sphere.h>
 #include <aureole/statistics.h>
+#include <aureole/symmetry.h>
 #include <aureole/tables.h>
 #include <aureole/text.h>
 #include <aureole/version.h>

@@ -464,6 +464,35 @@ class Figures(unittest.TestCase):
         found = aureole.average(lambda x: x.sum(axis=1), 256, "cube", dimension=64)
         self.assertLess(abs(found.value - 32), 5 * found.error)
 
+    def test_symmetric_integrands(self):
+        """The form factor of a prism of 60 x 250 x 500 at q = 0.1, whose mean over the sphere needs 900 values."""
+        def prism(u):
+            return (np.sinc(0.05 * u * [60, 250, 500] / np.pi) ** 2).prod(axis=1)
+
+        xyz, w = aureole.symmetric_rule(40000, "D2h")
+        exact = w @ prism(xyz)
+        xyz, w = aureole.symmetric_rule(900, "D2h")
+        self.assertLessEqual(len(xyz), 900)
+        self.assertLess(abs(w @ prism(xyz) / exact - 1), 1e-13)
+        found = aureole.average(prism, 900, symmetry="D2h")
+        self.assertLess(abs(found.value - exact), found.error)
+        self.assertLess(found.error, 0.01 * exact)
+        whole = aureole.integrate(prism, 1e-10, symmetry="D2h")
+        self.assertTrue(whole.converged)
+        self.assertLess(abs(whole.value / (4 * np.pi * exact) - 1), 1e-13)
+        both = aureole.integrate(lambda u: u**2, 1e-9, symmetry="Ci", mean=True)
+        self.assertLess(abs(both.value - 1 / 3).max(), 1e-14)
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "all values of the function are equal"):
+            self.assertEqual(aureole.integrate(lambda u: u[:, 0] > 2, symmetry="Oh").error, np.inf)
+        matrices = aureole.point_group("D5d")
+        self.assertLess(abs(matrices @ matrices.transpose(0, 2, 1) - np.eye(3)).max(), 1e-14)
+        with self.assertRaisesRegex(aureole.UnknownNameError, "unknown point group"):
+            aureole.symmetric_rule(100, "D99h")
+        with self.assertRaisesRegex(aureole.ArgumentError, "the smallest rule"):
+            aureole.symmetric_rule(1, "C5v")
+        with self.assertRaises(aureole.UnsupportedError):
+            aureole.average(prism, 900, "hemisphere", symmetry="D2h")
+
     def test_bad_integrands(self):
         for bad in (lambda u: u[:3, 0], lambda u: "x", lambda u: u[:, 2] / 0, lambda u: {}):
             with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
