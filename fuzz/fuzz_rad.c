@@ -31,6 +31,10 @@ static const char *const seeds[] = {
     "!genbox \"a b\" x 1 2 3 -r .1 -i | xform -t 1 2 3 -a 2 -rz 90 -a 3 -mx -i 2 -s .5\n"
     "!genbox m x 1 2 3 -b .1 | \\\n xform -m m -n y -I\n!genprism m p 3 0 0 1 0 0 1 -l 0 0 2 -e -c\n"
     "m cone c 0 0 8 0 0 0 0 0 1 1 .5\nm cup c 0 0 8 0 0 0 0 0 1 0 .5\nvoid ring r 0 0 8 0 0 0 0 0 1 0 1\n",
+    "void brightfunc f 2 skybr skybright.cal 0 7 1 30 5 2 0 0 1\nf glow g 0 0 4 1 1 1 0\n"
+    "g source s 0 0 4 0 0 1 180\ng source s 0 0 4 0 0 -1 180\n",
+    "void brightfunc f 2 skybright perezlum.cal 0 10 2 3 -.9 -.2 8 -3 .3 0 .6 .8\nf light g 0 0 3 1 1 1\n"
+    "g source s 0 0 4 0 0 1 360\n",
     "void texfunc t 4 a b c d 0 1 2\nt plastic2 p 4 a b c d 0 6 .5 .5 .5 .1 .1 .1\nvoid mixfunc x 4 p void a "
     "b 0 0\n"
     "x sphere s 0 0 4 0 0 0 1\nvoid dielectric d 0 0 5 .5 .5 .5 1.5 0\nd bubble s 0 0 4 5 0 0 1\n"

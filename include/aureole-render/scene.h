@@ -36,6 +36,20 @@ AUR_EXPERIMENTAL aur_result aur_model_light_from_name(const char *name, aur_mode
                                                       aur_error *error) AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL const char *aur_model_light_name(aur_model_light light);
 
+/* Daylight that is added to a scene: the emitter `sky`, and for perez the emitter `sun`. */
+typedef struct aur_scene_sky {
+    /* "uniform", "cie-overcast", "cie-clear" (type 12), "cie:N" with N from 1 to 15, or "perez:DNI,DHI" in
+     * W/m2. NULL: none. All but the first two need `date` and `location`. */
+    const char *model;
+    const char *date;     /* "YYYY-MM-DDTHH:MM", by the clock of the time zone */
+    const char *location; /* "LATITUDE,LONGITUDE,TIMEZONE": degrees north, degrees east, hours ahead of UTC */
+    double illuminance;   /* of the sky on the horizontal plane, lux at 179 lm/W; 0: 10,000; not for perez */
+    double ground_albedo; /* what is below the horizon reflects so much of it */
+    double up[3],
+        north[3]; /* 0 0 0: +z and +y where a file of Radiance's is among the scene's, else +y, -z */
+    bool alone;   /* the scene's own lights are left out */
+} aur_scene_sky;
+
 /* All zero but `size`, as aur_scene_options_init fills it, takes the scene as it stands. */
 typedef struct aur_scene_options {
     size_t size; /* of the caller's struct, so that it can grow */
@@ -58,6 +72,7 @@ typedef struct aur_scene_options {
     /* Patterns, textures and materials of Radiance's files that are not read become what they have that is
      * diffuse, where that is known; a warning counts them. Else a surface that uses one is an error. */
     bool diffuse;
+    aur_scene_sky sky;
 } aur_scene_options;
 
 AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)

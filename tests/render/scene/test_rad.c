@@ -389,7 +389,7 @@ static void materials_may_be_unused(void **state) {
     (void)state;
     static const char unused[] =
         "void trans t 0 0 7 1 1 1 0 0 .5 .5\nvoid plastic shiny 0 0 5 .2 .2 .2 .1 .2\n"
-        "void brightfunc f 2 skybr skybright.cal 0 2 1 .5\nf glow g 0 0 4 1 1 1 0\n"
+        "void brightfunc f 2 skybr other.cal 0 2 1 .5\nf glow g 0 0 4 1 1 1 0\n"
         "void BSDF b 6 0 a.xml 0 0 1 . 0 0\nvoid mixfunc m 4 a b c d.cal 0 0\nvoid alias other t\n"
         "void glow behind 0 0 4 1 1 1 -1\n" MATERIALS "white sphere s 0 0 4 0 0 0 1\n";
     aur_scene *scene = NULL;

@@ -100,12 +100,18 @@ const cli_option cli_daylight_options[] = {
      .content = "file", .writes = true},
     {.key = {0}}};
 
+/* Whether an option is for --sky as well, which is given. */
+static bool is_shared(const cli_call *call, const char *name) {
+    return cli_given(call, "sky") != NULL &&
+           (strcmp(name, "up") == 0 || strcmp(name, "north") == 0 || strcmp(name, "ground-albedo") == 0);
+}
+
 bool cli_daylight_check(const cli_call *call) {
     const bool weather = cli_given(call, "weather") != NULL;
     static const char *const without[] = {"error",   "confidence", "parts",     "intervals", "no-errors",
                                           "normals", "counts",     "reflected", "particles", "plot"};
     for (const cli_option *option = cli_daylight_options + 1; option->key.name != NULL && !weather; ++option)
-        if (cli_given(call, option->key.name) != NULL) {
+        if (cli_given(call, option->key.name) != NULL && !is_shared(call, option->key.name)) {
             cli_bad_usage("irradiance: --%s is for a year of weather: --weather FILE", option->key.name);
             return false;
         }

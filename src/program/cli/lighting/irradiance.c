@@ -16,6 +16,7 @@ typedef struct irradiance_command {
     aur_irradiance_columns columns;
     illuminance illuminance;
     cli_daylight daylight;
+    cli_sky sky;
     cli_definitions definitions;
     cli_common common;
 } irradiance_command;
@@ -113,6 +114,16 @@ static void set_illuminance(irradiance_command *given) {
     given->columns.unit = "lux";
 }
 
+/* Percent of the sky's illuminance, in the place of lux. */
+static void set_daylight_factor(irradiance_command *given) {
+    aur_scene_sky *const sky = &given->sky.sky;
+    sky->alone = true;
+    sky->illuminance = sky->illuminance > 0.0 ? sky->illuminance : 1e4;
+    for (size_t c = 0; c < 3; ++c)
+        given->estimate.luminance[c] *= 100.0 / sky->illuminance;
+    given->columns.unit = "daylight_factor";
+}
+
 /* A year of weather takes what the estimate at one time was told. */
 static aur_result estimate_year(irradiance_command *given, const aur_scene *scene,
                                 const aur_sensors_view *sensors, aur_error *error) {
@@ -176,7 +187,7 @@ static int run(const cli_call *call) {
     find_format(call, given);
     if (given->sensors == NULL)
         return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
-    if (!cli_daylight_check(call))
+    if (!cli_daylight_check(call) || !cli_sky_check(call))
         return 2;
     if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
         return cli_bad_usage("irradiance: --particles is for --reflected map or radiosity");
@@ -185,8 +196,10 @@ static int run(const cli_call *call) {
     given->estimate.progress = cli_progress(given->common.quiet);
     given->estimate.warnings = cli_warnings(given->common.quiet);
     given->columns.size = sizeof given->columns;
-    if (cli_given(call, "illuminance") != NULL)
+    if (cli_given(call, "illuminance") != NULL || given->sky.daylight_factor)
         set_illuminance(given);
+    if (given->sky.daylight_factor)
+        set_daylight_factor(given);
     aur_scene_options load = {.size = sizeof load};
     aur_scene_options_init(&load, NULL);
     load.definition_count = given->definitions.count;
@@ -199,6 +212,10 @@ static int run(const cli_call *call) {
     load.further = (const char *const *)call->operands + 1;
     load.warnings = cli_warnings(given->common.quiet);
     load.threads = given->common.threads;
+    load.sky = given->sky.sky;
+    load.sky.ground_albedo = given->daylight.options.ground_albedo;
+    memcpy(load.sky.up, given->daylight.options.up, sizeof load.sky.up);
+    memcpy(load.sky.north, given->daylight.options.north, sizeof load.sky.north);
     aur_error error;
     aur_scene *scene = NULL;
     aur_sensors *sensors = NULL;
@@ -226,6 +243,7 @@ const cli_command cli_command_irradiance = {
                   "a scene (.xml, .rad, .glb, ...); further files go on with it, as oconv reads them",
                   .repeated = true, .content = "file"}},
     .groups = {{options, 0},
+               {cli_sky_options, offsetof(irradiance_command, sky)},
                {cli_daylight_options, offsetof(irradiance_command, daylight)},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},
                {cli_threads_option, offsetof(irradiance_command, common)},

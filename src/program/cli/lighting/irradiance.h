@@ -20,6 +20,15 @@ typedef struct cli_daylight {
 } cli_daylight;
 extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
 
+/* The sky at one time that --sky adds. */
+typedef struct cli_sky {
+    aur_scene_sky sky;
+    bool daylight_factor;
+} cli_sky;
+extern const cli_option cli_sky_options[]; /* of a cli_sky */
+/* False, with a message, where options do not go together. */
+bool cli_sky_check(const cli_call *call);
+
 /* False, with a message, where one of these options was given without --weather. */
 bool cli_daylight_check(const cli_call *call);
 

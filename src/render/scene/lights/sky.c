@@ -13,6 +13,7 @@ typedef struct sky_light {
     aur_sun_position position;
     aur_vector color;  /* radiance is this times the model's */
     aur_vector ground; /* radiance from below */
+    bool blends;       /* sky and ground about the horizon */
     aur_sky_dome dome;
 } sky_light;
 
@@ -25,6 +26,7 @@ typedef struct sky_keys {
     aur_color irradiance, zenith_radiance, ground, ground_albedo;
     double illuminance, zenith_luminance;
     double direct_normal, diffuse_horizontal, extraterrestrial;
+    bool blends, lights_ground;
     aur_sun_keys sun;
 } sky_keys;
 
@@ -65,6 +67,10 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_COLOR(sky_keys, "ground_albedo", ground_albedo, 1.0, "by ground",
                       "in place of ground: what is below reflects so much of the sky's irradiance, RGB"),
      .computed = true},
+    {AUR_KEY_OF_BOOLEAN(sky_keys, "sun_lights_ground", lights_ground, "false",
+                        "of perez: ground_albedo reflects direct_normal, too")},
+    {AUR_KEY_OF_BOOLEAN(sky_keys, "blend_horizon", blends, "false",
+                        "the sky and the ground mix about the horizon, as Radiance's skybright.cal has it")},
     AUR_SUN_KEYS(sky_keys),
 };
 
@@ -147,11 +153,16 @@ static aur_result read_scale(const sky_keys *p, aur_parameters *parameters, sky_
         gray(p->illuminance / EFFICACY), p->zenith_radiance.constant, gray(p->zenith_luminance / EFFICACY)};
     self->color = aur_vector_scale(values[chosen], (float)(1.0 / (chosen < 2 ? total : zenith)));
     self->ground = p->ground.constant;
+    self->blends = p->blends;
     if (is_given(parameters, "ground_albedo")) {
         if (is_given(parameters, "ground"))
             return fail_both(parameters, "ground", "ground_albedo", error);
         self->ground = aur_vector_scale(aur_vector_multiply(p->ground_albedo.constant, self->color),
                                         (float)(total / AUR_PI));
+        if (p->model == PEREZ && p->lights_ground)
+            self->ground = aur_vector_add_scaled(self->ground,
+                                                 (float)(p->direct_normal * self->position.sun[2] / AUR_PI),
+                                                 p->ground_albedo.constant);
     }
     return AUR_OK;
 }
@@ -182,23 +193,47 @@ static void release(void *data) {
 
 /* --- radiance */
 
+/* Of a direction by east, north and up. The sky's part of a blend is a / (a + 1 / a), a = (z + 1.01)^10. */
+static aur_vector radiance_at(const sky_light *self, const double local[3]) {
+    /* Gradations but the linear one end at the horizon. */
+    const double level[3] = {local[0], local[1], self->model.a != 0.0 ? fmax(local[2], 0.0) : local[2]};
+    const double a = self->blends ? pow(local[2] + 1.01, 20.0) : 0.0;
+    const double part = self->blends ? a / (1.0 + a) : local[2] < 0.0 ? 0.0 : 1.0;
+    if (part == 0.0)
+        return self->ground;
+    const aur_vector sky =
+        aur_vector_scale(self->color, (float)(part * aur_sky_model_radiance(&self->model, level)));
+    return part == 1.0 ? sky : aur_vector_add_scaled(sky, (float)(1.0 - part), self->ground);
+}
+
 static aur_vector radiance_from(const aur_emitter *emitter, aur_vector direction) {
     const sky_light *const self = emitter->data;
     double local[3];
     aur_sun_position_to_local(&self->position, direction, local);
-    if (local[2] < 0.0)
-        return self->ground;
-    return aur_vector_scale(self->color, (float)aur_sky_model_radiance(&self->model, local));
+    return radiance_at(self, local);
 }
 
 static float luminance(const void *sky, const double direction[3]) {
     const sky_light *const self = sky;
-    return aur_luminance(self->color) * (float)aur_sky_model_radiance(&self->model, direction);
+    return self->blends ? aur_luminance(radiance_at(self, direction))
+                        : aur_luminance(self->color) * (float)aur_sky_model_radiance(&self->model, direction);
+}
+
+/* What is drawn from below, where a blend reaches: the mean over heights. */
+static float luminance_below(const sky_light *self) {
+    enum { HEIGHTS = 64 };
+    float sum = 0.0f;
+    for (size_t i = 0; i < HEIGHTS; ++i) {
+        const double z = -((double)i + 0.5) / HEIGHTS;
+        sum += aur_luminance(radiance_at(self, (const double[3]){0.0, sqrt(1.0 - z * z), z}));
+    }
+    return sum / HEIGHTS;
 }
 
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     sky_light *const self = emitter->data;
-    if (aur_sky_dome_create(&self->dome, luminance, self, aur_luminance(self->ground), error) != AUR_OK)
+    const float below = self->blends ? luminance_below(self) : aur_luminance(self->ground);
+    if (aur_sky_dome_create(&self->dome, luminance, self, below, error) != AUR_OK)
         return aur_fail_memory_at(error, emitter->location);
     emitter->brightness = aur_patches_integral(&self->dome.patches);
     return AUR_OK;

@@ -139,3 +139,9 @@ void aur_node_set_numbers(aur_nodes *nodes, aur_xml_node *node, const char *name
 void aur_node_refer(aur_nodes *nodes, aur_xml_node *parent, aur_xml_node *target);
 /* The value of $name: that of -D, or of a <default> above, or else `otherwise`; NULL after a failure. */
 const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *otherwise);
+
+/* --- daylight */
+
+/* Adds the sky of options->sky, and the sun, as the last children of the tree's root; `z_up`: where up is
+ * when nothing says so. Errors: ARGUMENT for a model, date or place that cannot be read; MEMORY. */
+aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_up);

@@ -196,10 +196,14 @@ static bool is_plain(const aur_rad *self, aur_rad_word name) {
 
 static aur_result read_material(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material = {.name = item->name};
-    const bool plain = is_plain(self, item->modifier), emits = item->row->emits;
+    const aur_rad_material *const under = aur_rad_find_material(self, item->modifier);
+    const bool emits = item->row->emits, patterned = under != NULL && under->sky != NULL && !under->emits;
+    const bool plain = is_plain(self, item->modifier) && (emits || !patterned);
     aur_result result = plain || (self->scene->diffuse && !emits) ? AUR_OK : need_void(self, item);
     if (result == AUR_OK && !plain)
         ++self->scene->diffuse_count;
+    if (result == AUR_OK && emits && patterned)
+        material.sky = under->sky;
     if (result == AUR_OK)
         result = item->row->add(self, item, &material);
     return result == AUR_OK ? add_material(self, material) : result;
@@ -275,7 +279,16 @@ static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
     if (!item->row->material)
         return read_surface(self, item);
     const aur_result result = read_material(self, item);
-    return result == AUR_ERROR_UNSUPPORTED ? add_unsupported(self, item) : result;
+    if (result != AUR_ERROR_UNSUPPORTED)
+        return result;
+    /* With --diffuse a pattern changes nothing: it is what it modifies. */
+    const aur_rad_material *const under = aur_rad_find_material(self, item->modifier);
+    if (!self->scene->diffuse || !aur_rad_is_word(item->type, "brightfunc") || under == NULL)
+        return add_unsupported(self, item);
+    aur_rad_material material = *under;
+    material.name = item->name;
+    ++self->scene->diffuse_count;
+    return add_material(self, material);
 }
 
 static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {

@@ -18,6 +18,7 @@ typedef struct aur_rad_scene {
     size_t material_count, material_capacity;
     aur_rad_material *materials;
     const aur_rad_pose *pose; /* of the file that is opened next; NULL: where its coordinates say */
+    aur_xml_node *sky;        /* the last one, whose ground a further source may be */
     bool diffuse;             /* materials that are not supported become their diffuse part */
     size_t diffuse_count;     /* how many have */
     const aur_warnings *warnings;

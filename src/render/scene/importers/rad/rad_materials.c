@@ -126,6 +126,34 @@ static aur_result add_light(aur_rad *self, const aur_rad_primitive *item, aur_ra
     return AUR_OK;
 }
 
+/* brightfunc with skybr of skybright.cal, or skybright of perezlum.cal: what gensky and gendaylit write. */
+static aur_result add_pattern(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    static const struct {
+        const char *function, *file;
+        size_t numbers;
+    } forms[] = {{"skybr", "skybright.cal", 7}, {"skybright", "perezlum.cal", 10}};
+    for (size_t i = 0; i < 2; ++i) {
+        if (item->string_count != 2 || !aur_rad_is_word(item->strings[0], forms[i].function) ||
+            !aur_rad_is_word(item->strings[1], forms[i].file))
+            continue;
+        /* Of an overcast or uniform sky nothing follows from the sun. */
+        const size_t count = item->number_count, needs = forms[i].numbers;
+        const bool even = i == 0 && count >= 3 && (item->numbers[0] == 2.0 || item->numbers[0] == 3.0);
+        if (count > needs || (count < needs && !even))
+            return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
+                                "brightfunc: %s takes %zu numbers, not %zu", forms[i].function, needs, count);
+        aur_rad_sky *const sky = material->sky = aur_arena_allocate(self->scene->arena, sizeof *sky);
+        if (sky == NULL)
+            return aur_fail_memory(self->error);
+        *sky = (aur_rad_sky){.perez = i == 1};
+        memcpy(sky->numbers, item->numbers, count * sizeof *sky->numbers);
+        return AUR_OK;
+    }
+    return aur_rad_fail(
+        self, item->type.line, AUR_ERROR_UNSUPPORTED,
+        "'brightfunc' is not read, only skybr of skybright.cal and skybright of perezlum.cal");
+}
+
 const aur_rad_row aur_rad_materials[] = {
     {"plastic", 5, 5, 0, true, false, add_normal},
     {"metal", 5, 5, 0, true, false, add_normal},
@@ -137,6 +165,7 @@ const aur_rad_row aur_rad_materials[] = {
     {"light", 3, 3, 0, true, true, add_light},
     {"glow", 4, 4, 0, true, true, add_light},
     {"illum", 3, 3, 1, true, true, add_light},
+    {"brightfunc", 0, SIZE_MAX, SIZE_MAX, true, false, add_pattern},
     {.name = NULL},
 };
 
@@ -165,12 +194,11 @@ static const struct {
                  {"metdata", METAL, 4},        {"transdata", SHEET_DATA, 6}, {"BSDF", NO_FORM, 0},
                  {"aBSDF", NO_FORM, 0},        {"WGMDfunc", NO_FORM, 0},     {"antimatter", NO_SURFACE, 0},
                  {"mist", NO_SURFACE, 0},      {"texfunc", NO_FORM, 0},      {"texdata", NO_FORM, 0},
-                 {"colorfunc", NO_FORM, 0},    {"brightfunc", NO_FORM, 0},   {"colordata", NO_FORM, 0},
-                 {"brightdata", NO_FORM, 0},   {"colorpict", NO_FORM, 0},    {"colortext", NO_FORM, 0},
-                 {"brighttext", NO_FORM, 0},   {"mixfunc", MIXTURE, 0},      {"mixdata", MIXTURE, 0},
-                 {"mixpict", MIXTURE, 0},      {"mixtext", MIXTURE, 0},      {"spectrum", NO_FORM, 0},
-                 {"specfile", NO_FORM, 0},     {"specfunc", NO_FORM, 0},     {"specdata", NO_FORM, 0},
-                 {"specpict", NO_FORM, 0}};
+                 {"colorfunc", NO_FORM, 0},    {"colordata", NO_FORM, 0},    {"brightdata", NO_FORM, 0},
+                 {"colorpict", NO_FORM, 0},    {"colortext", NO_FORM, 0},    {"brighttext", NO_FORM, 0},
+                 {"mixfunc", MIXTURE, 0},      {"mixdata", MIXTURE, 0},      {"mixpict", MIXTURE, 0},
+                 {"mixtext", MIXTURE, 0},      {"spectrum", NO_FORM, 0},     {"specfile", NO_FORM, 0},
+                 {"specfunc", NO_FORM, 0},     {"specdata", NO_FORM, 0},     {"specpict", NO_FORM, 0}};
 
 enum { MODIFIERS = sizeof modifiers / sizeof modifiers[0] };
 

@@ -30,13 +30,21 @@ typedef struct aur_rad_primitive {
     double *numbers;       /* into the reader's numbers */
 } aur_rad_primitive;
 
+/* What gensky and gendaylit write: radiance by direction, for sources. Radiance's skybright.cal and
+ * perezlum.cal. */
+typedef struct aur_rad_sky {
+    bool perez;
+    double numbers[10];
+} aur_rad_sky;
+
 /* A material under its name; a later one of the same name hides it. */
 struct aur_rad_material {
     aur_rad_word name; /* its text is in the scene's arena */
     bool emits;
     bool nothing; /* surfaces of it are not there */
     aur_xml_node *bsdf, *interior, *exterior;
-    double radiance[3]; /* of those that emit */
+    double radiance[3]; /* of those that emit, times what a sky says */
+    aur_rad_sky *sky;   /* in the scene's arena: the pattern, or the pattern of those that emit; or NULL */
     /* In the scene's arena, where the material is not supported: the error of the first surface that uses it.
      */
     const aur_error *unsupported;

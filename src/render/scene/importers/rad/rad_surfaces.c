@@ -22,6 +22,9 @@ static void refer(aur_nodes *nodes, aur_xml_node *shape, aur_xml_node *medium, c
 /* Adds what a surface is made of. */
 static aur_result finish(aur_rad *self, aur_xml_node *shape, const aur_rad_material *material) {
     aur_nodes *const nodes = self->nodes;
+    if (material->sky != NULL)
+        return aur_rad_fail(self, nodes->location.line, AUR_ERROR_UNSUPPORTED,
+                            "the pattern of a sky is read for sources only");
     if (material->emits)
         aur_node_numbers(nodes, aur_node_object(nodes, shape, "emitter", "area"), "rgb", "radiance", 3,
                          material->radiance);
@@ -189,6 +192,94 @@ static aur_result add_instance(aur_rad *self, const aur_rad_primitive *item, aur
     return AUR_OK;
 }
 
+/* A sky by its formula, (1 + a exp(b / cos Z)) (1 + c exp(d chi) + e cos^2 chi) or one of two others. */
+typedef struct sky_form {
+    const char *model;
+    double gradation[2], indicatrix[3];
+    double scale;  /* of all */
+    double ground; /* brightness below the horizon */
+    const double *sun;
+} sky_form;
+
+/* False where it is none of those that the emitter has: an intermediate sky. */
+static bool read_form(const aur_rad_sky *sky, sky_form *form) {
+    const double *const x = sky->numbers;
+    *form = (sky_form){.model = "cie", .scale = x[0], .ground = x[1], .sun = x + 7};
+    if (sky->perez) {
+        memcpy(form->gradation, x + 2, sizeof form->gradation);
+        memcpy(form->indicatrix, x + 4, sizeof form->indicatrix);
+        return true;
+    }
+    form->ground = x[2];
+    form->sun = x + 4;
+    form->scale = x[1];
+    if (x[0] == 1.0) { /* .91 + 10 exp(-3 chi) + .45 cos^2 chi */
+        form->scale *= 0.91 / x[3];
+        form->gradation[0] = -1.0;
+        form->gradation[1] = -0.32;
+        memcpy(form->indicatrix, (const double[3]){10.0 / 0.91, -3.0, 0.45 / 0.91}, sizeof form->indicatrix);
+    }
+    if (x[0] == 2.0 || x[0] == 3.0)
+        form->model = x[0] == 2.0 ? "cie-overcast" : "uniform";
+    return x[0] >= 1.0 && x[0] <= 3.0;
+}
+
+/* The emitter has 1 + c (exp(d chi) - exp(d pi / 2)) + e cos^2 chi: a factor is between the two. */
+static void add_form(aur_rad *self, aur_xml_node *sky, const sky_form *form, const double colour[3]) {
+    const double *const a = form->gradation, *const c = form->indicatrix;
+    double zenith = form->scale, sun[3] = {form->sun[0], form->sun[1], form->sun[2]};
+    if (strcmp(form->model, "cie") == 0) {
+        const double k = 1.0 + c[0] * exp(0.5 * 3.14159265358979323846 * c[1]);
+        const double height = fmin(fmax(sun[2] / aur_length3(sun), -1.0), 1.0), chi = acos(height);
+        const double coefficients[5] = {a[0], fmin(a[1], 0.0), c[0] / k, c[1], c[2] / k};
+        zenith *=
+            (1.0 + a[0] * exp(coefficients[1])) * (1.0 + c[0] * exp(c[1] * chi) + c[2] * height * height);
+        aur_node_numbers(self->nodes, sky, "string", "coefficients", 5, coefficients);
+        turn(self, sun);
+        aur_node_numbers(self->nodes, sky, "vector", "sun_direction", 3, sun);
+    }
+    const double radiance[3] = {zenith * colour[0], zenith * colour[1], zenith * colour[2]};
+    aur_node_numbers(self->nodes, sky, "rgb", "zenith_radiance", 3, radiance);
+}
+
+/* The hemisphere above is a sky, and the one below, after it, its ground. */
+static aur_result add_sky(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material) {
+    const double *const x = item->numbers;
+    aur_nodes *const nodes = self->nodes;
+    const bool above = x[0] == 0.0 && x[1] == 0.0 && x[2] > 0.0;
+    sky_form form;
+    if (x[0] != 0.0 || x[1] != 0.0 || !(fabs(x[2]) > 0.0) || !(x[3] == 180.0 || (above && x[3] == 360.0)))
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED,
+                            "source: with the pattern of a sky, '0 0 1 180' or '0 0 -1 180' expected");
+    if (!read_form(material->sky, &form))
+        return aur_rad_fail(
+            self, item->type.line, AUR_ERROR_UNSUPPORTED,
+            "skybright.cal: an intermediate sky (%g) is not read: 1 (clear), 2 (overcast) or 3 "
+            "(uniform) expected",
+            material->sky->numbers[0]);
+    if (!above && self->scene->sky == NULL)
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED,
+                            "source: the ground of a sky must come after the sky, '0 0 1 180'");
+    aur_xml_node *sky = self->scene->sky;
+    if (above) {
+        double up[3] = {0.0, 0.0, 1.0}, north[3] = {0.0, 1.0, 0.0};
+        turn(self, up);
+        turn(self, north);
+        self->scene->sky = sky = aur_node_object(nodes, self->parent, "emitter", "sky");
+        aur_node_property(nodes, sky, "string", "model", "%s", form.model);
+        aur_node_numbers(nodes, sky, "vector", "up", 3, up);
+        aur_node_numbers(nodes, sky, "vector", "north", 3, north);
+        aur_node_property(nodes, sky, "boolean", "blend_horizon", "true");
+        add_form(self, sky, &form, material->radiance);
+    }
+    if (!above || x[3] == 360.0) {
+        const double *const colour = material->radiance;
+        const double ground[3] = {form.ground * colour[0], form.ground * colour[1], form.ground * colour[2]};
+        aur_node_numbers(nodes, sky, "rgb", "ground", 3, ground);
+    }
+    return nodes->result;
+}
+
 static aur_result add_source(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
     double *const x = item->numbers;
     if (!material->emits)
@@ -197,6 +288,8 @@ static aur_result add_source(aur_rad *self, const aur_rad_primitive *item, aur_r
     if (!(x[3] >= 0.02) || x[3] > 360.0)
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
                             "source: its angle must be from 0.02 to 360 degrees, not %g", x[3]);
+    if (material->sky != NULL)
+        return add_sky(self, item, material);
     turn(self, x);
     aur_nodes *const nodes = self->nodes;
     aur_xml_node *const sun = aur_node_object(nodes, self->parent, "emitter", "sun");

@@ -408,6 +408,15 @@ static aur_result read_further(reading *shared, const char *path, const char *fu
     return read_file(shared, further, &from, shared->document->tree.root);
 }
 
+static aur_result add_sky(reading *shared, const char *path) {
+    aur_nodes nodes = {
+        .tree = &shared->document->tree,
+        .variables = &shared->variables,
+        .location = {.file = aur_arena_copy(&shared->document->tree.arena, path, strlen(path))},
+        .error = shared->error};
+    return aur_nodes_add_sky(&nodes, &shared->options->sky, shared->document->from_radiance);
+}
+
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
                         aur_xml_document *document, aur_error *error) {
     aur_error unseen;
@@ -429,6 +438,8 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
                               : read_file(&shared, path, NULL, NULL);
     for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
         result = read_further(&shared, path, options->further[i]);
+    if (result == AUR_OK && options->sky.model != NULL)
+        result = add_sky(&shared, path);
     if (result == AUR_OK)
         result = aur_xml_settle_ids(document, error);
     if (result == AUR_OK)

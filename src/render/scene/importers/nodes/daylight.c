@@ -1,0 +1,139 @@
+/* Daylight that options add to a scene. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/text.h"
+#include "render/scene/importers/nodes/node.h"
+
+typedef struct sky_form {
+    const char *model;
+    size_t cie_type;
+    double direct, diffuse; /* of perez */
+    bool needs_sun;
+} sky_form;
+
+/* `count` numbers with commas between. */
+static bool read_list(const char *text, size_t count, double *numbers) {
+    for (size_t i = 0; i < count && text != NULL; ++i) {
+        text = aur_read_double(text, AUR_NUMBER_FINITE, &numbers[i]);
+        if (text != NULL && *text != (i + 1 < count ? ',' : '\0'))
+            return false;
+        text = text != NULL && i + 1 < count ? text + 1 : text;
+    }
+    return text != NULL;
+}
+
+static aur_result read_model(const char *text, sky_form *form, aur_error *error) {
+    double numbers[2] = {12.0};
+    const bool clear = strcmp(text, "cie-clear") == 0;
+    *form = (sky_form){.model = text};
+    if (strcmp(text, "uniform") == 0 || strcmp(text, "cie-overcast") == 0)
+        return AUR_OK;
+    form->needs_sun = true;
+    if (clear || (strncmp(text, "cie:", 4) == 0 && read_list(text + 4, 1, numbers) && numbers[0] >= 1.0 &&
+                  numbers[0] <= 15.0 && numbers[0] == (double)(size_t)numbers[0])) {
+        *form = (sky_form){"cie", (size_t)numbers[0], 0.0, 0.0, true};
+        return AUR_OK;
+    }
+    if (strncmp(text, "perez:", 6) == 0 && read_list(text + 6, 2, numbers) && numbers[0] >= 0.0 &&
+        numbers[1] > 0.0) {
+        *form = (sky_form){"perez", 0, numbers[0], numbers[1], true};
+        return AUR_OK;
+    }
+    return aur_fail(error, AUR_ERROR_ARGUMENT,
+                    "unknown sky '%s': uniform, cie-overcast, cie-clear, cie:N with N from 1 to 15, or "
+                    "perez:DNI,DHI in W/m2 with DHI above 0 expected",
+                    text);
+}
+
+/* Where the sun is: properties of skies and suns. */
+static aur_result add_place(aur_nodes *nodes, aur_xml_node *emitter, const aur_scene_sky *sky, bool sun) {
+    static const char *const names[3] = {"latitude", "longitude", "timezone"};
+    double numbers[3];
+    const char *const split = sky->date != NULL ? strpbrk(sky->date, "T ") : NULL;
+    if (!sun)
+        return nodes->result;
+    if (split == NULL || sky->location == NULL || !read_list(sky->location, 3, numbers))
+        return aur_fail(
+            nodes->error, AUR_ERROR_ARGUMENT,
+            "the sky '%s' needs a date like 2026-06-21T12:00 and a location LATITUDE,LONGITUDE,TIMEZONE "
+            "(degrees north, degrees east, hours ahead of UTC)",
+            sky->model);
+    aur_node_property(nodes, emitter, "string", "date", "%.*s", (int)(split - sky->date), sky->date);
+    aur_node_property(nodes, emitter, "string", "time", "%s", split + 1);
+    for (size_t i = 0; i < 3; ++i)
+        aur_node_property(nodes, emitter, "float", names[i], "%.17g", numbers[i]);
+    return nodes->result;
+}
+
+static bool is_given(const double v[3]) {
+    return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0;
+}
+
+static aur_xml_node *add_emitter(aur_nodes *nodes, const char *type, const aur_scene_sky *sky, bool z_up) {
+    const double up[3] = {0.0, z_up ? 0.0 : 1.0, z_up ? 1.0 : 0.0};
+    aur_xml_node *const emitter = aur_node_object(nodes, nodes->tree->root, "emitter", type);
+    aur_node_numbers(nodes, emitter, "vector", "up", 3, is_given(sky->up) ? sky->up : up);
+    if (is_given(sky->north))
+        aur_node_numbers(nodes, emitter, "vector", "north", 3, sky->north);
+    return emitter;
+}
+
+/* A shape that was a light becomes black, as lights are, unless it names a material. */
+static void darken_shape(aur_nodes *nodes, aur_xml_node *shape) {
+    aur_xml_node *last = NULL;
+    bool lit = false, made_of = false;
+    for (aur_xml_node *child = shape->first_child; child != NULL; child = child->next) {
+        const bool light = strcmp(child->tag, "emitter") == 0;
+        lit = lit || light;
+        made_of = made_of || strcmp(child->tag, "bsdf") == 0 || strcmp(child->tag, "ref") == 0;
+        if (!light)
+            last = child;
+        else if (last != NULL)
+            last->next = child->next;
+        else
+            shape->first_child = child->next;
+    }
+    shape->last_child = last;
+    if (lit && !made_of)
+        aur_node_property(nodes, aur_node_object(nodes, shape, "bsdf", "diffuse"), "rgb", "reflectance", "0");
+}
+
+static void leave_out_lights(aur_nodes *nodes) {
+    aur_xml_node *const root = nodes->tree->root;
+    darken_shape(nodes, root);
+    for (aur_xml_node *node = root->first_child; node != NULL; node = node->next)
+        if (strcmp(node->tag, "shape") == 0)
+            darken_shape(nodes, node);
+}
+
+aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_up) {
+    sky_form form;
+    aur_result result = read_model(sky->model, &form, nodes->error);
+    if (result != AUR_OK)
+        return result;
+    const bool perez = form.direct + form.diffuse > 0.0;
+    if (perez && sky->illuminance > 0.0)
+        return aur_fail(nodes->error, AUR_ERROR_ARGUMENT, "the sky 'perez' is as bright as its DHI says");
+    if (sky->alone)
+        leave_out_lights(nodes);
+    aur_xml_node *const emitter = add_emitter(nodes, "sky", sky, z_up);
+    aur_node_property(nodes, emitter, "string", "model", "%s", form.model);
+    if (form.cie_type > 0)
+        aur_node_property(nodes, emitter, "integer", "cie_type", "%zu", form.cie_type);
+    if (perez) {
+        aur_node_property(nodes, emitter, "float", "direct_normal", "%.17g", form.direct);
+        aur_node_property(nodes, emitter, "float", "diffuse_horizontal", "%.17g", form.diffuse);
+        aur_node_property(nodes, emitter, "boolean", "sun_lights_ground", "true");
+    } else {
+        aur_node_property(nodes, emitter, "float", "illuminance", "%.17g",
+                          sky->illuminance > 0.0 ? sky->illuminance : 1e4);
+    }
+    aur_node_property(nodes, emitter, "rgb", "ground_albedo", "%.17g", sky->ground_albedo);
+    result = add_place(nodes, emitter, sky, form.needs_sun);
+    if (result != AUR_OK || !(form.direct > 0.0))
+        return result;
+    aur_xml_node *const sun = add_emitter(nodes, "sun", sky, z_up);
+    aur_node_property(nodes, sun, "rgb", "irradiance", "%.17g", form.direct);
+    return add_place(nodes, sun, sky, true);
+}

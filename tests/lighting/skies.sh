@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Skies by option and those that gensky and gendaylit write, beside closed forms and sums by midpoints.
+set -u
+aureole=$1
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+# near FILE COLUMN VALUE... : the column of each sensor is within four standard errors and 1e-4 of the value; in daylight-factor
+# files the last two columns are value and error.
+near() {
+  local file=$1 column=$2 error=$3
+  shift 3
+  awk -F, -v c="$column" -v e="$error" -v all="$*" 'BEGIN { n = split(all, v, " ") }
+    NR > 1 { d = $c - v[NR - 1]; if (d < 0) d = -d; if (!(d <= 4 * $e + 1e-4 * v[NR - 1])) { print FILENAME ": " $c ", not " v[NR - 1] " +- " $e; bad = 1 } }
+    END { exit bad || NR != n + 1 }' "$file" || fail "$file"
+}
+refused() {
+  local text=$1 said
+  shift
+  said=$("$aureole" "$@" 2>&1 >/dev/null)
+  [ $? = 2 ] || fail "$*: status is not 2: $said"
+  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
+}
+
+printf 'void plastic w 0 0 5 .1 .1 .1 0 0\nvoid light l 0 0 3 5 5 5\nw sphere far 0 0 4 0 0 -900 1\n' >open.rad
+printf 'l sphere lamp 0 0 4 0 0 -400 1\n' >lamp.rad
+printf '0 0 0 0 0 1\n0 0 0 1 0 0\n0 0 0 0 0 -1\n' >points.pts
+head -1 points.pts >up.pts
+run() { "$aureole" irradiance -q "$@" -n 4096 || fail "$*"; }
+
+# The overcast sky on a vertical plane: (pi / 6 + 4 / 9) / (7 pi / 9) of the horizontal one (Moon and Spencer 1942), with half of
+# the ground's .2; lamps do not count.
+run open.rad lamp.rad --sensors points.pts --sky cie-overcast --daylight-factor -o df.csv
+head -1 df.csv | grep -q daylight_factor || fail "the column's name: $(head -1 df.csv)"
+columns=$(head -1 df.csv | awk -F, '{ for (i = 1; i <= NF; ++i) if ($i == "daylight_factor") v = i; print v, NF }')
+vertical=$(awk 'BEGIN { pi = atan2(0, -1); print 100 * ((pi / 6 + 4 / 9) / (7 * pi / 9) + .1) }')
+near df.csv $columns 100 $vertical 20
+run open.rad --sensors points.pts --sky uniform --ground-albedo 0 --sky-lux 5000 --illuminance radiance -o uniform.csv
+near uniform.csv $columns 5000 2500 0
+# Above the tropic at noon of midsummer the sun is in the zenith: direct and diffuse add up.
+run open.rad --sensors points.pts --sky perez:800,100 --date 2026-06-21T12:02 --location 23.43,0,0 -o perez.csv
+near perez.csv 4 7 900 $(sed -n 3p perez.csv | cut -d, -f4) 180
+for sky in cie-clear cie:1 cie:12 cie:15; do
+  run open.rad --sensors up.pts --sky $sky --date 2026-03-21T10:00 --location 48.1,11.6,1 --illuminance radiance -o $sky.csv
+  near $sky.csv $columns 10000
+done
+cmp -s cie-clear.csv cie:12.csv || fail "the clear sky is type 12"
+
+# What gensky and gendaylit write, by sums over heights; a sun in the zenith makes clear skies round.
+blended() { # RADIANCE BY z IN AWK, GROUND
+  awk -v g="$2" 'function f(z) { return '"$1"' } BEGIN { pi = atan2(0, -1); n = 200000
+    for (i = 0; i < n; ++i) { z = -1 + 2 * (i + .5) / n; a = (z + 1.01) ^ 20; l = (a * f(z > 0 ? z : 0) + g) / (1 + a); s = 2 / n
+      up += z > 0 ? 2 * pi * z * l * s : 0; side += 2 * sqrt(1 - z * z) * l * s; down += z < 0 ? -2 * pi * z * l * s : 0 }
+    printf "%.8g %.8g %.8g", up, side, down }'
+}
+sky() { printf 'void brightfunc skyfunc 2 %s 0 %s\nskyfunc glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\ng source ground 0 0 4 0 0 -1 180\n' "$1" "$2"; }
+sky 'skybr skybright.cal' '3 3 20 4' >uniform.sky
+sky 'skybr skybright.cal' '7 1 30 5 2 0 0 1' >clear.sky
+sky 'skybright perezlum.cal' '10 2 3 -.9 -.2 8 -3 .3 0 0 1' >perez.sky
+for file in uniform clear perez; do
+  case $file in
+  uniform) values=$(blended 20 4) ;;
+  clear) values=$(blended '15 * (z > .01 ? 1 - exp(-.32 / z) : 1) * (.91 + 10 * exp(-3 * atan2(sqrt(1 - z * z), z)) + .45 * z * z)' 5) ;;
+  perez) values=$(blended '2 * (1 - .9 * exp(-.2 / (z + 1e-12))) * (1 + 8 * exp(-3 * atan2(sqrt(1 - z * z), z)) + .3 * z * z)' 3) ;;
+  esac
+  run $file.sky open.rad --sensors points.pts -o $file.csv
+  near $file.csv 4 7 $values
+done
+# Overcast: the gradation goes on below the horizon.
+sky 'skybr skybright.cal' '3 2 30 4' >overcast.sky
+run overcast.sky open.rad --sensors points.pts -o overcast.csv
+near overcast.csv 4 7 $(blended '10 * (1 + 2 * z)' 4 | sed 's/ .*//') $(awk 'BEGIN { n = 200000
+  for (i = 0; i < n; ++i) { z = -1 + 2 * (i + .5) / n; a = (z + 1.01) ^ 20; f = 10 * (1 + 2 * z); l = (a * (f > 0 ? f : 0) + 4) / (1 + a)
+    side += 4 / n * sqrt(1 - z * z) * l; down += z < 0 ? -4 / n * atan2(0, -1) * z * l : 0 } print side, down }')
+# One that xform turns on its side lights from there.
+printf '!xform -ry 90 uniform.sky\n' >turned.rad
+run turned.rad open.rad --sensors points.pts -o turned.csv
+near turned.csv 4 7 $(blended 20 4 | awk '{ print $2, $1, $2 }')
+
+refused "unknown sky 'cloudy'" irradiance open.rad --sensors points.pts --sky cloudy
+refused "unknown sky 'cie:16'" irradiance open.rad --sensors points.pts --sky cie:16
+refused "unknown sky 'perez:100'" irradiance open.rad --sensors points.pts --sky perez:100
+refused "needs a date like" irradiance open.rad --sensors points.pts --sky cie-clear
+refused "needs a date like" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T12:00 --location 1,2
+refused "'date'" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-31T12:00 --location 1,2,0
+refused "below" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T00:00 --location 48,11,1
+refused "--date needs --sky MODEL" irradiance open.rad --sensors points.pts --date 2026-06-21T12:00
+refused "does not go with --weather" irradiance open.rad --sensors points.pts --sky uniform --weather no.epw
+refused "is of a sky without sun" irradiance open.rad --sensors points.pts --sky perez:1,1 --daylight-factor
+refused "as bright as its DHI" irradiance open.rad --sensors points.pts --sky perez:1,1 --sky-lux 5
+refused "a second environment" irradiance uniform.sky open.rad --sensors points.pts --sky uniform
+sky 'skybr skybright.cal' '7 4 30 5 2 0 0 1' >bad.sky
+refused "bad.sky:3: skybright.cal: an intermediate sky" irradiance bad.sky open.rad --sensors points.pts
+sky 'skybr skybright.cal' '2 1 30' >bad.sky
+refused "bad.sky:1: brightfunc: skybr takes 7 numbers, not 2" irradiance bad.sky open.rad --sensors points.pts
+sky 'skybr other.cal' '3 2 30 5' >bad.sky
+refused "bad.sky:2: glow" irradiance bad.sky open.rad --sensors points.pts
+exit $((failures > 0))
