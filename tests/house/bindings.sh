@@ -47,6 +47,15 @@ for line in subprocess.run(["./sizes"], check=True, capture_output=True, text=Tr
     if ffi.sizeof(name) != int(size):
         lost.append(f"{name} has {size} bytes, and {ffi.sizeof(name)} by cffi")
 
+# A struct that may grow begins with its size; these never do, as core.h says: callbacks, rows of tables and what they are made of,
+# small values, reports and results that come in arrays, and where callers write.
+fixed = """error progress warnings output strategy z_grid lobe rotation fibonacci_set moments estimate_points estimated exact_report
+    weights_report integrate_peak set_description measure_description rank_description key row table json weather_hour weather_note
+    daylight irradiance error_figures gather_settings gather_directions gather_method radiosity_triangle_result definition"""
+sizeless = {name for name, first in re.findall(r"^typedef struct (aur_\w+) \{\s*([^;]*);", whole, flags=re.M) if first != "size_t size"}
+if sizeless != {"aur_" + name for name in fixed.split()}:
+    lost.append(f"structs without a size in front: {sizeless ^ {'aur_' + name for name in fixed.split()}}")
+
 inline = re.findall(r"^static inline [^;{]*?\b(aur_\w+)\(", whole, flags=re.M)
 macros = re.findall(r"^#define (AUR_\w+)(?! +[0-9][0-9.eE+-]*$)(?! +SIZE_MAX$)\b(?=.)", whole, flags=re.M)
 if set(inline) != {"aur_points_view_of"}:

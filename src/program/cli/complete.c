@@ -75,9 +75,13 @@ static void offer_content(const partial *word, const char *content) {
     else if (strncmp(content, "file", 4) == 0)
         puts(":file");
     const char *const last = strrchr(content, ' ');
-    const aur_table *const kind = cli_find_table(last != NULL ? last + 1 : content);
-    if (kind != NULL)
-        offer_rows(word, kind);
+    const char *const name = last != NULL ? last + 1 : content;
+    char of_lab[64]; /* an option takes the lab's rows of its kind too */
+    snprintf(of_lab, sizeof of_lab, "lab-%s", name);
+    const aur_table *const kinds[] = {cli_find_table(name), cli_find_table(of_lab)};
+    for (size_t i = 0; i < 2; ++i)
+        if (kinds[i] != NULL)
+            offer_rows(word, kinds[i]);
 }
 
 static void offer_values(partial word, const cli_option *option) {

@@ -33,6 +33,10 @@ offers :file measure ''
 offers sobol measure ''
 offers finalgather:photons=4,debias=only render a.xml --integrator finalgather:photons=4,debias=
 offers path:hide_emitters=true render --integrator path:hide_emitters=
+if aureole help lab-integrator >/dev/null 2>&1; then
+  offers finalgather-lab render --integrator finalgather-
+  offers finalgather-lab:component=diffuse render --integrator finalgather-lab:component=d
+fi
 offers phong: points --lobe p
 offers :folder lab run -o ''
 offers :file render -qo ''
