@@ -105,7 +105,8 @@ static void fill_points(const aur_pointset *set, aur_block block) {
 }
 
 static void fill_doubles(const aur_pointset *set, const aur_block *block, size_t point_stride) {
-    const bool shifted = set->scramble == AUR_SCRAMBLE_SHIFT || set->scramble == AUR_SCRAMBLE_ROTATE;
+    const bool shifted =
+        set->scramble == AUR_SCRAMBLE_SHIFT || set->scramble == AUR_SCRAMBLE_ROTATE || set->fold;
     const bool whole = set->kind->fill_pairs != NULL && block->first_dimension == 0 && !shifted &&
                        block->count >= LEAST_PAIRS;
     if (point_stride == 1)

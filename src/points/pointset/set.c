@@ -2,6 +2,7 @@
 #include "points/pointset/set.h"
 
 #include <inttypes.h>
+#include <math.h>
 
 #include "points/base/names.h"
 #include "points/pointset/runs.h"
@@ -95,8 +96,19 @@ static void shift(const aur_pointset *set, const aur_block *block) {
     }
 }
 
+/* The baker's transform (Hickernell 2002): functions become periodic, means stay. */
+static void fold(const aur_block *block) {
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        double *const out = block->data + d * block->coordinate_stride;
+        for (size_t i = 0; i < block->count; ++i)
+            out[i] = out[i] < 0.5 ? 2.0 * out[i] : fmin(2.0 - 2.0 * out[i], AUR_BELOW_ONE);
+    }
+}
+
 void aur_pointset_fill(const aur_pointset *set, const aur_block *block) {
     set->kind->fill(set, block);
     if (set->scramble == AUR_SCRAMBLE_SHIFT || set->scramble == AUR_SCRAMBLE_ROTATE)
         shift(set, block);
+    if (set->fold)
+        fold(block);
 }

@@ -59,6 +59,7 @@ struct aur_pointset {
     size_t dimension;
     aur_scramble scramble;
     uint64_t seed;
+    bool fold;                           /* the baker's transform comes last */
     uint64_t net_base;                   /* the points are a complete net at its powers; 0: no net */
     const aur_pointset_options *options; /* while the set is made ready; then NULL */
     void *data;                          /* the generator's own, one allocation; NULL when it needs none */

@@ -14,11 +14,14 @@
     ROW(hammersley)                                                                                          \
     ROW(faure)                                                                                               \
     ROW(sobol)                                                                                               \
+    ROW(interlaced)                                                                                          \
     ROW(niederreiter)                                                                                        \
     ROW(larcher_pillichshammer)                                                                              \
     ROW(matrices)                                                                                            \
     ROW(fibonacci_lattice)                                                                                   \
     ROW(rank1)                                                                                               \
+    ROW(cbc)                                                                                                 \
+    ROW(korobov)                                                                                             \
     ROW(r2)                                                                                                  \
     ROW(golden)                                                                                              \
     ROW(golden_set)                                                                                          \

@@ -16,6 +16,10 @@ static inline uint64_t aur_digital_word(const uint64_t columns[AUR_DIGITAL_COLUM
 /* Writes the matrix of a dimension. */
 typedef void (*aur_digital_matrix)(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]);
 
+/* Of Sobol's sequence, an aur_digital_matrix for as many dimensions as Joe and Kuo's table has. */
+enum { AUR_SOBOL_DIMENSIONS = 21201 };
+void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]);
+
 /* Makes the first `count` matrices ready as set->data. */
 aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make, aur_error *error);
 

@@ -37,11 +37,9 @@ static inline uint64_t aur_golden_next(const aur_golden_order *order, uint64_t i
 
 /* Additive recurrences: coordinate d of point i is start + i steps[d] modulo 1. */
 
-enum { AUR_R2_DIMENSIONS = 64 };
-
 typedef struct aur_recurrence {
-    uint64_t start; /* in units of 2^-64 */
-    aur_fraction128 steps[AUR_R2_DIMENSIONS];
+    uint64_t start;          /* in units of 2^-64 */
+    aur_fraction128 steps[]; /* one a dimension */
 } aur_recurrence;
 
 /* Rank-1 lattices and the golden-ratio limit of Fibonacci ones. */

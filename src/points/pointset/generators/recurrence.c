@@ -36,13 +36,19 @@ static aur_wide root(size_t dimension) {
     return t;
 }
 
+enum { R2_DIMENSIONS = 4096 };
+
+static aur_recurrence *create(size_t dimension) {
+    return malloc(sizeof(aur_recurrence) + dimension * sizeof(aur_fraction128));
+}
+
 /* The golden ratio sequence from s in [0,1), one dimension. */
 static void recurrence_golden(double s, aur_recurrence *recurrence) {
     recurrence->start = aur_golden_start(s);
     recurrence->steps[0] = aur_golden_fraction;
 }
 
-/* Roberts' sequence in 1 to 64 dimensions. */
+/* Roberts' sequence. */
 static void recurrence_r2(size_t dimension, aur_recurrence *recurrence) {
     const aur_wide t = root(dimension);
     aur_wide power = t;
@@ -67,7 +73,7 @@ static aur_result prepare_golden(aur_pointset *set, aur_parameters *parameters, 
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
-    set->data = malloc(sizeof(aur_recurrence));
+    set->data = create(1);
     if (set->data == NULL)
         return aur_fail_memory(error);
     recurrence_golden(p.seed, set->data);
@@ -76,7 +82,7 @@ static aur_result prepare_golden(aur_pointset *set, aur_parameters *parameters, 
 
 static aur_result prepare_r2(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     (void)parameters;
-    set->data = malloc(sizeof(aur_recurrence));
+    set->data = create(set->dimension);
     if (set->data == NULL)
         return aur_fail_memory(error);
     recurrence_r2(set->dimension, set->data);
@@ -122,7 +128,7 @@ const aur_square_set aur_set_r2 = {
                                 "additive recurrence of the plastic number (its kin in other dimensions)",
                             .source = "Roberts 2018"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .dimensions = {1, AUR_R2_DIMENSIONS},
+                    .dimensions = {1, R2_DIMENSIONS},
                     .maximum_size = UINT64_MAX,
                     .extensible = true},
     .scramblings = AUR_SCRAMBLES_SHIFT,

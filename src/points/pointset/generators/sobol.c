@@ -5,7 +5,7 @@
  * power of two leaves a net incomplete: a warning. Error O(log^d N / N). */
 #include "points/pointset/digits/digital.h"
 
-enum { DIMENSIONS = 21201, DEGREE_MAX = 18, LETTERS = 32 };
+enum { DIMENSIONS = AUR_SOBOL_DIMENSIONS, DEGREE_MAX = 18, LETTERS = 32 };
 
 /* Of each dimension after the first its degree and the bits of its polynomial and numbers, as the table's
  * head says. */
@@ -44,7 +44,7 @@ static directions unpack(const char row[LETTERS]) {
     return d;
 }
 
-static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
+void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
     if (dimension == 0) {
         for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
             columns[k] = UINT64_C(1) << (63 - k);
@@ -94,22 +94,22 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     aur_block part = *block;
     if (part.dimension_count > table_count)
         part.dimension_count = table_count;
-    aur_fill_digital_block(set, &part, make_matrix);
+    aur_fill_digital_block(set, &part, aur_sobol_matrix);
     for (size_t d = part.dimension_count; d < block->dimension_count; ++d) {
         uint64_t columns[AUR_DIGITAL_COLUMNS];
         const size_t dimension = (block->first_dimension + d) % DIMENSIONS;
-        fill_repeat(set, aur_digital_matrix_of(set, dimension, make_matrix, columns), block, d);
+        fill_repeat(set, aur_digital_matrix_of(set, dimension, aur_sobol_matrix, columns), block, d);
     }
 }
 
 static bool fill_pairs(const aur_pointset *set, const aur_block *block) {
-    return aur_fill_digital_pairs(set, block, make_matrix);
+    return aur_fill_digital_pairs(set, block, aur_sobol_matrix);
 }
 
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
     const size_t count = set->dimension < DIMENSIONS ? set->dimension : DIMENSIONS;
-    return aur_prepare_digital(set, count, make_matrix, error);
+    return aur_prepare_digital(set, count, aur_sobol_matrix, error);
 }
 
 const aur_square_set aur_set_sobol = {

@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 
+#include "points/base/fourier.h"
 #include "points/quadrature/exact/transform.h"
 
 typedef struct aur_fast_transform aur_fast_transform;
@@ -23,25 +24,8 @@ aur_result aur_fast_transform_analyse(aur_fast_transform *fast, const double *we
 aur_result aur_fast_transform_synthesise(aur_fast_transform *fast, const double *coefficients, double *values,
                                          aur_error *error);
 
-/* The discrete Fourier transform of 2^a 3^b complex numbers. */
-
 /* The smallest size from `least` on that is 64, 192 or 576 times a power of two. */
 size_t aur_fourier_size(size_t least);
-
-/* Fills turns[2 * size] with the cosines and sines of 2 pi k / size. */
-void aur_fourier_prepare(size_t size, double *turns);
-
-typedef struct aur_fourier_kernel {
-    void (*transform)(size_t size, const double *turns, double *re, double *im, double *work);
-} aur_fourier_kernel;
-
-AUR_KERNELS(const aur_fourier_kernel, aur_fourier_kernel);
-
-/* Replaces re and im by the sums of x_j e^{i 2 pi j k / size}; the other sign for re and im exchanged. `work`
- * has room for 2 * size numbers. */
-static inline void aur_fourier(size_t size, const double *turns, double *re, double *im, double *work) {
-    AUR_KERNEL_HERE(aur_fourier_kernel).transform(size, turns, re, im, work);
-}
 
 /* The narrow window that carries values between points and the cells of a grid, for Fourier transforms of
  * points (Barnett, Magland and af Klinteberg 2019): exp(b (sqrt(1-x^2) - 1)) over WIDTH cells on each axis.

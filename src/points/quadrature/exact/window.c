@@ -18,14 +18,6 @@ size_t aur_fourier_size(size_t least) {
     return best;
 }
 
-void aur_fourier_prepare(size_t size, double *turns) {
-    for (size_t k = 0; k < size; ++k) {
-        const double angle = 2.0 * AUR_PI * (double)k / (double)size;
-        turns[2 * k] = cos(angle);
-        turns[2 * k + 1] = sin(angle);
-    }
-}
-
 aur_window aur_window_make(size_t degree) {
     aur_window window = {.side = aur_fourier_size((7 * (2 * degree + 1) + 3) / 4)};
     /* The shape parameter that balances aliases and the cut of the window (Barnett et al. 2019). */

@@ -2,7 +2,7 @@
  * length` numbers become radix times as many of `length`. */
 #include <string.h>
 
-#include "points/quadrature/exact/fast.h"
+#include "points/base/fourier.h"
 
 /* From radix * length numbers of `many` transforms each; place 1 of the turns is one step of the whole. */
 typedef struct pass {
