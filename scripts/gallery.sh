@@ -16,18 +16,18 @@ radiosity="--integrator radiosity:epsilon=1e-4,sequence=halton,walk=paper"
 # name | scene | how it is asked for | exposure | tone | title
 gallery() {
   cat <<ROWS
-room|room/room.xml|--width 960 --error 10%|0.9|filmic|Tea and fruit by a window
-statue|statue/statue.xml|--width 960 --error 7%|0.5|filmic|A gilded figure under the sky
-parade|parade/parade.xml|--width 960 --error 9%|1.3|filmic|A parade of toy cars
-figure|cornell-box/figure.xml|--width 960 --error 3%|1.6|filmic|A carved hare in the Cornell box
-sphere|sphere/sphere.xml|--width 960 --error 8%|0.5|filmic|A glossy sphere among seeds
-occlusion|occlusion/occlusion.xml|--width 960 --error 2%|0|srgb|Ambient occlusion among columns
-plates|plates/plates.xml|--width 960 --error 6%|1|filmic|Four plates and seven lights
-cornell-box|cornell-box/cornell-box.xml|--width 960 --error 2%|0.5|srgb|The measured Cornell box
-glossy|cornell-box/glossy.xml|--width 960 --error 3%|1|srgb|A teapot in a glossy Cornell box
-living-room|keller/living-room.xml|$radiosity --width 960 --error 7%|0.5|srgb|Keller's living room, by radiosity
-office|keller/office.xml|$radiosity --width 960 --error 5%|0.5|srgb|Keller's office
-teapot|keller/teapot-box.xml|$radiosity --width 960 --error 7%|0.5|srgb|Keller's teapot
+room|room/room.xml|--width 960 --error 10% --error-measure mean|0.9|filmic|Tea and fruit by a window
+statue|statue/statue.xml|--width 960 --error 7% --error-measure mean|0.5|filmic|A gilded figure under the sky
+parade|parade/parade.xml|--width 960 --error 9% --error-measure mean|1.3|filmic|A parade of toy cars
+figure|cornell-box/figure.xml|--width 960 --error 3% --error-measure mean|1.6|filmic|A carved hare in the Cornell box
+sphere|sphere/sphere.xml|--width 960 --error 8% --error-measure mean|0.5|filmic|A glossy sphere among seeds
+occlusion|occlusion/occlusion.xml|--width 960 --error 2% --error-measure mean|0|srgb|Ambient occlusion among columns
+plates|plates/plates.xml|--width 960 --error 6% --error-measure mean|1|filmic|Four plates and seven lights
+cornell-box|cornell-box/cornell-box.xml|--width 960 --error 2% --error-measure mean|0.5|srgb|The measured Cornell box
+glossy|cornell-box/glossy.xml|--width 960 --error 3% --error-measure mean|1|srgb|A teapot in a glossy Cornell box
+living-room|keller/living-room.xml|$radiosity --width 960 --error 7% --error-measure mean|0.5|srgb|Keller's living room, by radiosity
+office|keller/office.xml|$radiosity --width 960 --error 5% --error-measure mean|0.5|srgb|Keller's office
+teapot|keller/teapot-box.xml|$radiosity --width 960 --error 7% --error-measure mean|0.5|srgb|Keller's teapot
 ROWS
 }
 

@@ -197,7 +197,7 @@ def compare(given, name, scene):
     values, seconds = for_seconds(given, scene, "path", seconds, 16)
     rows["path"] = (*error_of(values, truth), seconds)
     asked = max(min(rows["path"][0], rows["finalgather"][0]), .003)
-    values, seconds, said = render(given, scene, "--error", f"{asked:.4f}")
+    values, seconds, said = render(given, scene, "--error", f"{asked:.4f}", "--error-measure", "mean")
     rows["asked"] = (*error_of(values, truth), seconds)
     cost = {key: error ** 2 * seconds for key, (error, _, seconds) in rows.items()}
     gather, auto = cost["path"] / cost["finalgather"], cost["path"] / cost["asked"]
@@ -232,7 +232,7 @@ def compare_until(given, name, scene):
 def compare_asked(given, name, scene):
     rows = []
     for options in ((), ("--integrator", "path", "--time", f"{given.seconds:g}s")):
-        _, seconds, said = render(given, scene, "--error", str(given.ask), *options)
+        _, seconds, said = render(given, scene, "--error", str(given.ask), "--error-measure", "mean", *options)
         found = re.search(r"error of ([\d.]+) %.* by ([a-z]+)", said)
         rows.append((float(found[1]), seconds, found[2]))
     (own, seconds, chosen), (error, taken, _) = rows

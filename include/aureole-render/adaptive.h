@@ -88,11 +88,29 @@ typedef struct aur_adaptive_report {
         bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
     /* The error by every measure; of the bias only the part that `error` includes is known. */
     aur_error_figures errors[AUR_ERROR_MEASURE_COUNT];
+    double bias_room;  /* the bias that the target error leaves room for: the same image by its integrator */
+    size_t race_count; /* candidates of the race; 0: the integrator was named, or its image was resumed */
 } aur_adaptive_report;
 
 /* Errors: ARGUMENT when `size` is not set. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *report,
                                                     aur_error *error) AUR_NONNULL(1, 2);
+
+/* A candidate of the race for the integrator. Work is counted in rays, and a photon as two and a half: no
+ * clock decides. `size` is set by the caller. The texts are owned by `adaptive`. */
+typedef struct aur_adaptive_candidate {
+    size_t size;
+    const char *name, *reason; /* why it was taken or not */
+    bool taken;
+    size_t pixels; /* of the image that it rendered */
+    double rays;   /* that this took */
+    double need;   /* the work that it is expected to need to the target error; 0: not measured */
+} aur_adaptive_candidate;
+
+/* Errors: ARGUMENT for an index of race_count and above, or when `size` is not set. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index,
+                                                       aur_adaptive_candidate *candidate, aur_error *error)
+    AUR_NONNULL(1, 3);
 
 /* The integrator with its keys, as aur_render_options take it. `adaptive` owns the text. */
 AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);

@@ -1,4 +1,4 @@
-#include "render/adaptive/choose.h"
+#include "render/adaptive/adaptive.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "points/base/error.h"
-#include "render/adaptive/comparison.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
@@ -15,6 +14,10 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
     if (!(target->error >= 0.0 && target->error <= 1.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the target error must be above 0 and at most 1 (100 %%), not %g", target->error);
+    if (target->error > 0.0 && target->error < 1e-6)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the target error must be at least 1e-6, what 32-bit images resolve, not %g",
+                        target->error);
     if (!(target->seconds >= 0.0 && target->seconds < INFINITY))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the time must be above 0 seconds, not %g",
                         target->seconds);
@@ -60,18 +63,17 @@ static double left_to_error(const aur_candidate *candidate, double part) {
 /* What is left by whatever ends the work first. */
 static rays_on_the_way find_rays(const aur_adaptive *adaptive, double done) {
     const aur_adaptive_options *const target = &adaptive->target;
-    const aur_candidate *const candidate =
-        adaptive->choice != NULL ? &adaptive->choice->candidate : &adaptive->candidate;
+    const aur_candidate *const candidate = &adaptive->candidate;
     const double part = ((double)candidate->replica + done) / (double)candidate->replicas.count;
     aur_render_statistics spent;
     aur_candidate_spent(candidate, &spent);
     rays_on_the_way rays = {aur_candidate_rays(candidate) + (double)adaptive->others.rays, INFINITY};
-    if (adaptive->choice == NULL && target->error > 0.0) /* a choice takes what it finds out */
+    if (!adaptive->races && target->error > 0.0) /* a race takes what it finds out */
         rays.left = left_to_error(candidate, part);
     double share = 0.0;
     if (target->rays > 0)
         share = (aur_candidate_rays(candidate) +
-                 (double)(candidate->shared + candidate->alone + adaptive->others.budget)) /
+                 (double)(candidate->shared + candidate->alone + aur_adaptive_other_rays(adaptive))) /
                 (double)target->rays;
     if (target->seconds > 0.0)
         share = fmax(share, (spent.prepare_seconds + spent.render_seconds + adaptive->others.prepare_seconds +
@@ -94,7 +96,7 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     if (adaptive->candidate.replicas.pixel_count == 0) /* it is being prepared */
         return adaptive->progress.function(adaptive->progress.user, what, 0, 0);
     const rays_on_the_way rays = find_rays(adaptive, total > 0 ? (double)done / (double)total : 0.0);
-    const bool renders = adaptive->choice == NULL && adaptive->candidate.rounds > 0;
+    const bool renders = !adaptive->races && adaptive->candidate.rounds > 0;
     return aur_progress_tell(&adaptive->progress, renders ? "rendering" : "planning", &adaptive->share,
                              rays.done, rays.left);
 }
@@ -120,83 +122,6 @@ static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
     return adaptive->identity != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
-/* A trial by `integrator`, a new text, in place of the asking's own, whose rays were traced for it. */
-static aur_result begin_candidate(aur_adaptive *adaptive, char *integrator, aur_error *error) {
-    aur_render_statistics spent;
-    aur_candidate_spent(&adaptive->candidate, &spent);
-    aur_candidate_release(&adaptive->candidate);
-    adaptive->candidate.integrator = integrator;
-    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
-    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
-    const aur_result result =
-        aur_candidate_create(adaptive->renderer, &adaptive->options, adaptive->target.replicas,
-                             adaptive->target.measure, &adaptive->candidate, error);
-    aur_cache_count(cache, before);
-    adaptive->candidate.traced += spent.rays;
-    return result;
-}
-
-aur_result aur_adaptive_take_gather(aur_adaptive *adaptive, aur_gather_size size, aur_error *error) {
-    char *const integrator = aur_adaptive_gather(adaptive->candidate.integrator, size);
-    adaptive->gather = size;
-    adaptive->open = false;
-    return integrator != NULL ? begin_candidate(adaptive, integrator, error) : aur_fail_memory(error);
-}
-
-aur_result aur_adaptive_take_candidates(aur_adaptive *adaptive, size_t candidates, aur_error *error) {
-    char *const integrator = aur_adaptive_path(adaptive->candidate.integrator, candidates);
-    adaptive->candidates = candidates;
-    adaptive->open = false;
-    return integrator != NULL ? begin_candidate(adaptive, integrator, error) : aur_fail_memory(error);
-}
-
-/* Stopping target of the rounds. Rays spent on rejected candidates and on preparation do not count, so the
- * result equals a run that names the integrator. */
-static aur_goal goal_of(const aur_adaptive *adaptive) {
-    const aur_adaptive_options *const target = &adaptive->target;
-    const uint64_t spent = adaptive->others.budget + adaptive->candidate.shared + adaptive->candidate.alone;
-    return (aur_goal){.error = target->error,
-                      .bias = sqrt(adaptive->bias.high),
-                      .rays = target->rays > spent ? target->rays - spent : target->rays > 0};
-}
-
-/* Goes on with whichever integrator turns out best. What was tried before an interruption is tried anew, so
- * that the picture is the same. */
-static aur_result choose(aur_adaptive *adaptive, aur_error *error) {
-    aur_result result = AUR_OK;
-    if (adaptive->candidate.rounds > 0 || adaptive->candidate.begun) {
-        char *const integrator = adaptive->candidate.integrator;
-        adaptive->candidate.integrator = NULL;
-        result = begin_candidate(adaptive, integrator, error);
-    }
-    if (result != AUR_OK)
-        return result;
-    aur_choice choice = {.goal = goal_of(adaptive),
-                         .seconds = adaptive->target.seconds,
-                         .confidence = adaptive->target.confidence,
-                         .replica_count = adaptive->target.replicas,
-                         .measure = adaptive->target.measure,
-                         .cancelled = &adaptive->cancelled,
-                         .others.rays = adaptive->others.rays,
-                         .candidate = adaptive->candidate};
-    aur_render_options own = adaptive->options;
-    own.warnings = (aur_warnings){0};
-    adaptive->choice = &choice;
-    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
-    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
-    result = aur_adaptive_try(adaptive->renderer, &own, &choice, error);
-    aur_cache_count(cache, before);
-    adaptive->choice = NULL;
-    adaptive->candidate = choice.candidate;
-    adaptive->bias = choice.bias;
-    adaptive->others = choice.others;
-    adaptive->others.budget += adaptive->uses.rays - adaptive->candidate.shared;
-    adaptive->gather = choice.gather;
-    adaptive->candidates = choice.candidates;
-    adaptive->open = result != AUR_OK;
-    return result;
-}
-
 /* Copy the strings: later candidates outlive the caller's. */
 static aur_result keep_options(aur_adaptive *adaptive, aur_renderer *renderer,
                                const aur_render_options *options, aur_error *error) {
@@ -217,8 +142,8 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
     aur_render_options_init(&own, NULL);
     aur_result result = aur_options_read(given, sizeof own, &own, "aur_render_options", error);
     if (result == AUR_OK)
-        result = aur_adaptive_choose(aur_renderer_scene(renderer), own.integrator,
-                                     &adaptive->candidate.integrator, &adaptive->open, error);
+        result = aur_adaptive_integrator_of(aur_renderer_scene(renderer), own.integrator,
+                                            &adaptive->candidate.integrator, &adaptive->open, error);
     if (result != AUR_OK)
         return result;
     adaptive->progress = own.progress;
@@ -238,7 +163,13 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
     result = keep_options(adaptive, renderer, &own, error);
     char *const integrator = adaptive->candidate.integrator;
     adaptive->candidate.integrator = NULL;
-    result = result == AUR_OK ? begin_candidate(adaptive, integrator, error) : result;
+    if (result == AUR_OK && adaptive->open && (adaptive->path = strdup(integrator)) == NULL)
+        result = aur_fail_memory(error);
+    if (result != AUR_OK) {
+        free(integrator);
+        return result;
+    }
+    result = aur_adaptive_begin(adaptive, integrator, error);
     if (result != AUR_OK)
         return result;
     if (aur_render_film(adaptive->candidate.replicas.renders[0])->layout.channel_count > 3)
@@ -252,9 +183,9 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "a bias of %g: it goes with an integrator that is named, else it is measured",
                         adaptive->target.bias);
-    /* The bias of final gathering is only known relative to the mean. */
-    adaptive->open = adaptive->open && adaptive->target.measure == AUR_ERROR_MEASURE_MEAN;
-    adaptive->bias.high = adaptive->target.bias * adaptive->target.bias;
+    const double square = adaptive->target.bias * adaptive->target.bias;
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
+        adaptive->bias[m].high = square;
     return AUR_OK;
 }
 
@@ -285,7 +216,10 @@ void aur_adaptive_destroy(aur_adaptive *adaptive) {
     if (adaptive == NULL)
         return;
     aur_candidate_release(&adaptive->candidate);
+    aur_corrections_release(&adaptive->corrections);
+    aur_race_release(&adaptive->race);
     aur_cache_uses_release(&adaptive->uses);
+    free(adaptive->path);
     free(adaptive->identity);
     free(adaptive->sampler);
     free(adaptive->filter);
@@ -302,20 +236,22 @@ static void count_spent(const aur_adaptive *adaptive, aur_render_statistics *sum
     sum->cpu_seconds += adaptive->others.cpu_seconds;
 }
 
-/* The interval of noise and bias together; its ends are those of both. */
-static aur_error_interval whole_error(const aur_adaptive *adaptive, const aur_error_interval *noise) {
-    return (aur_error_interval){
-        .estimate = sqrt(noise->estimate * noise->estimate + fmax(adaptive->bias.estimate, 0.0)),
-        .low = sqrt(noise->low * noise->low + adaptive->bias.low),
-        .high = sqrt(noise->high * noise->high + adaptive->bias.high),
-        .degrees = noise->degrees};
+/* The interval of noise and bias together by a measure; its ends are those of both. */
+static aur_error_interval whole_error(const aur_adaptive *adaptive, size_t measure) {
+    const aur_error_interval *const noise = &adaptive->candidate.intervals[measure];
+    const aur_bias *const bias = &adaptive->bias[measure];
+    return (aur_error_interval){.estimate =
+                                    sqrt(noise->estimate * noise->estimate + fmax(bias->estimate, 0.0)),
+                                .low = sqrt(noise->low * noise->low + bias->low),
+                                .high = sqrt(noise->high * noise->high + bias->high),
+                                .degrees = noise->degrees};
 }
 
 static bool is_met(const aur_adaptive *adaptive) {
     const aur_adaptive_options *const target = &adaptive->target;
     aur_render_statistics spent;
     count_spent(adaptive, &spent);
-    const aur_goal goal = goal_of(adaptive);
+    const aur_goal goal = aur_adaptive_goal(adaptive);
     return (target->error > 0.0 && adaptive->candidate.looked_at &&
             adaptive->candidate.bound <= aur_goal_noise(&goal)) ||
            (target->seconds > 0.0 && spent.prepare_seconds + spent.render_seconds >= target->seconds) ||
@@ -325,25 +261,41 @@ static bool is_met(const aur_adaptive *adaptive) {
 }
 
 static double next_factor(const aur_adaptive *adaptive) {
-    const aur_goal goal = goal_of(adaptive);
+    const aur_goal goal = aur_adaptive_goal(adaptive);
     return aur_candidate_factor(&adaptive->candidate, &goal);
 }
 
 static void look_ahead(aur_adaptive *adaptive) {
-    const aur_goal goal = goal_of(adaptive);
+    const aur_goal goal = aur_adaptive_goal(adaptive);
     aur_candidate_look_ahead(&adaptive->candidate, &goal);
 }
 
-aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
-    aur_result result = adaptive->open ? choose(adaptive, error) : AUR_OK;
+/* Rounds until the target of the noise is met, or another candidate has taken this one's place. */
+static aur_result render_rounds(aur_adaptive *adaptive, bool *again, aur_error *error) {
     aur_candidate *const candidate = &adaptive->candidate;
-    while (result == AUR_OK && (candidate->rounds == 0 || candidate->begun || !is_met(adaptive))) {
+    aur_result result = AUR_OK;
+    *again = false;
+    if (adaptive->unchecked) /* which was interrupted */
+        result = aur_adaptive_check_bias(adaptive, false, again, error);
+    while (result == AUR_OK && !*again && (candidate->rounds == 0 || candidate->begun || !is_met(adaptive))) {
         if (!candidate->begun)
             look_ahead(adaptive);
         if (!candidate->begun &&
             !aur_candidate_plan(candidate, candidate->rounds > 0 ? next_factor(adaptive) : 1.0))
             break;
         result = aur_candidate_render(candidate, adaptive->target.confidence, &adaptive->cancelled, error);
+        if (result == AUR_OK)
+            result = aur_adaptive_check_bias(adaptive, false, again, error);
+    }
+    return result;
+}
+
+aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) {
+    aur_result result = adaptive->open ? aur_adaptive_race(adaptive, error) : AUR_OK;
+    for (bool again = true; result == AUR_OK && again;) {
+        result = render_rounds(adaptive, &again, error);
+        if (result == AUR_OK && !again)
+            result = aur_adaptive_check_bias(adaptive, true, &again, error);
     }
     atomic_store(&adaptive->cancelled, false);
     return result == AUR_ERROR_CANCELLED ? aur_fail(error, result, "rendering: %s", aur_result_string(result))
@@ -357,7 +309,7 @@ void aur_adaptive_cancel(aur_adaptive *adaptive) {
 /* --- what came out */
 
 aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
-    const aur_error_interval interval = whole_error(adaptive, &adaptive->candidate.interval);
+    const aur_error_interval interval = whole_error(adaptive, adaptive->target.measure);
     aur_adaptive_report own = {.error = interval.estimate,
                                .error_low = interval.low,
                                .error_high = interval.high,
@@ -367,14 +319,36 @@ aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_re
                                .samples_per_pixel = adaptive->candidate.begun ? adaptive->candidate.before
                                                                               : adaptive->candidate.samples,
                                .replicas = adaptive->candidate.replicas.count,
-                               .candidate_rays = adaptive->others.budget,
-                               .bias_high = sqrt(adaptive->bias.high)};
+                               .candidate_rays = aur_adaptive_other_rays(adaptive),
+                               .bias_high = sqrt(adaptive->bias[adaptive->target.measure].high)};
+    own.candidate_rays += adaptive->target.rays > 0 ? aur_adaptive_reserve(adaptive)
+                                                    : (uint64_t)aur_corrections_rays(&adaptive->corrections);
+    own.bias_room = adaptive->target.error > 0.0 ? aur_adaptive_goal(adaptive).bias : own.bias_high;
+    own.race_count = adaptive->race.order_count > 0 ? AUR_RACE_ROWS : 0;
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
-        const aur_error_interval one = whole_error(adaptive, &adaptive->candidate.intervals[m]);
+        const aur_error_interval one = whole_error(adaptive, m);
         own.errors[m] = (aur_error_figures){.error = one.estimate, .low = one.low, .high = one.high};
     }
     count_spent(adaptive, &own.statistics);
     return aur_description_write(&own, sizeof own, out, "aur_adaptive_report", error);
+}
+
+aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index, aur_adaptive_candidate *out,
+                                      aur_error *error) {
+    if (index >= AUR_RACE_ROWS || adaptive->race.order_count == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no candidate %zu", index);
+    const aur_race_entry *const entry = &adaptive->race.entries[index];
+    aur_adaptive_candidate own = {.name = aur_race_name(index),
+                                  .taken = index == adaptive->row,
+                                  .pixels = entry->blocks * AUR_RACE_BLOCK * AUR_RACE_BLOCK,
+                                  .rays = entry->rays,
+                                  .need = entry->need,
+                                  .reason = entry->reason};
+    if (own.taken)
+        own.reason = "taken";
+    else if (!entry->out)
+        own.reason = entry->need > 0.0 ? "more work than the one taken" : "not measured";
+    return aur_description_write(&own, sizeof own, out, "aur_adaptive_candidate", error);
 }
 
 const char *aur_adaptive_integrator(const aur_adaptive *adaptive) {

@@ -3,16 +3,17 @@
 
 #include "points/base/error.h"
 #include "points/base/words.h"
-#include "render/adaptive/choose.h"
+#include "render/adaptive/adaptive.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
 enum {
-    NUMBERS = 10,
+    NUMBERS = 7,
     INTERVALS = 4 * AUR_ERROR_MEASURE_COUNT,
     CHOICE = NUMBERS + INTERVALS + 2,
-    STATE_WORDS = CHOICE + 8
+    RACE = CHOICE + 7,
+    STATE_WORDS = RACE + 1 + 2 * AUR_RACE_ROWS
 };
 
 static size_t word_count(const aur_adaptive *adaptive) {
@@ -32,9 +33,6 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
                                      adaptive->candidate.begun ? adaptive->candidate.before
                                                                : adaptive->candidate.samples,
                                      adaptive->candidate.measure.mean,
-                                     adaptive->bias.estimate,
-                                     adaptive->bias.low,
-                                     adaptive->bias.high,
                                      adaptive->others.prepare_seconds,
                                      adaptive->others.render_seconds,
                                      adaptive->others.cpu_seconds,
@@ -49,15 +47,20 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
         words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].degrees);
     }
     words[at++] = adaptive->candidate.rounds;
-    words[at++] = (uint64_t)adaptive->candidate.begun + 2 * (uint64_t)adaptive->candidate.looked_at;
-    words[at++] = adaptive->gather.photons;
-    words[at++] = adaptive->gather.directions;
-    words[at++] = adaptive->gather.lights;
-    words[at++] = adaptive->gather.bright;
-    words[at++] = adaptive->candidates;
+    words[at++] = (uint64_t)adaptive->candidate.begun + 2 * (uint64_t)adaptive->candidate.looked_at +
+                  4 * (uint64_t)adaptive->unchecked;
+    words[at++] = adaptive->path != NULL ? adaptive->row : AUR_RACE_PATH;
+    words[at++] = adaptive->photons;
+    words[at++] = adaptive->place;
+    words[at++] = adaptive->corrections.steps;
     words[at++] = adaptive->others.rays;
-    words[at++] = adaptive->others.budget;
+    words[at++] = aur_adaptive_other_rays(adaptive);
     words[at++] = adaptive->candidate.traced;
+    words[at++] = adaptive->race.order_count;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        words[at++] = adaptive->race.order[i];
+        words[at++] = aur_word_of_double(adaptive->race.entries[i].need);
+    }
     for (size_t i = 0; i < adaptive->candidate.value_count; ++i) {
         words[at++] = adaptive->candidate.targets[i];
         words[at++] = adaptive->candidate.earlier[i];
@@ -84,25 +87,22 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
     const uint64_t *word = kept->words;
     for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
-    const aur_gather_size size = {kept->words[CHOICE], aur_adaptive_photon_seed(adaptive->options.seed),
-                                  kept->words[CHOICE + 1], kept->words[CHOICE + 2], kept->words[CHOICE + 3]};
-    const size_t candidates = kept->words[CHOICE + 4];
+    const uint64_t *const choice = kept->words + CHOICE;
     aur_result result = AUR_OK;
-    if (size.photons > 0)
-        result = aur_adaptive_take_gather(adaptive, size, error);
-    else if (candidates > 1)
-        result = aur_adaptive_take_candidates(adaptive, candidates, error);
+    if (choice[0] >= AUR_RACE_ROWS || choice[RACE - CHOICE] > AUR_RACE_ROWS)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "a damaged checkpoint");
+    if (adaptive->path != NULL && choice[0] != AUR_RACE_PATH)
+        result = aur_adaptive_take(adaptive, choice[0], choice[1], error);
     if (result != AUR_OK)
         return result;
     adaptive->open = false;
     adaptive->candidate.rate = numbers[0];
     adaptive->candidate.samples = adaptive->candidate.before = numbers[1];
     adaptive->candidate.measure.mean = numbers[2];
-    adaptive->bias = (aur_bias){.estimate = numbers[3], .low = numbers[4], .high = numbers[5]};
-    adaptive->others.prepare_seconds = numbers[6];
-    adaptive->others.render_seconds = numbers[7];
-    adaptive->others.cpu_seconds = numbers[8];
-    adaptive->candidate.bound = numbers[9];
+    adaptive->others.prepare_seconds = numbers[3];
+    adaptive->others.render_seconds = numbers[4];
+    adaptive->others.cpu_seconds = numbers[5];
+    adaptive->candidate.bound = numbers[6];
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m, word += 4)
         adaptive->candidate.intervals[m] = (aur_error_interval){.estimate = aur_double_of_word(word[0]),
                                                                 .low = aur_double_of_word(word[1]),
@@ -111,11 +111,18 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
     adaptive->candidate.interval = adaptive->candidate.intervals[adaptive->target.measure];
     adaptive->candidate.rounds = *word++;
     adaptive->candidate.begun = (*word & 1) != 0;
+    adaptive->unchecked = (*word & 4) != 0;
     adaptive->candidate.looked_at = (*word++ & 2) != 0;
-    word += 5; /* of the integrator, see above */
+    word += 4; /* the choice */
     adaptive->others.rays = *word++;
-    adaptive->others.budget = *word++;
+    adaptive->others.budget = *word++ - (adaptive->uses.rays - adaptive->candidate.shared);
     adaptive->candidate.traced += *word++;
+    adaptive->place = choice[2];
+    adaptive->race.order_count = *word++;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        adaptive->race.order[i] = *word++;
+        adaptive->race.entries[i].need = aur_double_of_word(*word++);
+    }
     for (size_t i = 0; i < adaptive->candidate.value_count; ++i) {
         adaptive->candidate.targets[i] = (uint32_t)*word++;
         adaptive->candidate.earlier[i] = (uint32_t)*word++;
@@ -130,6 +137,11 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         aur_render_take_spent(adaptive->candidate.replicas.renders[r], word);
         result = aur_fail_in(
             error, aur_render_merge(adaptive->candidate.replicas.renders[r], kept->films[r], error), path);
+    }
+    if (result == AUR_OK && choice[3] > 0 && adaptive->row != AUR_RACE_PATH) {
+        aur_candidate_look(&adaptive->candidate);
+        result = aur_corrections_repeat(&adaptive->corrections, choice[3], &adaptive->cancelled, error);
+        aur_adaptive_bound_bias(adaptive);
     }
     return result;
 }

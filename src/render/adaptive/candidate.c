@@ -150,11 +150,15 @@ static double factor_to_error(const aur_candidate *candidate, double error, doub
     return pow(wanted * wanted, 1.0 / rate);
 }
 
+/* In units of the target error, where rounds lead first: variances from few samples are known too badly to
+ * plan for more. */
+static const double FIRST_ERROR = 6.0;
+
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal) {
-    const double growth = 1.5, pilot = AUR_PILOT_ERROR * goal->error;
+    const double growth = 1.5, first = FIRST_ERROR * goal->error;
     double factor = 1.0 / growth;
     if (goal->error > 0.0)
-        factor = factor_to_error(candidate, candidate->bound > pilot ? pilot : aur_goal_noise(goal),
+        factor = factor_to_error(candidate, candidate->bound > first ? first : aur_goal_noise(goal),
                                  candidate->rate);
     if (goal->rays > 0)
         factor = fmax(factor, fmin(aur_candidate_rays(candidate) / (double)goal->rays, 1.0));
@@ -315,13 +319,18 @@ static double bound_of(const aur_candidate *candidate, const variance_sums *sums
     return sqrt(sums->pooled / (count * 3.0 * (double)candidate->value_count));
 }
 
+void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure) {
+    const size_t count = candidate->replicas.pixel_count;
+    aur_error_weigh(measure, count, (const double(*)[3])candidate->values,
+                    (const double(*)[3])candidate->values + count, candidate->weights);
+}
+
 /* The interval of one measure, whose `pixels` may be NULL. */
 static aur_error_interval measure_by(aur_candidate *candidate, aur_error_measure measure, double confidence,
                                      const aur_pixel_measure *pixels) {
     const aur_replicas *const replicas = &candidate->replicas;
     const size_t count = replicas->pixel_count;
-    aur_error_weigh(measure, count, (const double(*)[3])candidate->values,
-                    (const double(*)[3])candidate->values + count, candidate->weights);
+    aur_candidate_weigh(candidate, measure);
     aur_replicas_measure(replicas, (aur_weighing){measure, candidate->weights}, &candidate->measure, pixels);
     if (pixels != NULL)
         pool_pixels(candidate);
@@ -330,13 +339,17 @@ static aur_error_interval measure_by(aur_candidate *candidate, aur_error_measure
     return aur_replica_interval(&candidate->measure.deviations, replicas->count, 3 * count, confidence);
 }
 
-/* By all measures; by the one whose error is to be small last, so that what is stored is its. */
-static void measure(aur_candidate *candidate, double confidence) {
+void aur_candidate_look(aur_candidate *candidate) {
     const aur_film_layout *const layout = &aur_render_film(candidate->replicas.renders[0])->layout;
-    const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_replicas_mean(&candidate->replicas, candidate->values);
     aur_error_smooth(layout->x1 - layout->x0, layout->y1 - layout->y0, (const double(*)[3])candidate->values,
                      candidate->values + candidate->replicas.pixel_count);
+}
+
+/* By all measures; by the one whose error is to be small last, so that what is stored is its. */
+static void measure(aur_candidate *candidate, double confidence) {
+    const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
+    aur_candidate_look(candidate);
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
         if (m != candidate->error_measure)
             candidate->intervals[m] = measure_by(candidate, (aur_error_measure)m, confidence, NULL);

@@ -53,6 +53,11 @@ void aur_candidate_release(aur_candidate *candidate);
 /* What all replicas have cost together. */
 void aur_candidate_spent(const aur_candidate *candidate, aur_render_statistics *sum);
 
+/* Computes `values` from the films, as each round does. */
+void aur_candidate_look(aur_candidate *candidate);
+/* Sets `weights` to those of a measure, by the values of the last round. */
+void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
+
 typedef struct aur_spent {
     uint64_t rays;   /* traced */
     uint64_t budget; /* of them, those that count whatever was there before: without what trials share */
@@ -68,13 +73,8 @@ typedef struct aur_goal {
     uint64_t rays;      /* for this candidate's samples */
 } aur_goal;
 
-/* Noise in units of the error asked at which an integrator is compared with another one. At 20 times the
- * error path tracing was thought to take 13 times its rays on the plates to 5 %, and 3.8 times in a room of
- * lamps. */
-#define AUR_PILOT_ERROR 6.0
-
 /* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
- * end comes to AUR_PILOT_ERROR times that, then to what the bias leaves of it, and below it by what the error
+ * end comes to six times that, then to what the bias leaves of it, and below it by what the error
  * seen varies, so that the last round is seldom followed by another. One that follows lowers the error by
  * more than that: repeated tests on nearly the same samples bias the stopping time. Without an error half as
  * many samples again are taken, or fewer where the rays are spent then. It depends on the trial and its goal

@@ -1,11 +1,21 @@
-#include "render/adaptive/choose.h"
-
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Integrators that look at a scene in their own way: another one would make another picture. */
-static bool has_its_own_picture(const char *name) {
+#include "points/base/error.h"
+#include "render/adaptive/adaptive.h"
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
+
+/* Of the target error, what bias may be: its square leaves three quarters to the noise. */
+static const double BIAS_PART = 0.5;
+/* Of the candidate's rays, what corrections take while rounds go on; and of a number of rays. */
+static const double CORRECTIONS_PART = 0.05;
+enum { COLOURS = 3 };
+
+/* Integrators whose image is not radiance of all paths: another one would make another image. */
+static bool has_its_own_image(const char *name) {
     static const char *const names[] = {"ao", "direct", "radiosity", "depth", "aov"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
         if (strcmp(name, names[i]) == 0)
@@ -20,12 +30,12 @@ static const char *depth_of(const aur_parameters *parameters) {
     return NULL;
 }
 
-aur_result aur_adaptive_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
-                               aur_error *error) {
+aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted, char **integrator,
+                                      bool *open, aur_error *error) {
     const aur_parameters *const own = aur_scene_integrator(scene);
     *integrator = NULL;
     *open = false;
-    if (wanted == NULL && has_its_own_picture(own->plugin))
+    if (wanted == NULL && has_its_own_image(own->plugin))
         return AUR_OK;
     *open = wanted == NULL && !aur_scene_has_media(scene);
     const char *const depth = wanted == NULL ? depth_of(own) : NULL;
@@ -38,4 +48,201 @@ aur_result aur_adaptive_choose(const aur_scene *scene, const char *wanted, char 
         return aur_fail_memory(error);
     snprintf(*integrator, capacity, "%s%s%s", text, key, more);
     return AUR_OK;
+}
+
+/* --- targets */
+
+uint64_t aur_adaptive_other_rays(const aur_adaptive *adaptive) {
+    return adaptive->others.budget + adaptive->uses.rays - adaptive->candidate.shared;
+}
+
+/* Rays for samples and corrections. */
+static uint64_t rays_left(const aur_adaptive *adaptive) {
+    const uint64_t spent =
+        aur_adaptive_other_rays(adaptive) + adaptive->candidate.shared + adaptive->candidate.alone;
+    return adaptive->target.rays > spent ? adaptive->target.rays - spent : 1;
+}
+
+uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive) {
+    const bool corrects = adaptive->target.rays > 0 && adaptive->row != AUR_RACE_PATH;
+    return corrects ? (uint64_t)(CORRECTIONS_PART * (double)rays_left(adaptive)) : 0;
+}
+
+aur_goal aur_adaptive_goal(const aur_adaptive *adaptive) {
+    const aur_adaptive_options *const target = &adaptive->target;
+    return (aur_goal){.error = target->error,
+                      .bias = adaptive->row != AUR_RACE_PATH ? BIAS_PART * target->error : target->bias,
+                      .rays = target->rays > 0 ? rays_left(adaptive) - aur_adaptive_reserve(adaptive) : 0};
+}
+
+/* --- candidates */
+
+aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_error *error) {
+    aur_candidate_release(&adaptive->candidate);
+    adaptive->candidate.integrator = integrator;
+    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
+    const aur_result result =
+        aur_candidate_create(adaptive->renderer, &adaptive->options, adaptive->target.replicas,
+                             adaptive->target.measure, &adaptive->candidate, error);
+    aur_cache_count(cache, before);
+    return result;
+}
+
+static aur_result begin_corrections(aur_adaptive *adaptive, aur_error *error) {
+    char *const text = aur_race_correction(adaptive->row, adaptive->path, adaptive->photons);
+    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
+    const uint64_t traced = aur_rays_traced;
+    const aur_result result =
+        text != NULL ? aur_corrections_create(adaptive->renderer, &adaptive->options, text,
+                                              adaptive->target.replicas, &adaptive->corrections, error)
+                     : aur_fail_memory(error);
+    adaptive->others.rays += aur_rays_traced - traced;
+    aur_cache_count(cache, before);
+    free(text);
+    return result;
+}
+
+aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons, aur_error *error) {
+    char *const text = aur_race_integrator(row, adaptive->path, photons, 0);
+    adaptive->row = row;
+    adaptive->photons = photons;
+    adaptive->open = false;
+    aur_corrections_release(&adaptive->corrections);
+    memset(adaptive->bias, 0, sizeof adaptive->bias);
+    if (text == NULL)
+        return aur_fail_memory(error);
+    aur_result result = aur_adaptive_begin(adaptive, text, error);
+    if (result == AUR_OK && row != AUR_RACE_PATH)
+        result = begin_corrections(adaptive, error);
+    if (result == AUR_ERROR_MEMORY)
+        result =
+            aur_fail(error, result, "out of memory: '%s' was chosen; '--integrator %s' takes less memory",
+                     adaptive->candidate.integrator, adaptive->path);
+    return result;
+}
+
+/* Goes on with the candidate at `place` in the race's order. */
+static aur_result take_place(aur_adaptive *adaptive, size_t place, aur_error *error) {
+    const aur_race *const race = &adaptive->race;
+    const size_t row = race->order[place];
+    const double work = adaptive->target.rays > 0 ? (double)adaptive->target.rays : race->entries[row].need;
+    aur_candidate_add_spent(&adaptive->candidate, &adaptive->others);
+    adaptive->others.budget += (uint64_t)aur_corrections_rays(&adaptive->corrections);
+    adaptive->place = place;
+    return aur_adaptive_take(
+        adaptive, row, row == AUR_RACE_PATH ? 0 : aur_race_photons(work, adaptive->target.replicas), error);
+}
+
+aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
+    const aur_film_layout *const layout = &aur_render_film(adaptive->candidate.replicas.renders[0])->layout;
+    aur_race *const race = &adaptive->race;
+    aur_race_release(race);
+    *race = (aur_race){.renderer = adaptive->renderer,
+                       .options = &adaptive->options,
+                       .path = adaptive->path,
+                       .width = layout->x1 - layout->x0,
+                       .height = layout->y1 - layout->y0,
+                       .replica_count = adaptive->target.replicas,
+                       .measure = adaptive->target.measure,
+                       .error = adaptive->target.error,
+                       .budget = (double)adaptive->target.rays,
+                       .seconds = adaptive->target.seconds,
+                       .cancelled = &adaptive->cancelled,
+                       .spent.rays = adaptive->others.rays};
+    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
+    adaptive->races = true;
+    const aur_result result = aur_race_run(race, error);
+    adaptive->races = false;
+    aur_cache_count(cache, before);
+    adaptive->others = race->spent;
+    aur_race_release(race);
+    return result == AUR_OK ? take_place(adaptive, 0, error) : result;
+}
+
+/* --- bias */
+
+/* By all measures; what neighbours share adds a bias of its own. */
+void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
+    aur_candidate *const candidate = &adaptive->candidate;
+    const double confidence = adaptive->target.confidence;
+    for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) {
+        const size_t m =
+            (adaptive->target.measure + k) % AUR_ERROR_MEASURE_COUNT; /* the requested one last */
+        aur_candidate_weigh(candidate, (aur_error_measure)m);
+        const aur_weighing weighing = {(aur_error_measure)m, candidate->weights};
+        const double(*const values)[3] = (const double(*)[3])candidate->values;
+        adaptive->bias[m] =
+            aur_replicas_bias(&adaptive->corrections.replicas, 0, weighing, values, confidence);
+        if (aur_render_film(candidate->replicas.renders[0])->layout.channel_count >= 2 * COLOURS)
+            adaptive->bias[m] =
+                aur_bias_of_both(adaptive->bias[m], aur_replicas_bias(&candidate->replicas, COLOURS, weighing,
+                                                                      values, confidence));
+    }
+}
+
+/* More blocks where these vary most, else more samples. */
+static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
+    aur_corrections *const corrections = &adaptive->corrections;
+    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
+    const double before = aur_corrections_rays(corrections);
+    const bool more_samples = bias->of_blocks <= bias->of_replicas || corrections->blocks == corrections->all;
+    const aur_result result = aur_corrections_grow(corrections, more_samples, &adaptive->cancelled, error);
+    const double rays = aur_corrections_rays(corrections) - before;
+    adaptive->others.rays += (uint64_t)rays;
+    aur_adaptive_bound_bias(adaptive);
+    return result;
+}
+
+/* The rays at which more corrections are not worth it: half of those of path tracing, or as many as the image
+ * has where these are not known. */
+static double most_corrections(const aur_adaptive *adaptive) {
+    const double path = adaptive->race.entries[AUR_RACE_PATH].need;
+    return fmax(0.5 * path, aur_candidate_rays(&adaptive->candidate));
+}
+
+static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *error) {
+    aur_race *const race = &adaptive->race;
+    aur_race_entry *const entry = &race->entries[adaptive->row];
+    entry->out = true;
+    snprintf(entry->reason, sizeof entry->reason, "rejected: %s",
+             too_large ? "the bias of its photon map is more than half of the target error"
+                       : "more rays are needed to bound the bias of its photon map than are saved");
+    size_t place = adaptive->place + 1;
+    while (place + 1 < race->order_count && race->order[place] != AUR_RACE_PATH && !too_large)
+        ++place;
+    return take_place(adaptive, place < race->order_count ? place : race->order_count - 1, error);
+}
+
+aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {
+    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
+    const double room = pow(BIAS_PART * adaptive->target.error, 2.0);
+    const bool bounded = adaptive->target.error > 0.0;
+    *again = false;
+    adaptive->unchecked = true;
+    if (adaptive->corrections.replicas.pixel_count == 0 || aur_candidate_is_black(&adaptive->candidate)) {
+        adaptive->unchecked = false;
+        return AUR_OK;
+    }
+    for (bool first = adaptive->corrections.steps == 0;; first = false) {
+        const double rays = aur_corrections_rays(&adaptive->corrections);
+        double most = CORRECTIONS_PART * aur_candidate_rays(&adaptive->candidate);
+        if (adaptive->target.rays > 0)
+            most = fmin(most, (double)aur_adaptive_reserve(adaptive));
+        const bool done = bounded && !first && bias->high <= room;
+        if (bounded && last && !done)
+            most = most_corrections(adaptive);
+        if (!first && (done || 2.0 * rays > most))
+            break;
+        const aur_result result = correct(adaptive, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    aur_adaptive_bound_bias(adaptive);
+    adaptive->unchecked = false;
+    const bool too_large = bounded && bias->low > room;
+    *again = too_large || (bounded && last && bias->high > room);
+    return *again ? reject(adaptive, too_large, error) : AUR_OK;
 }

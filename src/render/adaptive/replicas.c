@@ -31,14 +31,18 @@ void aur_replicas_release(aur_replicas *replicas) {
         aur_render_destroy(replicas->renders[r]);
 }
 
+double aur_replicas_value(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
+    const aur_film *const film = aur_render_film(replicas->renders[r]);
+    const double sum = film->sums[pixel * film->layout.channel_count + channel];
+    return film->counts[pixel] > 0 ? sum / (double)film->counts[pixel] : 0.0;
+}
+
 /* The deviations of the replicas' values of channel R, G or B of a pixel from their mean, which is returned.
  */
 static double deviations_at(const aur_replicas *replicas, size_t pixel, size_t channel, double *deviations) {
     double mean = 0.0;
     for (size_t r = 0; r < replicas->count; ++r) {
-        const aur_film *const film = aur_render_film(replicas->renders[r]);
-        const double sum = film->sums[pixel * film->layout.channel_count + channel];
-        deviations[r] = film->counts[pixel] > 0 ? sum / (double)film->counts[pixel] : 0.0;
+        deviations[r] = aur_replicas_value(replicas, r, pixel, channel);
         mean += deviations[r] / (double)replicas->count;
     }
     for (size_t r = 0; r < replicas->count; ++r)
@@ -56,8 +60,8 @@ void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
 /* The replicas' deviations d[channel][replica] from `mean` become those of a pixel's differences. Differences
  * that are not linear are taken over steps with the variance of the mean's error: deviations over the root of
  * count - 1. */
-static void weigh_deviations(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
-                             double d[3][AUR_REPLICAS_MAX]) {
+void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
+                        double d[3][AUR_REPLICAS_MAX]) {
     const double part = 1.0 / sqrt((double)(count - 1));
     double sums[3] = {0.0};
     if (weighing.weights == NULL)
@@ -186,7 +190,7 @@ static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighin
                 means[channel] = deviations_at(replicas, pixel, channel, d[channel]);
                 *mean += means[channel];
             }
-            weigh_deviations(replicas->count, weighing, pixel, means, d);
+            aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
             const aur_gram own = gram_of(replicas->count, d);
             for (size_t channel = 0; channel < 3 && pixels != NULL; ++channel)
                 add_variances(replicas, pixel, &shares, d[channel], pixels->variances);

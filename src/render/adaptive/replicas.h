@@ -40,6 +40,12 @@ typedef struct aur_weighing {
     const aur_error_weight *weights; /* [pixel_count] */
 } aur_weighing;
 
+/* The value of a channel of a pixel in replica r: the mean of its samples; 0 without samples. */
+double aur_replicas_value(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel);
+/* Deviations d[channel][replica] of `count` replicas from `mean` become those of a pixel's differences. */
+void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
+                        double d[3][AUR_REPLICAS_MAX]);
+
 /* All is in the units of the weighing, except for the mean. `pixels` may be NULL. Its `variances` get, for
  * each replica and pixel, the sum over the differences of the variance of one sample, as the other replicas
  * tell it. A replica that shared out its samples by its own

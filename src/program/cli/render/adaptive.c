@@ -90,8 +90,8 @@ static void say_again(const aur_adaptive *adaptive, const cli_target *target,
         say_number("--error", target->error);
     if (target->measure != AUR_ERROR_MEASURE_RELATIVE)
         aur_print(stderr, " --error-measure %s", aur_error_measure_name(target->measure));
-    if (report->bias_high > 0.0)
-        say_number("--bias", report->bias_high);
+    if (report->bias_room > 0.0)
+        say_number("--bias", report->bias_room);
     if (target->rays > 0) /* the trials may have taken them all */
         aur_print(stderr, " --rays %" PRIu64,
                   target->rays > report->candidate_rays ? target->rays - report->candidate_rays : 1);
@@ -118,6 +118,12 @@ static void say(const aur_adaptive *adaptive, const cli_target *target, const ch
               output, 100.0 * report.error, measure_words[target->measure], 100.0 * report.error_low,
               100.0 * report.error_high, bias, report.samples_per_pixel, (double)spent->rays,
               spent->prepare_seconds + spent->render_seconds, aur_adaptive_integrator(adaptive));
+    for (size_t i = 0; i < report.race_count && verbose; ++i) {
+        aur_adaptive_candidate candidate = {.size = sizeof candidate};
+        if (aur_adaptive_get_candidate(adaptive, i, &candidate, NULL) == AUR_OK)
+            aur_print(stderr, "aureole: candidate %s: %.3g rays for %zu pixels, needs %.3g: %s\n",
+                      candidate.name, candidate.rays, candidate.pixels, candidate.need, candidate.reason);
+    }
     for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT && verbose; ++m)
         aur_print(stderr, "aureole: its error is %.3g %% %s, between %.3g and %.3g (95 %%)\n",
                   100.0 * report.errors[m].error, measure_words[m], 100.0 * report.errors[m].low,
@@ -137,6 +143,7 @@ static aur_result print_json(const aur_adaptive *adaptive, const char *output, a
                                         .rounds = (double)report.rounds,
                                         .samples_per_pixel = report.samples_per_pixel,
                                         .measures = report.errors,
+                                        .adaptive = adaptive,
                                         .statistics = report.statistics};
     return cli_print_json(&summary, error);
 }

@@ -56,6 +56,22 @@ static void print_figures(report_table *table, const char *measure, const aur_er
     }
 }
 
+/* "NAME: RAYS rays, needs NEED, REASON; ..."; empty where there was no race. */
+static void print_race(report_table *table, const aur_adaptive *adaptive) {
+    char text[1024] = "";
+    aur_adaptive_report report = {.size = sizeof report};
+    if (adaptive != NULL)
+        aur_adaptive_get_report(adaptive, &report, NULL);
+    for (size_t i = 0; i < report.race_count; ++i) {
+        aur_adaptive_candidate one = {.size = sizeof one};
+        const size_t used = strlen(text);
+        if (aur_adaptive_get_candidate(adaptive, i, &one, NULL) == AUR_OK)
+            aur_format(text + used, sizeof text - used, "%s%s: %.4g rays, needs %.4g, %s", i > 0 ? "; " : "",
+                       one.name, one.rays, one.need, one.reason);
+    }
+    report_fact_text(table, "race", text);
+}
+
 aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
     const aur_render_statistics *const statistics = &summary->statistics;
     report_table *const table = report_create(0, NULL);
@@ -69,6 +85,7 @@ aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
         print_figures(table, aur_error_measure_name((aur_error_measure)m),
                       summary->measures != NULL ? &summary->measures[m]
                                                 : &(aur_error_figures){NAN, NAN, NAN});
+    print_race(table, summary->adaptive);
     report_fact_number(table, "mean", summary->mean);
     report_fact_number(table, "rounds", summary->rounds);
     report_fact_number(table, "samples_per_pixel", summary->samples_per_pixel);

@@ -22,6 +22,7 @@ typedef struct cli_render_summary {
     double error, error_low, error_high, bias_high; /* by the measure of the target */
     double mean, rounds, samples_per_pixel;
     const aur_error_figures *measures; /* [AUR_ERROR_MEASURE_COUNT], or NULL */
+    const aur_adaptive *adaptive;      /* whose race is listed, or NULL */
     aur_render_statistics statistics;
 } cli_render_summary;
 

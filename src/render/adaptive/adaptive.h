@@ -1,0 +1,60 @@
+/* The inside of an image to a target: its candidate, and how that was chosen. */
+#pragma once
+
+#include <aureole-render/adaptive.h>
+
+#include "points/base/cache.h"
+#include "points/base/parallel.h"
+#include "render/adaptive/bias.h"
+#include "render/adaptive/candidate.h"
+#include "render/adaptive/race.h"
+
+struct aur_adaptive {
+    aur_adaptive_options target;
+    aur_renderer *renderer;
+    aur_render_options options; /* of all candidates, except for the integrator; the texts are copies */
+    char *sampler, *filter;
+    aur_progress progress;
+    aur_progress_share share;
+    char *identity;          /* where the image is resumable; else NULL */
+    aur_candidate candidate; /* what the image is made of */
+    aur_spent others;        /* what the race, rejected candidates and corrections cost */
+    aur_cache_uses uses;     /* of all of them */
+    atomic_bool cancelled;
+    bool open;  /* the integrator is still to be chosen */
+    bool races; /* ... and that is going on */
+    aur_race race;
+    char *path;     /* the integrator of path tracing; NULL where the integrator is named */
+    size_t place;   /* in the race's order, of the candidate */
+    size_t row;     /* the candidate's in the table; AUR_RACE_PATH where the integrator is named */
+    size_t photons; /* of each replica's map */
+    aur_corrections corrections;
+    bool unchecked;                         /* the bias was not bounded since the last round */
+    aur_bias bias[AUR_ERROR_MEASURE_COUNT]; /* of the candidate, by each measure */
+};
+
+/* The integrator as aur_render_options take it; NULL keeps the scene's own. A new text. `open`: nobody has
+ * named one, so that the race may. Errors: MEMORY. */
+aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted, char **integrator,
+                                      bool *open, aur_error *error);
+
+/* The target of the rounds. What is spent otherwise and counts is taken from the rays. */
+aur_goal aur_adaptive_goal(const aur_adaptive *adaptive);
+/* Rays that count besides the candidate's samples. */
+uint64_t aur_adaptive_other_rays(const aur_adaptive *adaptive);
+/* Rays that are kept for corrections of a candidate with bias, where the target is a number of rays. */
+uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive);
+
+/* The candidate of a row, from nothing, with its corrections. Errors: those of aur_render_create. */
+aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons, aur_error *error);
+/* A candidate by `integrator`, a new text, in place of the one there is. */
+aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_error *error);
+/* Runs the race and takes the winner. Errors: CANCELLED, after which it begins again; MEMORY and others. */
+aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
+
+/* Computes `bias` from the corrections. */
+void aur_adaptive_bound_bias(aur_adaptive *adaptive);
+/* To be called after each round; `last`: the noise has come to its target. Renders corrections, bounds the
+ * bias, and takes the next candidate where it is, or may be, too large: then `again` is true, and rounds
+ * begin anew. */
+aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error);

@@ -1,0 +1,412 @@
+#include "render/adaptive/race.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/error.h"
+#include "points/base/random.h"
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
+
+enum {
+    PIXELS = AUR_RACE_BLOCK * AUR_RACE_BLOCK,
+    FIRST_BLOCKS = 54, /* 864 pixels */
+    MAP_PHOTONS = 50000,
+    RESAMPLINGS = 300
+};
+/* Of the work that the best candidate needs, what the race may take. */
+static const double PART = 0.05;
+/* A candidate is dropped that is worse than the best in so many resamplings of the blocks. */
+static const double CONFIDENCE = 0.95;
+/* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
+static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
+/* The shortest time in which a race is worth it: it takes tenths of a second. */
+static const double LEAST_SECONDS = 2.0;
+/* Samples of a pixel that a replica of each row renders: whole patterns. */
+static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4};
+
+static void say(aur_race_entry *entry, bool out, const char *reason) {
+    entry->out = out;
+    snprintf(entry->reason, sizeof entry->reason, "%.95s", reason);
+}
+
+/* --- rendering */
+
+static aur_result copy_values(const aur_race *race, const aur_replicas *replicas, size_t count,
+                              const size_t *order, aur_race_entry *entry, aur_error *error) {
+    const size_t stride = PIXELS * replicas->count * 3;
+    float *const values = realloc(entry->values, count * stride * sizeof *values);
+    if (values == NULL)
+        return aur_fail_memory(error);
+    entry->values = values;
+    memset(values + entry->blocks * stride, 0, (count - entry->blocks) * stride * sizeof *values);
+    for (size_t b = entry->blocks; b < count; ++b) {
+        size_t pixels[PIXELS];
+        const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
+        for (size_t p = 0; p < pixel_count; ++p)
+            for (size_t r = 0; r < replicas->count; ++r)
+                for (size_t c = 0; c < 3; ++c)
+                    values[b * stride + (p * replicas->count + r) * 3 + c] =
+                        (float)aur_replicas_value(replicas, r, pixels[p], c);
+    }
+    entry->blocks = count;
+    return AUR_OK;
+}
+
+static void add_spent(const aur_replicas *replicas, uint64_t prepared, aur_race_entry *entry,
+                      aur_spent *spent) {
+    spent->rays += prepared;
+    for (size_t r = 0; r < replicas->count; ++r) {
+        aur_render_statistics one = {.size = sizeof one};
+        aur_render_get_statistics(replicas->renders[r], &one, NULL);
+        const uint64_t rays = aur_film_counted(aur_render_film(replicas->renders[r])).rays;
+        entry->rays += (double)rays;
+        entry->samples += (double)one.samples;
+        spent->rays += rays;
+        spent->budget += rays;
+        spent->prepare_seconds += one.prepare_seconds;
+        spent->render_seconds += one.render_seconds;
+        spent->cpu_seconds += one.cpu_seconds;
+    }
+}
+
+/* Renders the blocks of `order` from those that the candidate has up to `count`. */
+static aur_result render_blocks(aur_race *race, size_t row, size_t count, const size_t *order,
+                                aur_error *error) {
+    aur_race_entry *const entry = &race->entries[row];
+    char *const text =
+        aur_race_integrator(row, race->path, MAP_PHOTONS, (race->options->seed & UINT32_MAX) + 1);
+    uint32_t *const targets = calloc(race->width * race->height, sizeof *targets);
+    aur_replicas replicas = {0};
+    aur_render_options own = *race->options;
+    own.integrator = text;
+    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    own.warnings = (aur_warnings){0};
+    const uint64_t before = aur_rays_traced;
+    aur_result result = text != NULL && targets != NULL
+                            ? aur_replicas_create(race->renderer, &own, race->replica_count, &replicas, error)
+                            : aur_fail_memory(error);
+    const uint64_t prepared = aur_rays_traced - before;
+    for (size_t b = entry->blocks; b < count && result == AUR_OK; ++b) {
+        size_t pixels[PIXELS];
+        const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
+        for (size_t p = 0; p < pixel_count; ++p)
+            targets[pixels[p]] = samples_of[row];
+    }
+    for (size_t r = 0; r < replicas.count && result == AUR_OK; ++r)
+        result = atomic_load(race->cancelled)
+                     ? AUR_ERROR_CANCELLED
+                     : aur_render_step_pixels(replicas.renders[r], replicas.pixel_count, targets, error);
+    if (result == AUR_OK)
+        result = copy_values(race, &replicas, count, order, entry, error);
+    add_spent(&replicas, prepared, entry, &race->spent);
+    aur_replicas_release(&replicas);
+    free(targets);
+    free(text);
+    return result;
+}
+
+/* --- scores */
+
+typedef struct race_scores {
+    size_t blocks;
+    double (*means)[3];        /* of each block, over the candidates */
+    aur_error_weight *weights; /* of each block */
+    double *roots;             /* [rows][blocks] of the mean variance of a sample */
+    double *sums;              /* [rows] scratch */
+} race_scores;
+
+static const float *values_at(const aur_race *race, const aur_race_entry *entry, size_t block, size_t pixel) {
+    return entry->values + ((block * PIXELS + pixel) * race->replica_count) * 3;
+}
+
+static void mean_of_pixel(const aur_race *race, const float *values, double mean[3]) {
+    for (size_t c = 0; c < 3; ++c) {
+        mean[c] = 0.0;
+        for (size_t r = 0; r < race->replica_count; ++r)
+            mean[c] += (double)values[3 * r + c] / (double)race->replica_count;
+    }
+}
+
+static void mean_of_blocks(const aur_race *race, const size_t *order, race_scores *scores) {
+    for (size_t b = 0; b < scores->blocks; ++b) {
+        size_t pixels[PIXELS], count = 0;
+        const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
+        double sum[3] = {0.0};
+        for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+            for (size_t p = 0; p < pixel_count && race->entries[i].blocks >= scores->blocks; ++p, ++count) {
+                double mean[3];
+                mean_of_pixel(race, values_at(race, &race->entries[i], b, p), mean);
+                for (size_t c = 0; c < 3; ++c)
+                    sum[c] += mean[c];
+            }
+        for (size_t c = 0; c < 3; ++c)
+            scores->means[b][c] = sum[c] / (double)count;
+    }
+}
+
+/* The root of the mean over a block's pixels of the variance of one sample. */
+static double root_variance(const aur_race *race, const size_t *order, size_t row, size_t block,
+                            const aur_error_weight *weight) {
+    size_t pixels[PIXELS];
+    const size_t pixel_count = aur_race_pixels(race->width, race->height, order[block], pixels);
+    const double others = (double)(race->replica_count - 1);
+    double sum = 0.0;
+    for (size_t p = 0; p < pixel_count; ++p) {
+        const float *const values = values_at(race, &race->entries[row], block, p);
+        double mean[3], d[3][AUR_REPLICAS_MAX];
+        mean_of_pixel(race, values, mean);
+        for (size_t r = 0; r < race->replica_count; ++r)
+            for (size_t c = 0; c < 3; ++c)
+                d[c][r] = (double)values[3 * r + c] - mean[c];
+        aur_replicas_weigh(race->replica_count, (aur_weighing){race->measure, weight}, 0, mean, d);
+        for (size_t r = 0; r < race->replica_count; ++r)
+            for (size_t c = 0; c < 3; ++c)
+                sum += d[c][r] * d[c][r];
+    }
+    return sqrt(sum * (double)samples_of[row] / (others * (double)pixel_count));
+}
+
+/* Work of a sample. */
+static double price(const aur_race_entry *entry, size_t row) {
+    return entry->rays / entry->samples * (row == AUR_RACE_PATH ? 1.0 : GATHER_PRICE);
+}
+
+static bool is_measured(const aur_race_entry *entry, size_t blocks) {
+    return !entry->out && entry->blocks >= blocks && blocks > 0;
+}
+
+/* The work to the target where samples are spent in proportion to roots of variances (Neyman 1934), and that
+ * of the photons of gathers. Without a target the error does not matter, for candidates are compared alone.
+ */
+static double work_of(const aur_race *race, size_t row, double mean_root) {
+    const double error = race->error > 0.0 ? race->error : 1.0;
+    const double work = mean_root * mean_root / (3.0 * error * error) * price(&race->entries[row], row) *
+                        (double)(race->width * race->height);
+    if (row == AUR_RACE_PATH)
+        return work;
+    return work +
+           fmax(AUR_RACE_MAP_PART * work, race->error > 0.0 ? aur_race_least_map(race->replica_count) : 0.0);
+}
+
+static aur_result allocate(race_scores *scores, size_t blocks, aur_error *error) {
+    *scores = (race_scores){.blocks = blocks,
+                            .means = calloc(blocks, sizeof *scores->means),
+                            .weights = calloc(blocks, sizeof *scores->weights),
+                            .roots = calloc(AUR_RACE_ROWS * blocks, sizeof *scores->roots)};
+    const bool made = scores->means != NULL && scores->weights != NULL && scores->roots != NULL;
+    return made ? AUR_OK : aur_fail_memory(error);
+}
+
+static void release_scores(race_scores *scores) {
+    free(scores->means);
+    free(scores->weights);
+    free(scores->roots);
+}
+
+/* Sets what each candidate needs by all of its blocks. */
+static aur_result measure(aur_race *race, const size_t *order, size_t blocks, race_scores *scores,
+                          aur_error *error) {
+    const aur_result result = allocate(scores, blocks, error);
+    if (result != AUR_OK)
+        return result;
+    mean_of_blocks(race, order, scores);
+    aur_error_weigh(race->measure, blocks, (const double(*)[3])scores->means,
+                    (const double(*)[3])scores->means, scores->weights);
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        double sum = 0.0;
+        if (!is_measured(&race->entries[i], blocks))
+            continue;
+        for (size_t b = 0; b < blocks; ++b)
+            sum += scores->roots[i * blocks + b] = root_variance(race, order, i, b, &scores->weights[b]);
+        race->entries[i].need = work_of(race, i, sum / (double)blocks);
+    }
+    return AUR_OK;
+}
+
+static size_t best_of(const aur_race *race, size_t blocks) {
+    size_t best = AUR_RACE_ROWS;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        if (is_measured(&race->entries[i], blocks) &&
+            (best == AUR_RACE_ROWS || race->entries[i].need < race->entries[best].need))
+            best = i;
+    return best;
+}
+
+/* Drops what is worse than the best in nearly all resamplings of the blocks (bootstrap). Returns how many are
+ * left. */
+static size_t drop(aur_race *race, const race_scores *scores, size_t best) {
+    const double blocks = (double)scores->blocks;
+    size_t worse[AUR_RACE_ROWS] = {0}, left = 0;
+    for (size_t k = 0; k < RESAMPLINGS; ++k) {
+        double sums[AUR_RACE_ROWS] = {0.0};
+        for (size_t j = 0; j < scores->blocks; ++j) {
+            const size_t b = aur_hash3(UINT64_C(0x72616365), k, j) % scores->blocks;
+            for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+                sums[i] += scores->roots[i * scores->blocks + b];
+        }
+        for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+            worse[i] += is_measured(&race->entries[i], scores->blocks) &&
+                        work_of(race, i, sums[i] / blocks) > work_of(race, best, sums[best] / blocks);
+    }
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        if (!is_measured(&race->entries[i], scores->blocks))
+            continue;
+        if (i != best && (double)worse[i] >= CONFIDENCE * RESAMPLINGS)
+            say(&race->entries[i], true, "dropped: more work in 95 % of resamplings");
+        left += !race->entries[i].out;
+    }
+    return left;
+}
+
+/* --- the race */
+
+/* What the request takes, as far as is known: by the best candidate, or all of its budget. */
+static double whole_work(const aur_race *race, size_t best) {
+    if (race->error > 0.0)
+        return race->entries[best].need;
+    if (race->budget > 0.0)
+        return race->budget;
+    const double rays_per_second =
+        (double)race->spent.rays / fmax(race->spent.prepare_seconds + race->spent.render_seconds, 1e-9);
+    return race->seconds * rays_per_second;
+}
+
+static double spent_work(const aur_race *race) {
+    double work = aur_photon_work(MAP_PHOTONS);
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        work += race->entries[i].rays;
+    return work;
+}
+
+/* The first rung of a row, as that of the middle one took: neighbours that share render whole tiles. */
+static double first_rung(const aur_race *race, size_t row, size_t blocks) {
+    const double tile = 256.0,
+                 per_sample = race->entries[AUR_RACE_MIDDLE].rays / race->entries[AUR_RACE_MIDDLE].samples;
+    const double pixels = row == AUR_RACE_SHARED
+                              ? fmin((double)blocks * tile, (double)(race->width * race->height))
+                              : (double)(blocks * PIXELS);
+    return per_sample * pixels * (double)samples_of[row] * (double)race->replica_count;
+}
+
+/* The other rows render the first blocks, where their work is small next to that of the image. */
+static aur_result run_others(aur_race *race, const size_t *order, size_t blocks, aur_error *error) {
+    static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_LIGHTS, AUR_RACE_LONG};
+    const double most = PART * whole_work(race, AUR_RACE_MIDDLE);
+    double work = spent_work(race);
+    for (size_t k = 0; k < 3; ++k)
+        work += first_rung(race, others[k], blocks);
+    /* Where photons cost most, path tracing may need less than they do. */
+    const bool races = work <= most;
+    const bool path = races || most < PART * 2.0 * aur_race_least_map(race->replica_count);
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < 3 && result == AUR_OK; ++k) {
+        if (races || (path && others[k] == AUR_RACE_PATH))
+            result = render_blocks(race, others[k], blocks, order, error);
+        else
+            say(&race->entries[others[k]], true, "not tried: a race costs more than 5 % of the image");
+    }
+    if (result == AUR_OK && spent_work(race) + first_rung(race, AUR_RACE_SHARED, blocks) <= most)
+        return render_blocks(race, AUR_RACE_SHARED, blocks, order, error);
+    say(&race->entries[AUR_RACE_SHARED], true, "not tried: its first blocks cost more than 5 % of the image");
+    return result;
+}
+
+/* Rungs of twice as many blocks each, until one candidate is left or the next one costs too much. */
+static aur_result run_rungs(aur_race *race, const size_t *order, size_t all, size_t blocks,
+                            aur_error *error) {
+    for (;;) {
+        race_scores scores;
+        aur_result result = measure(race, order, blocks, &scores, error);
+        const size_t best = best_of(race, blocks);
+        const size_t left = result == AUR_OK && best < AUR_RACE_ROWS ? drop(race, &scores, best) : 0;
+        release_scores(&scores);
+        double next = 0.0;
+        for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+            next += race->entries[i].out ? 0.0 : race->entries[i].rays;
+        if (result != AUR_OK || left <= 1 || blocks == all ||
+            spent_work(race) + next > PART * whole_work(race, best))
+            return result;
+        const size_t more = 2 * blocks < all ? 2 * blocks : all;
+        for (size_t i = 0; i < AUR_RACE_ROWS && result == AUR_OK; ++i)
+            if (!race->entries[i].out)
+                result = render_blocks(race, i, more, order, error);
+        if (result != AUR_OK)
+            return result;
+        blocks = more;
+    }
+}
+
+static bool is_black(const aur_race *race, const aur_race_entry *entry) {
+    for (size_t i = 0; i < entry->blocks * PIXELS * race->replica_count * 3; ++i)
+        if (entry->values[i] != 0.0f)
+            return false;
+    return true;
+}
+
+static int by_need(const aur_race_entry *a, const aur_race_entry *b) {
+    return (a->out && !b->out) || (a->out == b->out && a->need > b->need);
+}
+
+/* Candidates that were measured by what they need, those that were not dropped first; path tracing in any
+ * case, last where it was not measured, for it has no bias. */
+static void sort(aur_race *race) {
+    race->order_count = 0;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        if (race->entries[i].blocks == 0)
+            continue;
+        size_t at = race->order_count++;
+        for (; at > 0 && by_need(&race->entries[race->order[at - 1]], &race->entries[i]); --at)
+            race->order[at] = race->order[at - 1];
+        race->order[at] = i;
+    }
+    if (race->entries[AUR_RACE_PATH].blocks == 0)
+        race->order[race->order_count++] = AUR_RACE_PATH;
+}
+
+aur_result aur_race_run(aur_race *race, aur_error *error) {
+    size_t *order, all = (race->width + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK *
+                         ((race->height + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK);
+    all = aur_race_blocks(race->width, race->height, all, &order);
+    if (all == 0)
+        return aur_fail_memory(error);
+    const size_t blocks = all < FIRST_BLOCKS ? all : FIRST_BLOCKS;
+    aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
+    aur_error refused = {0};
+    const bool worth = race->error > 0.0 ||
+                       race->budget * AUR_RACE_MAP_PART > aur_race_least_map(race->replica_count) ||
+                       (race->budget == 0.0 && race->seconds > LEAST_SECONDS);
+    aur_result result = worth ? render_blocks(race, AUR_RACE_MIDDLE, blocks, order, &refused) : AUR_OK;
+    if (!worth)
+        say(middle, true, "not tried: its photons cost more than a quarter of the request");
+    else if (result != AUR_OK && result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED) {
+        say(middle, true, refused.message); /* final gathering is not for this scene */
+        result = AUR_OK;
+    } else if (result == AUR_OK && is_black(race, middle)) {
+        middle->blocks = 0;
+        say(middle, true, "no light was found in the first blocks");
+    } else if (result == AUR_OK) {
+        race_scores scores;
+        result = measure(race, order, blocks, &scores, error);
+        release_scores(&scores);
+        if (result == AUR_OK)
+            result = run_others(race, order, blocks, error);
+        if (result == AUR_OK)
+            result = run_rungs(race, order, all, blocks, error);
+    } else if (error != NULL) {
+        *error = refused;
+    }
+    free(order);
+    if (result == AUR_OK)
+        sort(race);
+    return result;
+}
+
+void aur_race_release(aur_race *race) {
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+        free(race->entries[i].values);
+        race->entries[i].values = NULL;
+    }
+}

@@ -1,0 +1,150 @@
+/* The race for the integrator in rooms that are made here: one where paths need least work and one where
+ * gathers do, and scenes that leave no choice. */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "render/adaptive/race.h"
+
+static const char head[] =
+    "<scene version='3.0.0'><integrator type='path'><integer name='max_depth' value='8'/></integrator>"
+    "<sensor type='perspective'><float name='fov' value='60'/><transform name='to_world'><lookat "
+    "origin='0,-.95,0' target='0,1,-.2' up='0,0,1'/></transform><film type='hdrfilm'><integer name='width' "
+    "value='64'/><integer name='height' value='48'/><rfilter type='box'/></film></sensor>";
+
+/* A lamp that shines at the ceiling from under it: all light that is seen is reflected twice. */
+static const char indirect[] =
+    "<shape type='cube'><bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' "
+    "value='.7'/></bsdf>"
+    "</bsdf></shape><shape type='rectangle'><transform name='to_world'><scale value='.1'/><translate z='.9'/>"
+    "</transform><emitter type='area'><rgb name='radiance' value='50'/></emitter></shape></scene>";
+
+/* A checkerboard finer than pixels under an even sky: what varies is where a camera ray meets it. */
+static const char direct[] =
+    "<emitter type='constant'/><shape type='rectangle'><transform name='to_world'><scale "
+    "value='20'/><translate "
+    "z='-.3'/></transform><bsdf type='diffuse'><texture name='reflectance' type='checkerboard'><transform "
+    "name='to_uv'><scale value='1500'/></transform></texture></bsdf></shape></scene>";
+
+static const char black[] = "<shape type='cube'/></scene>";
+static const char sky[] = "<emitter type='constant'/></scene>";
+
+typedef struct fixture {
+    aur_scene *scene;
+    aur_renderer *renderer;
+    aur_race race;
+} fixture;
+
+static void run(const char *body, double error, size_t width, size_t height, fixture *f) {
+    char text[4096];
+    snprintf(text, sizeof text, "%s%s", head, body);
+    static atomic_bool cancelled;
+    static aur_render_options options;
+    options = (aur_render_options){.size = sizeof options};
+    aur_render_options_init(&options, NULL);
+    options.sampler = "sobol";
+    options.filter = "box";
+    options.width = width;
+    options.height = height;
+    options.use_cache = 0;
+    assert_int_equal(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &f->scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
+    f->race = (aur_race){.renderer = f->renderer,
+                         .options = &options,
+                         .path = "path:max_depth=8",
+                         .width = width,
+                         .height = height,
+                         .replica_count = 4,
+                         .measure = AUR_ERROR_MEASURE_RELATIVE,
+                         .error = error,
+                         .cancelled = &cancelled};
+    assert_int_equal(aur_race_run(&f->race, NULL), AUR_OK);
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        print_message("%s: %.3g rays, %zu blocks, needs %.3g, %s\n", aur_race_name(i),
+                      f->race.entries[i].rays, f->race.entries[i].blocks, f->race.entries[i].need,
+                      f->race.entries[i].reason);
+}
+
+static void end(fixture *f) {
+    aur_race_release(&f->race);
+    aur_renderer_destroy(f->renderer);
+    aur_scene_destroy(f->scene);
+}
+
+/* To so small an error everything is tried; the winner is the same with other seeds, so that chance in the
+ * first blocks does not choose. */
+static void test_gathers_win(void **state) {
+    (void)state;
+    fixture f;
+    run(indirect, 0.002, 64, 48, &f);
+    const aur_race *const race = &f.race;
+    assert_true(race->order[0] != AUR_RACE_PATH);
+    assert_true(race->entries[AUR_RACE_PATH].need > 2.0 * race->entries[race->order[0]].need);
+    assert_true(race->entries[AUR_RACE_PATH].out);
+    end(&f);
+}
+
+static void test_paths_win(void **state) {
+    (void)state;
+    fixture f;
+    run(direct, 0.002, 64, 48, &f);
+    const aur_race *const race = &f.race;
+    assert_int_equal(race->order[0], AUR_RACE_PATH);
+    assert_true(race->entries[AUR_RACE_MIDDLE].need > 2.0 * race->entries[AUR_RACE_PATH].need);
+    end(&f);
+}
+
+/* What a race costs is small next to the image, or there is none. */
+static void test_no_race(void **state) {
+    (void)state;
+    fixture f;
+    run(indirect, 0.3, 64, 48, &f);
+    assert_int_equal(f.race.order[0], AUR_RACE_MIDDLE);
+    assert_non_null(strstr(f.race.entries[AUR_RACE_LIGHTS].reason, "not tried"));
+    assert_true(f.race.entries[AUR_RACE_LIGHTS].blocks == 0);
+    end(&f);
+}
+
+/* Nothing to see, nothing that scatters, one pixel. */
+static void test_no_choice(void **state) {
+    (void)state;
+    fixture f;
+    run(black, 0.01, 64, 48, &f);
+    assert_true(f.race.order_count == 1 && f.race.order[0] == AUR_RACE_PATH);
+    end(&f);
+    run(sky, 0.01, 64, 48, &f);
+    assert_int_equal(f.race.order[0], AUR_RACE_PATH); /* without any noise */
+    end(&f);
+    run(indirect, 0.01, 1, 1, &f);
+    assert_true(f.race.order_count >= 1 && f.race.entries[AUR_RACE_MIDDLE].blocks == 1);
+    end(&f);
+}
+
+/* Each block once, and the first ones spread over the image. */
+static void test_blocks(void **state) {
+    (void)state;
+    enum { WIDTH = 37, HEIGHT = 22, BLOCKS = 10 * 6 };
+    size_t *order, seen[BLOCKS] = {0}, quarters[4] = {0}, pixels[16], covered = 0;
+    assert_int_equal(aur_race_blocks(WIDTH, HEIGHT, SIZE_MAX, &order), BLOCKS);
+    for (size_t i = 0; i < BLOCKS; ++i) {
+        ++seen[order[i]];
+        covered += aur_race_pixels(WIDTH, HEIGHT, order[i], pixels);
+        if (i < 16)
+            ++quarters[order[i] % 10 / 5 + 2 * (order[i] / 10 / 3)];
+    }
+    for (size_t i = 0; i < BLOCKS; ++i)
+        assert_int_equal(seen[i], 1);
+    for (size_t i = 0; i < 4; ++i)
+        assert_in_range(quarters[i], 3, 5);
+    assert_int_equal(covered, WIDTH * HEIGHT);
+    free(order);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
+                                       cmocka_unit_test(test_no_race), cmocka_unit_test(test_no_choice),
+                                       cmocka_unit_test(test_blocks)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
