@@ -50,7 +50,7 @@ from ._maps import (
     symmetry_select,
 )
 from ._measures import Nearest, measure, student_quantile, weights_voronoi
-from ._points import Directions, PointSet, points, read, write
+from ._points import Directions, PointSet, Rotations, points, read, write
 from ._tables import Key, Measure, Row, Set, measures, names, sets, tables
 from ._weights import (
     ExactReport,
@@ -106,6 +106,7 @@ __all__ = [
     "PointSet",
     "Potential",
     "Report",
+    "Rotations",
     "Row",
     "Scene",
     "SceneDescription",

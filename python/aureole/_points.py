@@ -121,11 +121,7 @@ def points(
         made = ffi.new("aur_points **")
         core.call(lib.aur_points_generate, encode(set), request, made)
         found, found_weights, of = look(core.own("points", made))
-    if out is not None or np.dtype(dtype) != np.float64:
-        target = target_array(len(found), found.shape[1], out, dtype)
-        cut = target.dtype == np.float32 and of in ("square", "cube")
-        target[...] = np.floor(found * 2.0**24) * 2.0**-24 if cut else found
-        found = target if out is None else out
+    found = _deliver(found, out, dtype, cut=of in ("square", "cube"))
     if not weights:
         return found
     return found, np.full(len(found), 1.0 / len(found)) if found_weights is None else found_weights
@@ -403,6 +399,49 @@ class Directions(_Rows):
             lambda output: core.call(lib.aur_directions_generate, self._set, first, count, output, weights_output),
         )  # fmt: skip
         return array, weights[:, 0]
+
+
+class Rotations(_Rows):
+    """A set of rotations made ready: unit quaternions w, x, y, z; any part of it, in any order, from any thread.
+
+    `set` : one native to rotations, or any of the cube, whose first three coordinates are lifted (Shoemake 1992).
+    `scramble` : "rotate3d" turns all by one random rotation; others as for the cube.
+
+    >>> turns = Rotations("super-fibonacci", 10**9, scramble="rotate3d", seed=2)
+    >>> turns[12345:12348].shape, round(float((turns[-1] ** 2).sum()), 12)
+    ((3, 4), 1.0)
+    """
+
+    dimension = 4
+
+    def __init__(self, set: str, n: int, *, scramble: Scramble = "none", seed: Seed = 0):
+        with CoreCall() as call:
+            options = core.options(
+                "rotations_options", count=n, scramble=core.value("scramble", scramble), seed=self._reseed(seed)
+            )
+            self._set = core.make("rotations", encode(set), call.attach(options, progress=False))
+
+    @property
+    def size(self) -> int:  # type: ignore[override]
+        """Rotations of the set."""
+        return lib.aur_rotations_size(self._set)
+
+    def points(  # type: ignore[override]
+        self, first: int = 0, count: Optional[int] = None, *, out: Any = None, dtype: DTypeLike = np.float64
+    ) -> np.ndarray:
+        """Rotations first .. first+count-1, (count, 4); count None: all from `first` on. `out` as for `points`."""
+        found = target_array(max(0, self.size - first) if count is None else count, 4, None, np.float64)
+        core.call(lib.aur_rotations_points, self._set, first, len(found), found.size, core.output(found))
+        return _deliver(found, out, dtype)
+
+
+def _deliver(found: Array, out: Any, dtype: DTypeLike, cut: bool = False) -> np.ndarray:
+    """`found` where and as it is asked for; `cut`: float32 are cut to 24 binary digits, not rounded."""
+    if out is None and np.dtype(dtype) == np.float64:
+        return found
+    target = target_array(len(found), found.shape[1], out, dtype)
+    target[...] = np.floor(found * 2.0**24) * 2.0**-24 if cut and target.dtype == np.float32 else found
+    return target if out is None else out
 
 
 def target_array(count: int, columns: int, out: Any, dtype: DTypeLike) -> np.ndarray:

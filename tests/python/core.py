@@ -116,7 +116,9 @@ class Points(unittest.TestCase):
         sobol = aureole.PointSet("sobol", 4096, dimension=5, scramble="owen", seed=3)
         xyz = aureole.Directions("spherical-fibonacci", 300)
         random = np.random.default_rng(1)
-        for made in (sobol, xyz):
+        turns = aureole.Rotations("super-fibonacci", 256, scramble="rotate3d", seed=4)
+        self.assertTrue((turns.points() == written("super-fibonacci", "-n", "256", "--scramble", "rotate3d", "--seed", "4")).all())
+        for made in (sobol, xyz, turns):
             whole = made.points()
             self.assertTrue((np.asarray(made) == whole).all() and (np.array(list(made)) == whole).all())
             picks = random.integers(-len(made), len(made), 200)
@@ -141,6 +143,7 @@ class Points(unittest.TestCase):
         for made, look in (
             (aureole.PointSet("halton:permute=random", 50, dimension=3, scramble="shift", seed=generator), lambda x: x.points()),
             (aureole.Directions("sobol", 64, domain="hemisphere", lobe="phong:20", scramble="owen", seed=4), lambda x: x.points()),
+            (aureole.Rotations("sobol", 64, scramble="owen", seed=2**80), lambda x: x.points(dtype=np.float32)),
             (aureole.Nearest(xyz), lambda x: np.array(x.find(xyz[:9] + 0.01, 3))),
             (aureole.Potential("phong:3", smoothness=1.6), lambda x: x.evaluate(xyz)),
         ):  # fmt: skip
