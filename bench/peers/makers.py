@@ -139,7 +139,9 @@ ours("sphere", "sobol, Owen", ["sobol", "--scramble", "owen"], True)
 ours("sphere", "random", ["random"], True)
 ours("sphere", "healpix", ["healpix"], sizes=[12 * k * k for k in range(1, 300)])
 ours("sphere", "lebedev", ["lebedev"], sizes=[n for _, n in lebedev_sizes()])
-ours("sphere", "t-design", ["t-design"], sizes=[4, 8, 18, 32, 48, 70, 94, 122, 156, 192, 234, 278, 328])
+ours("sphere", "t-design", ["t-design"],
+     sizes=[4, 8, 18, 32, 48, 70, 94, 122, 156, 192, 234, 278, 328, 384, 442, 504, 570,
+            636, 712, 786, 870, 956, 1046, 1134, 1238, 1338])
 
 
 @peer("sphere", "healpy", "pixel centres, in rings")

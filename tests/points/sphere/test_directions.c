@@ -354,7 +354,7 @@ static void sets_say_their_sizes(void **state) {
         {"lcg", "1..(2^31-2)/dimension", 2147483646, AUR_SIZES_ANY, 0},
         {"fibonacci-lattice", "1..2^48; a lattice at F_k", UINT64_C(1) << 48, AUR_SIZES_FIBONACCI, 0},
         {"esfg", "1..2^48; base*4^levels times 1, 2, 3, 4 is even", UINT64_C(1) << 48, AUR_SIZES_GRIDS, 0},
-        {"t-design", "4, 8, 18, .. 328", 328, AUR_SIZES_ANY, 0},
+        {"t-design", "4, 8, 18, .. 1338", 1338, AUR_SIZES_ANY, 0},
         {"healpix", "12, 48, 108, .. 3377699720527872", UINT64_C(12) << 48, AUR_SIZES_ANY, 0},
         {"file", "up to the file's", UINT64_MAX, AUR_SIZES_ANY, 0},
     };

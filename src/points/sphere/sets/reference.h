@@ -27,7 +27,7 @@ extern const aur_reference aur_lebedev_rules[AUR_LEBEDEV_COUNT];
 
 /* The table of symmetric spherical designs: each of its points and the opposite. */
 
-enum { AUR_T_DESIGN_COUNT = 13 };
+enum { AUR_T_DESIGN_COUNT = 26 };
 
 extern const aur_reference aur_t_designs[AUR_T_DESIGN_COUNT];
 

@@ -48,13 +48,13 @@ static uint64_t size_at(size_t index) {
 
 const aur_native_set aur_native_t_design = {
     .description = {.row = {.name = "t-design",
-                            .summary = "symmetric spherical designs of degree 1, 3, .. 25: a plain mean is "
+                            .summary = "symmetric spherical designs of degree 1, 3, .. 51: a plain mean is "
                                        "exact for polynomials",
                             .source = "Delsarte, Goethals, Seidel 1977; Womersley 2018"},
                     .domains = AUR_ON_SPHERE,
                     .dimensions = {3, 3},
                     .size_at = size_at,
-                    .maximum_size = 328},
+                    .maximum_size = 1338},
     .prepare = prepare,
     .fill = fill,
 };
