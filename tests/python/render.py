@@ -1,6 +1,8 @@
 """render.py PROGRAM SOURCE_TREE: what needs libaureole-render and libaureole-lighting."""
 
+import copy
 import pathlib
+import pickle
 import subprocess
 import sys
 import unittest
@@ -28,6 +30,9 @@ class Render(unittest.TestCase):
         self.assertEqual(names[:3], ["R", "G", "B"])
         self.assertTrue((picture == expected[:, :, :3]).all())
         self.assertTrue((picture == aureole.render(SCENE, width=24, spp=4, seed=3, threads=3)).all())
+        for other in (pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)):
+            self.assertTrue((picture == aureole.render(other, width=24, spp=4, seed=3)).all())
+        self.assertEqual(repr(scene), f"Scene({SCENE!r})")
         corner = aureole.render(scene, width=24, spp=4, seed=3, crop=(16, 24, 16, 24))
         self.assertEqual(corner.shape[2], 3)
         self.assertEqual(scene.describe().width, 512)
