@@ -21,6 +21,7 @@ extern const bench bench_domains;
 extern const bench bench_gather;
 extern const bench bench_gather_rays_alone;
 extern const bench bench_gather_weights;
+extern const bench bench_lights;
 extern const bench bench_limits;
 extern const bench bench_large;
 extern const bench bench_load;
@@ -46,6 +47,7 @@ static const bench *const benches[] = {
     &bench_gather,
     &bench_gather_rays_alone,
     &bench_gather_weights,
+    &bench_lights,
     &bench_limits,
     &bench_large,
     &bench_load,

@@ -141,7 +141,7 @@ static double pilot(const aur_scene *scene, const aur_closed_light *light, size_
     const aur_vector up = {(float)normal[0], (float)normal[1], (float)normal[2]};
     double all = 0.0, seen = 0.0;
     for (size_t i = 0; i < points; ++i) {
-        aur_light_query query = {.reference = {from, up}};
+        aur_light_query query = {.reference = {from, up}, .part = AUR_WHOLE_LIGHT};
         aur_light_sample drawn;
         aur_draw_units(&hash, query.u);
         if (!emitter->descriptor->sample(emitter, &query, &drawn))

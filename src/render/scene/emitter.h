@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/scene/lanes.h"
+#include "render/scene/light_tree.h"
 #include "render/scene/materials/texture.h"
 #include "render/scene/patches.h"
 #include "render/scene/scene.h"
@@ -14,7 +15,10 @@ typedef struct aur_emitter aur_emitter;
 typedef struct aur_light_query {
     aur_light_reference reference;
     float u[3];
+    uint32_t part; /* the triangle of a mesh that is drawn from, or AUR_WHOLE_LIGHT */
 } aur_light_query;
+
+#define AUR_WHOLE_LIGHT UINT32_MAX
 
 typedef struct aur_emitter_descriptor {
     aur_row row;      /* first, so that a row of the table is its descriptor */
@@ -28,6 +32,9 @@ typedef struct aur_emitter_descriptor {
      * NULL.
      */
     aur_result (*prepare)(aur_emitter *emitter, aur_error *error);
+    /* For lights that have a place: what holds a part of it, 0 to emitter->part_count - 1. NULL: it is chosen
+     * by its power alone, wherever the reference is. */
+    void (*bounds)(const aur_emitter *emitter, size_t part, aur_light_bounds *bounds);
     /* As aur_light_sample_direct for this light alone. */
     bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
     /* `sample` for the lanes of a packet whose bit is set; false: it is left to `sample`, which those
@@ -63,9 +70,12 @@ struct aur_emitter {
     /* The watts it gives are its brightness times its extent, for far lights times the scene's squared
      * radius. The brightness is the luminance of its mean radiance, unless `prepare` says something else. */
     double extent, brightness;
-    double power;      /* luminance of the watts it gives: lights are chosen in proportion */
-    float probability; /* that the light is chosen */
-    bool needs_choice; /* u[0] matters even where this is the only light */
+    double power;           /* luminance of the watts it gives: lights are chosen in proportion */
+    double sampling_weight; /* factor of that where points on lights are drawn */
+    float probability;      /* that the light is chosen, unless it hangs in the tree of lights */
+    size_t part_count;      /* parts that the tree knows one by one: triangles of a mesh, else 1 */
+    uint32_t first_leaf;    /* of its parts in the tree; AUR_WHOLE_LIGHT: it is not there */
+    bool needs_choice;      /* u[0] matters even where this is the only light */
     void *data;
 };
 

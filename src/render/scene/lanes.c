@@ -17,17 +17,19 @@ static void light_lane(const aur_scene *scene, const aur_light_references *refer
 }
 
 /* The lanes whose light is an environment that no other one stands beside, and which draws them together. */
-static uint32_t far_lanes(const aur_scene *scene, uint32_t lanes, const float *choice) {
+static uint32_t far_lanes(const aur_scene *scene, uint32_t lanes, const float *choice, const float *u,
+                          const float *v) {
     if (scene->environment_count != 1 || scene->environments[0]->descriptor->lanes == NULL ||
-        !(scene->lights.total > 0.0))
+        !(scene->choice.emitters.total > 0.0))
         return 0;
     if (!aur_light_chooses(scene))
         return lanes;
     uint32_t far = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        float u = choice[k];
-        far |= (uint32_t)(aur_distribution_choose(&scene->lights, &u) == scene->environments[0]->index) << k;
+        far |= (uint32_t)aur_light_choice_is(scene, scene->environments[0],
+                                             (const float[3]){choice[k], u[k], v[k]})
+               << k;
     }
     return far;
 }
@@ -35,7 +37,7 @@ static uint32_t far_lanes(const aur_scene *scene, uint32_t lanes, const float *c
 void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                           const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
     const bool chooses = aur_light_chooses(scene);
-    const uint32_t far = far_lanes(scene, lanes, choice);
+    const uint32_t far = far_lanes(scene, lanes, choice, u, v);
     if (far != 0) {
         const aur_emitter *const environment = scene->environments[0];
         environment->descriptor->lanes(environment, far, references, u, v, lights);

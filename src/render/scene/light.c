@@ -1,22 +1,18 @@
 /* Choosing lights, and points and directions on them. */
 #include "render/scene/scene_data.h"
 
-static const aur_emitter *choose(const aur_scene *scene, float *u) {
-    if (!(scene->lights.total > 0.0))
-        return NULL;
-    return scene->emitters[aur_distribution_choose(&scene->lights, u)];
-}
-
 bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
                              aur_light_sample *sample) {
-    aur_light_query query = {*reference, {u[0], u[1], u[2]}};
-    const aur_emitter *const emitter = choose(scene, &query.u[0]);
-    if (emitter == NULL)
+    aur_light_query query = {.reference = *reference, .u = {u[0], u[1], u[2]}};
+    aur_chosen_light chosen;
+    if (!aur_light_choose(scene, reference, query.u, &chosen))
         return false;
+    const aur_emitter *const emitter = chosen.emitter;
+    query.part = chosen.part;
     *sample = (aur_light_sample){0};
     if (!emitter->descriptor->sample(emitter, &query, sample))
         return false;
-    sample->pdf *= emitter->probability;
+    sample->pdf *= chosen.probability;
     sample->emitter = emitter->index;
     sample->environment = emitter->descriptor->radiance_from != NULL;
     /* What shines from the same direction counts as one light, as it does for rays that find it. */
@@ -43,7 +39,7 @@ float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *re
     if (!(cosine > 0.0f))
         return 0.0f;
     const float pdf = emitter->descriptor->pdf_seen(emitter, reference, surface, cosine);
-    return isfinite(pdf) ? emitter->probability * pdf : 0.0f;
+    return isfinite(pdf) ? aur_light_choice_probability(scene, reference, surface) * pdf : 0.0f;
 }
 
 aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view) {
@@ -55,10 +51,14 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
 
 bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power) {
     float rest[5] = {u[0], u[1], u[2], u[3], u[4]};
-    const aur_emitter *const emitter = choose(scene, &rest[0]);
-    if (emitter == NULL || !emitter->descriptor->emit(emitter, rest, ray, power))
+    if (!(scene->lights.total > 0.0))
         return false;
-    *power = aur_vector_scale(*power, 1.0f / emitter->probability);
+    const size_t chosen = aur_distribution_choose(&scene->lights, &rest[0]);
+    const aur_emitter *const emitter = scene->emitters[chosen];
+    if (!emitter->descriptor->emit(emitter, rest, ray, power))
+        return false;
+    const float probability = (float)aur_distribution_probability(&scene->lights, chosen);
+    *power = aur_vector_scale(*power, 1.0f / probability);
     return true;
 }
 

@@ -144,6 +144,7 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     for (size_t i = 0; i < scene->emitter_count && result == AUR_OK; ++i) {
         aur_emitter *const emitter = scene->emitters[i];
         emitter->scene = scene;
+        emitter->part_count = 1;
         emitter->brightness = (double)aur_luminance(aur_color_mean(&emitter->radiance));
         if (emitter->descriptor->prepare != NULL)
             result = emitter->descriptor->prepare(emitter, error);
@@ -158,10 +159,8 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     }
     if (result == AUR_OK)
         result = aur_distribution_create(&scene->lights, scene->emitter_count, powers, error);
-    for (size_t i = 0; i < scene->emitter_count && result == AUR_OK && scene->lights.total > 0.0; ++i)
-        scene->emitters[i]->probability = (float)aur_distribution_probability(&scene->lights, i);
     free(powers);
-    return result;
+    return result == AUR_OK ? aur_light_choice_create(scene, error) : result;
 }
 
 /* From the file at `path`, or from `data`, where it is given. */
@@ -266,6 +265,7 @@ void aur_scene_destroy(aur_scene *scene) {
     free(scene->volumes);
     free(scene->sampler);
     aur_distribution_release(&scene->lights);
+    aur_light_choice_release(&scene->choice);
     aur_parameters_release(&scene->integrator);
     aur_parameters_release(&scene->nested_integrator);
     free(scene->definitions);

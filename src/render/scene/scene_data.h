@@ -41,6 +41,26 @@ typedef struct aur_scene_overlap {
     uint32_t shapes[2], triangles[2];
 } aur_scene_overlap;
 
+/* Which light a part of the tree belongs to. */
+typedef struct aur_light_part {
+    uint32_t emitter, part;
+} aur_light_part;
+
+/* How the light of aur_light_sample_direct is chosen (light_choice.c). */
+typedef struct aur_light_choice {
+    aur_distribution emitters; /* by power; those of the tree have 0, and the tree stands behind them */
+    aur_light_tree tree;       /* of all that has bounds; node_count 0: none, as there is one such light */
+    aur_light_part *parts;     /* of the tree's lights */
+    float tree_probability;
+} aur_light_choice;
+
+/* A light that has been chosen. */
+typedef struct aur_chosen_light {
+    const aur_emitter *emitter;
+    uint32_t part;     /* AUR_WHOLE_LIGHT: all of it */
+    float probability; /* with which it was */
+} aur_chosen_light;
+
 struct aur_scene {
     aur_xml_document document; /* owns the file names that locations point to */
     char *definitions;         /* of the options, a line "define NAME=VALUE" each; NULL: none */
@@ -63,6 +83,7 @@ struct aur_scene {
     size_t emitter_count, emitter_capacity;
     aur_emitter **emitters;
     aur_distribution lights; /* the emitters by their power */
+    aur_light_choice choice; /* of a point on a light that is seen from a reference */
     size_t environment_count, environment_capacity;
     const aur_emitter **environments; /* those of them whose radiance_from is for rays that hit nothing */
     bool has_sensor, has_integrator;
@@ -102,6 +123,18 @@ void aur_scene_warn_of_faces(const aur_scene *scene, const aur_warnings *warning
 /* Chooses the origins of the scene and of groups, and makes all coordinates count from them; warns of shapes
  * that are too small for where they stand (recenter.c). */
 aur_result aur_scene_recenter(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
+/* Makes scene->choice, and `probability` and `first_leaf` of emitters, which are prepared. Errors: MEMORY. */
+aur_result aur_light_choice_create(aur_scene *scene, aur_error *error);
+void aur_light_choice_release(aur_light_choice *choice);
+/* The light that u[0] falls on; u[0] becomes what is left. False: none reaches the reference. */
+bool aur_light_choose(const aur_scene *scene, const aur_light_reference *reference, float u[3],
+                      aur_chosen_light *chosen);
+/* The probability with which the light of a surface is chosen, there. */
+float aur_light_choice_probability(const aur_scene *scene, const aur_light_reference *reference,
+                                   const aur_surface *surface);
+/* Whether u falls on a light that does not hang in the tree, wherever the reference is. */
+bool aur_light_choice_is(const aur_scene *scene, const aur_emitter *emitter, const float u[3]);
+
 /* Hands the shapes to Embree (render/trace/accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

@@ -34,13 +34,8 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     const aur_mesh *const mesh = &shape->mesh;
     float choice = u[0];
     const size_t triangle = triangles != NULL ? aur_distribution_choose(triangles, &choice) : 0;
-    aur_vector corner[3];
-    aur_mesh_corners(mesh, triangle, corner);
-    aur_shape_point point;
-    point.normal = aur_triangle_normal(corner);
-    point.offset = aur_triangle_offset(corner[0], corner[1], corner[2], point.normal);
-    point.rounding = aur_triangle_rounding(corner[0], corner[1], corner[2], point.normal);
     if (shape->parallelogram) {
+        aur_shape_point point = aur_triangle_sample(mesh, 0, 0.0f, 0.0f);
         const aur_vector origin = aur_mesh_position(mesh, 0);
         const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);
         const aur_vector y = aur_vector_subtract(aur_mesh_position(mesh, 3), origin);
@@ -49,9 +44,19 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
         point.texture = (aur_bsdf_point){.u = u[1], .v = u[2]};
         return point;
     }
-    const float root = sqrtf(u[1]);
-    const float b1 = root * (1.0f - u[2]);
-    const float b2 = root * u[2];
+    return aur_triangle_sample(mesh, triangle, u[1], u[2]);
+}
+
+aur_shape_point aur_triangle_sample(const aur_mesh *mesh, size_t triangle, float u, float v) {
+    aur_vector corner[3];
+    aur_mesh_corners(mesh, triangle, corner);
+    aur_shape_point point;
+    point.normal = aur_triangle_normal(corner);
+    point.offset = aur_triangle_offset(corner[0], corner[1], corner[2], point.normal);
+    point.rounding = aur_triangle_rounding(corner[0], corner[1], corner[2], point.normal);
+    const float root = sqrtf(u);
+    const float b1 = root * (1.0f - v);
+    const float b2 = root * v;
     point.position = aur_vector_add_scaled(corner[0], b1, aur_vector_subtract(corner[1], corner[0]));
     point.position = aur_vector_add_scaled(point.position, b2, aur_vector_subtract(corner[2], corner[0]));
     point.texture = aur_mesh_texture(mesh, triangle, b1, b2);

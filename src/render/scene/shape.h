@@ -143,6 +143,9 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
 /* A point of any shape drawn uniformly by area; u[0] chooses a triangle of a mesh by `triangles`. */
 aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles, const float u[3]);
 
+/* A point of a triangle. */
+aur_shape_point aur_triangle_sample(const aur_mesh *mesh, size_t triangle, float u, float v);
+
 extern const aur_table aur_shape_table;
 
 /* Builds the shape that parameters->plugin names; the loader gives it a BSDF and an emitter. */

@@ -16,13 +16,19 @@ same() { # same BODY-WITH-@ KEY
   cmp without.exr with.exr || { echo "another image with $2 in $1"; exit 1; }
 }
 
+# A weight changes how often the light is drawn beside the constant one, and so the noise.
+weighs() { # weighs BODY-WITH-@
+  image without "${1//@/}" && image with "${1//@/$weight}" || exit 1
+  cmp -s without.exr with.exr && { echo "the weight has no effect in $1"; exit 1; }
+}
+
 weight="<float name='sampling_weight' value='2.5'/>"
-for emitter in point spot directional projector; do
-  same "<emitter type='$emitter'>@</emitter>" "$weight"
+for emitter in point spot directional; do
+  weighs "<emitter type='$emitter'><transform name='to_world'><lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform>@</emitter>"
 done
-same "<emitter type='sun'><vector name='sun_direction' value='0,1,1'/>@</emitter>" "$weight"
-same "<shape type='disk'><emitter type='directionalarea'>@</emitter></shape>" "$weight"
-same "<shape type='rectangle'><emitter type='area'>@</emitter></shape>" "$weight"
+weighs "<emitter type='sun'><vector name='sun_direction' value='0,1,1'/>@</emitter>"
+weighs "<shape type='rectangle'><transform name='to_world'><translate z='-3'/></transform><emitter type='area'>@</emitter></shape>"
+weighs "<shape type='disk'><transform name='to_world'><translate z='-3'/></transform><emitter type='directionalarea'>@</emitter></shape>"
 same "<shape type='rectangle'>@</shape>" "<float name='silhouette_sampling_weight' value='.1'/>"
 for key in "<float name='theta' value='90'/>" "<spectrum name='theta' value='90'/>" "<rgb name='theta' value='90'/>" "<rgb name='theta' value='90 90 90'/>" \
   "<spectrum name='theta' type='uniform'><float name='value' value='.5'/></spectrum>"; do
@@ -31,7 +37,7 @@ for key in "<float name='theta' value='90'/>" "<spectrum name='theta' value='90'
   done
 done
 
-# Environments in place of the constant one.
+# Environments in place of the constant one. The only light is drawn as often with any weight.
 for emitter in "type='envmap'><string name='filename' value='picture.png'/>" "type='sky'>"; do
   for key in "" "$weight" "<boolean name='mis_compensation' value='true'/>"; do
     [ "$emitter" = "type='sky'>" ] && [ "${key#<b}" != "$key" ] && continue

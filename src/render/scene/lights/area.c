@@ -63,6 +63,8 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     area_light *const light = emitter->data;
     light->shape = shape;
     light->is_mesh = emitter->needs_choice = shape->curved == NULL && !shape->parallelogram;
+    if (light->is_mesh)
+        emitter->part_count = shape->mesh.triangle_count;
     if (shape->parallelogram) {
         const aur_shape_point on = aur_shape_sample(shape, NULL, (const float[3]){0.0f});
         light->rectangle.normal = on.normal;
@@ -74,6 +76,31 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     light->rectangle.radiance = emitter->radiance.constant;
     light->kernels = &AUR_KERNEL_HERE(aur_rectangle_kernels);
     return light->is_mesh ? find_triangles(light, error) : AUR_OK;
+}
+
+static double triangle_area(const area_light *light, size_t triangle) {
+    aur_vector corner[3];
+    aur_mesh_corners(&light->shape->mesh, triangle, corner);
+    return aur_triangle_area(corner);
+}
+
+/* A triangle's mean luminance, but with a part of the whole light's: some points of it may not say all. */
+static double triangle_brightness(const aur_emitter *emitter, size_t triangle) {
+    static const float points[][2] = {{1.0f / 3.0f, 1.0f / 3.0f},
+                                      {0.1f, 0.1f},
+                                      {0.8f, 0.1f},
+                                      {0.1f, 0.8f},
+                                      {0.05f, 0.475f},
+                                      {0.475f, 0.05f},
+                                      {0.475f, 0.475f}};
+    enum { COUNT = sizeof points / sizeof points[0] };
+    const aur_mesh *const mesh = &((const area_light *)emitter->data)->shape->mesh;
+    double sum = 0.0;
+    for (size_t i = 0; i < COUNT && emitter->radiance.texture != NULL; ++i)
+        sum += (double)aur_luminance(
+            aur_color_at(&emitter->radiance, aur_mesh_texture(mesh, triangle, points[i][0], points[i][1])));
+    return emitter->radiance.texture != NULL ? 0.9 * sum / COUNT + 0.1 * emitter->brightness
+                                             : emitter->brightness;
 }
 
 static void release(void *data) {
@@ -93,11 +120,62 @@ static aur_shape_point sample_area(const area_light *light, const float u[3]) {
     return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
 }
 
+/* A point of a triangle, or of all of the light. */
+static aur_shape_point sample_part(const area_light *light, uint32_t part, const float u[3]) {
+    return light->is_mesh && part != AUR_WHOLE_LIGHT
+               ? aur_triangle_sample(&light->shape->mesh, part, u[1], u[2])
+               : sample_area(light, u);
+}
+
+static void widen_box(aur_light_bounds *bounds, const double lower[3], const double upper[3]) {
+    for (size_t d = 0; d < 3; ++d) {
+        bounds->lower[d] = fmin(bounds->lower[d], lower[d]);
+        bounds->upper[d] = fmax(bounds->upper[d], upper[d]);
+    }
+}
+
+static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bounds *bounds) {
+    const area_light *const light = emitter->data;
+    const aur_shape *const shape = light->shape;
+    const bool flat = shape->curved == NULL || shape->ellipse;
+    *bounds = (aur_light_bounds){.axis = {0.0, 0.0, 1.0},
+                                 .spread = flat ? 0.0 : AUR_PI,
+                                 .emission = 0.5 * AUR_PI,
+                                 .power = emitter->power};
+    if (light->is_mesh)
+        bounds->power = AUR_PI * triangle_area(light, part) * triangle_brightness(emitter, part);
+    for (size_t d = 0; d < 3; ++d) {
+        bounds->lower[d] = INFINITY;
+        bounds->upper[d] = -INFINITY;
+    }
+    for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
+        double lower[3], upper[3];
+        shape->curved->bounds(shape, k, lower, upper);
+        widen_box(bounds, lower, upper);
+    }
+    const size_t triangles = light->is_mesh ? 1 : shape->mesh.triangle_count;
+    for (size_t k = 0; shape->curved == NULL && k < 3 * triangles; ++k) {
+        double corner[3];
+        aur_vector_to_doubles(aur_mesh_position(&shape->mesh, shape->mesh.indices[3 * part + k]), corner);
+        widen_box(bounds, corner, corner);
+    }
+    if (flat)
+        aur_vector_to_doubles(sample_part(light, (uint32_t)part, (const float[3]){0.0f}).normal,
+                              bounds->axis);
+}
+
 /* A density: a steradian, or where by_area over that of points drawn uniformly by area. */
 typedef struct area_density {
     float value;
     bool by_area;
 } area_density;
+
+/* Of a triangle, or of all of the light. */
+static float part_density(const area_light *light, uint32_t part) {
+    return light->is_mesh && part != AUR_WHOLE_LIGHT
+               ? (float)(light->shape->area / triangle_area(light, part))
+               : 1.0f;
+}
 
 /* By what the reference sees of the shape, where that is to be had. */
 static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query,
@@ -117,12 +195,12 @@ static aur_shape_point sample_seen(const area_light *light, const aur_light_quer
             (area_density){aur_seen_rectangle_draw(&seen, u[1], u[2], &along[1], &along[2]), seen.by_area};
         return sample_area(light, along);
     }
-    *density = (area_density){1.0f, true};
-    return sample_area(light, u);
+    *density = (area_density){part_density(light, query->part), true};
+    return sample_part(light, query->part, u);
 }
 
 static area_density density_of(const area_light *light, const aur_light_reference *reference,
-                               const aur_surface *surface) {
+                               const aur_surface *surface, bool by_parts) {
     const aur_curved *const curved = light->shape->curved;
     if (curved != NULL && curved->pdf_seen != NULL) {
         const float pdf = curved->pdf_seen(light->shape, reference->position);
@@ -130,7 +208,7 @@ static area_density density_of(const area_light *light, const aur_light_referenc
             return (area_density){pdf, false};
     }
     if (!light->is_rectangle)
-        return (area_density){1.0f, true};
+        return (area_density){part_density(light, by_parts ? surface->primitive : AUR_WHOLE_LIGHT), true};
     const aur_rectangle *const r = &light->rectangle.rectangle;
     const aur_vector way = aur_vector_subtract(surface->position, r->corner);
     const aur_seen_rectangle seen = aur_rectangle_see(r, reference);
@@ -148,7 +226,8 @@ static float pdf_seen(const aur_emitter *emitter, const aur_light_reference *ref
                       const aur_surface *surface, float cosine) {
     const area_light *const light = emitter->data;
     const aur_vector way = aur_vector_subtract(surface->position, reference->position);
-    return pdf_of(light, density_of(light, reference, surface), aur_vector_dot(way, way), cosine);
+    const bool by_parts = emitter->first_leaf != AUR_WHOLE_LIGHT;
+    return pdf_of(light, density_of(light, reference, surface, by_parts), aur_vector_dot(way, way), cosine);
 }
 
 /* What a point of the shape gives to the reference. */
@@ -205,6 +284,7 @@ const aur_emitter_descriptor aur_emitter_area = {
     .needs_shape = true,
     .create = create,
     .prepare = prepare,
+    .bounds = find_bounds,
     .sample = sample,
     .lanes = sample_lanes,
     .emit = emit,

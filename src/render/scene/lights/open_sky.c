@@ -80,7 +80,7 @@ static aur_result set_lights(const aur_scene *scene, view *made, aur_open_sky *o
         for (size_t i = 0; i < count; ++i) {
             made->dark[i] = *scene->emitters[i];
             made->dark[i].radiance = (aur_color){.texture = NULL};
-            made->dark[i].probability = 0.0f;
+            made->dark[i].power = 0.0;
             open->lamps += scene->emitters[i]->descriptor->radiance_from == NULL;
             copy->emitters[i] = &made->dark[i];
         }
@@ -89,11 +89,12 @@ static aur_result set_lights(const aur_scene *scene, view *made, aur_open_sky *o
         copy->environment_count = 1;
         made->sky->index = (uint32_t)count;
         made->sky->scene = copy;
-        made->sky->probability = 1.0f;
-        powers[count] = 1.0;
+        powers[count] = made->sky->power = 1.0;
         result = made->sky->descriptor->prepare(made->sky, error);
         if (result == AUR_OK)
             result = aur_distribution_create(&copy->lights, count + 1, powers, error);
+        if (result == AUR_OK)
+            result = aur_light_choice_create(copy, error);
     }
     free(powers);
     return result;
@@ -111,6 +112,7 @@ aur_result aur_open_sky_create(const aur_scene *scene, double ground, const doub
     made->scene.emitters = NULL;
     made->scene.environments = NULL;
     made->scene.lights = (aur_distribution){0};
+    made->scene.choice = (aur_light_choice){.parts = NULL};
     open->scene = &made->scene;
     aur_result result = create_sky(ground, own_up, own_north, &made->sky, error);
     if (result == AUR_OK)
@@ -131,6 +133,7 @@ void aur_open_sky_release(aur_open_sky *open) {
     free(made->scene.emitters);
     free(made->scene.environments);
     aur_distribution_release(&made->scene.lights);
+    aur_light_choice_release(&made->scene.choice);
     free(made);
     *open = (aur_open_sky){.scene = NULL};
 }

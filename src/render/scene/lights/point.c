@@ -147,6 +147,17 @@ static float falloff(const point_light *self, float cosine) {
     return angle <= self->beam ? 1.0f : fmaxf((self->cutoff - angle) / (self->cutoff - self->beam), 0.0f);
 }
 
+static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bounds *bounds) {
+    (void)part;
+    const point_light *const self = emitter->data;
+    const bool all_sides = self->beam > AUR_PI_F;
+    *bounds = (aur_light_bounds){.spread = all_sides ? AUR_PI : fmin((double)self->cutoff, AUR_PI),
+                                 .power = emitter->power};
+    aur_vector_to_doubles(self->position, bounds->lower);
+    aur_vector_to_doubles(self->position, bounds->upper);
+    aur_vector_to_doubles(self->frame.z, bounds->axis);
+}
+
 /* radiance / pdf is intensity over the squared distance. */
 static bool sample_place(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const point_light *const self = emitter->data;
@@ -191,6 +202,7 @@ const aur_emitter_descriptor aur_emitter_point = {
     .size = sizeof(point_light),
     .create = create_point,
     .prepare = prepare,
+    .bounds = find_bounds,
     .sample = sample_place,
     .emit = emit_point,
 };
@@ -200,6 +212,7 @@ const aur_emitter_descriptor aur_emitter_spot = {
     .size = sizeof(point_light),
     .create = create_spot,
     .prepare = prepare,
+    .bounds = find_bounds,
     .sample = sample_place,
     .emit = emit_spot,
 };

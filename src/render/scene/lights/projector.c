@@ -69,6 +69,16 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     return AUR_OK;
 }
 
+static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bounds *bounds) {
+    (void)part;
+    const projector *const self = emitter->data;
+    *bounds = (aur_light_bounds){.spread = atan(hypot((double)self->half_width, (double)self->half_height)),
+                                 .power = emitter->power};
+    aur_vector_to_doubles(self->position, bounds->lower);
+    aur_vector_to_doubles(self->position, bounds->upper);
+    aur_vector_to_doubles(self->frame.z, bounds->axis);
+}
+
 /* radiance / pdf is what falls on a surface that faces the projector: the picture's over the square of the
  * depth and the cosine to the axis, by which a plane across the axis is lit evenly. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
@@ -111,6 +121,7 @@ const aur_emitter_descriptor aur_emitter_projector = {
     .size = sizeof(projector),
     .create = create,
     .prepare = prepare,
+    .bounds = find_bounds,
     .sample = sample,
     .emit = emit,
 };

@@ -23,14 +23,25 @@ EMITTERS(DECLARE)
 #define ADDRESS(name) &aur_emitter_##name.row,
 static const aur_row *const rows[] = {EMITTERS(ADDRESS)};
 
-const aur_table aur_emitter_table = {.kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows)};
+static const aur_key common_keys[] = {
+    {AUR_KEY_OF_REAL(aur_emitter, "sampling_weight", sampling_weight, 0.0, 1e6, "1",
+                     "factor of how often points on it are drawn; below 0.001 as 0.001")},
+};
+
+static const aur_row common = {
+    .name = "emitter", .summary = "what every light takes", AUR_ROW_KEYS(common_keys)};
+
+const aur_table aur_emitter_table = {
+    .kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows), .common = &common};
 
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
     (void)context;
     aur_emitter *const emitter = object;
     emitter->location = parameters->location;
     emitter->shape = UINT32_MAX;
-    return emitter->descriptor->create(parameters, emitter, error);
+    emitter->first_leaf = AUR_WHOLE_LIGHT;
+    const aur_result result = aur_keys_read(common.key_count, common.keys, parameters, emitter, error);
+    return result == AUR_OK ? emitter->descriptor->create(parameters, emitter, error) : result;
 }
 
 static const aur_plugin_kind kind = AUR_PLUGIN_KIND(emitter);

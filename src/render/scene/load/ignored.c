@@ -35,7 +35,6 @@ static const aur_key shape_names[] = {
     NAME("silhouette_sampling_weight", "not needed: nothing is differentiated"),
 };
 static const aur_key emitter_names[] = {
-    NAME("sampling_weight", "not needed: lights are chosen by their power"),
     NAME("mis_compensation", "not needed: directions are drawn by the image alone"),
 };
 static const aur_key sensor_names[] = {
