@@ -57,6 +57,27 @@ AUR_EXPERIMENTAL aur_result aur_sensors_options_init(aur_sensors_options *option
  * facet without area. */
 AUR_EXPERIMENTAL aur_result aur_sensors_read(const char *path, const aur_sensors_options *options,
                                              aur_sensors **sensors, aur_error *error) AUR_NONNULL(1, 3);
+
+/* Sensors in square cells over flat surfaces, at their middles. */
+typedef struct aur_grid_options {
+    size_t size; /* of the caller's struct, so that it can grow */
+    /* A surface of the scene by its name (the id in XML, the identifier in Radiance's files; * and ? match
+     * any text, and several surfaces may match), a mesh file, or a rectangle: "X0,Y0,X1,Y1,H" at the height
+     * H, or nine numbers, a corner and two edges. */
+    const char *target;
+    double spacing; /* of the cells, scene units, above 0; as many as fit, centred */
+    double height;  /* above the surface */
+    double margin;  /* from the edges of all surfaces together, 0 or more */
+    double up[3];   /* 0 0 0: +z with a file of Radiance's in the scene, else +y. Sensors on what lies level
+                       look up, others along the normal */
+    aur_warnings warnings; /* of meshes, as in aur_sensors_options */
+} aur_grid_options;
+
+AUR_EXPERIMENTAL aur_result aur_grid_options_init(aur_grid_options *options, aur_error *error) AUR_NONNULL(1);
+/* Errors: ARGUMENT (numbers that cannot be, more than 2^24 cells, none on the surface), NAME for a surface
+ * that is not there, those of aur_sensors_read for meshes, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_sensors_grid(const aur_scene *scene, const aur_grid_options *options,
+                                             aur_sensors **sensors, aur_error *error) AUR_NONNULL(1, 2, 3);
 AUR_EXPERIMENTAL void aur_sensors_destroy(aur_sensors *sensors);
 /* Their arrays, with all fields set, for as long as they are kept. */
 AUR_EXPERIMENTAL const aur_sensors_view *aur_sensors_get_view(const aur_sensors *sensors) AUR_NONNULL(1);

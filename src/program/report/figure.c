@@ -122,10 +122,24 @@ static void put_area(const drawn_panel *d, const report_series *series, const re
             report_place(&d->y, p->y - 0.5 * series->cell[1]) + 0.5);
 }
 
+/* Thin lines from point to point. */
+static void put_segments(const drawn_panel *d, const report_series *series) {
+    const report_pen pen = report_pen_of(series->ink, 0.8);
+    for (size_t i = 0; i + 1 < series->count; i += 2) {
+        const report_point *const a = &series->points[i], *const b = a + 1;
+        const double xy[4] = {report_place(&d->x, a->x), report_place(&d->y, a->y), report_place(&d->x, b->x),
+                              report_place(&d->y, b->y)};
+        if (report_drawable(d->panel, a) && report_drawable(d->panel, b))
+            d->canvas->format->path(d->canvas, &pen, false, 2, xy);
+    }
+}
+
 static void put_series(const drawn_panel *d, const report_series *series) {
     report_canvas *const c = d->canvas;
     if ((series->parts & REPORT_LINE) != 0)
         put_line(d, series);
+    if ((series->parts & REPORT_SEGMENTS) != 0)
+        put_segments(d, series);
     for (size_t i = 0; i < series->count && (series->parts & REPORT_BARS) != 0; ++i)
         if (report_drawable(d->panel, &series->points[i]))
             put_bar(d, series, &series->points[i]);

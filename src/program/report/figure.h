@@ -18,11 +18,12 @@ typedef enum report_ink {
 /* How a series is drawn: any of these together. */
 enum {
     REPORT_LINE = 1,
-    REPORT_DASHED = 2, /* of a line */
-    REPORT_MARKS = 4,  /* the shape goes with the ink */
-    REPORT_BARS = 8,   /* from low to high; on a logarithmic axis a bar that reaches 0 ends with the axis */
-    REPORT_DOTS = 16,  /* disks of the points' own sizes */
-    REPORT_CELLS = 32  /* rectangles about the points, as large as the series says */
+    REPORT_DASHED = 2,   /* of a line */
+    REPORT_MARKS = 4,    /* the shape goes with the ink */
+    REPORT_BARS = 8,     /* from low to high; on a logarithmic axis a bar that reaches 0 ends with the axis */
+    REPORT_DOTS = 16,    /* disks of the points' own sizes */
+    REPORT_CELLS = 32,   /* rectangles about the points, as large as the series says */
+    REPORT_SEGMENTS = 64 /* a line from each point at an even place to the next one */
 };
 
 /* One that is not finite, or not positive on a logarithmic axis, is not drawn. */

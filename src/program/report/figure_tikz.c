@@ -60,7 +60,17 @@ static void put_cell(FILE *to, const report_series *series, const report_point *
                   p->y + (i > 1 ? 0.5 : -0.5) * series->cell[1], p->value);
 }
 
+static void put_segments(FILE *to, const report_series *series) {
+    for (size_t i = 0; i + 1 < series->count; i += 2)
+        aur_print(to, "\\draw[thin] (axis cs:%.9g,%.9g) -- (axis cs:%.9g,%.9g);\n", series->points[i].x,
+                  series->points[i].y, series->points[i + 1].x, series->points[i + 1].y);
+}
+
 static void put_series(FILE *to, const report_panel *panel, const report_series *series) {
+    if ((series->parts & REPORT_SEGMENTS) != 0) {
+        put_segments(to, series);
+        return;
+    }
     const bool bars = (series->parts & REPORT_BARS) != 0, cells = (series->parts & REPORT_CELLS) != 0;
     const bool dots = (series->parts & REPORT_DOTS) != 0, scaled = series->ink == REPORT_INK_SCALE;
     if (series->count == 0)

@@ -60,6 +60,7 @@ typedef struct aur_curved {
 struct aur_shape {
     const aur_shape_descriptor *descriptor;
     aur_location location;
+    const char *name;         /* its id, or the name in Radiance's file; NULL: none */
     uint32_t index;           /* among the shapes of the scene */
     const aur_curved *curved; /* NULL: a mesh */
     aur_mesh mesh;

@@ -2,6 +2,7 @@
 #include <aureole-lighting/irradiance.h>
 #include <aureole/text.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@ typedef enum illuminance { ILLUMINANCE_RADIANCE, ILLUMINANCE_REC709, ILLUMINANCE
 typedef struct irradiance_command {
     const char *sensors, *output, *format, *plot;
     aur_sensors_options stand;
+    aur_grid_options grid;
     aur_irradiance_options estimate;
     aur_irradiance_columns columns;
     illuminance illuminance;
@@ -37,6 +39,29 @@ static aur_result parse_error(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
+/* TARGET:SPACING[@HEIGHT], where the target may have colons. The field is that of the target. */
+static aur_result parse_grid(const char *text, void *field, aur_error *error) {
+    aur_grid_options *const grid =
+        (aur_grid_options *)(void *)((char *)field - offsetof(aur_grid_options, target));
+    const char *const colon = strrchr(text, ':'), *const at = colon != NULL ? strchr(colon, '@') : NULL;
+    char spacing[64] = "";
+    const size_t length = colon == NULL ? 0 : at != NULL ? (size_t)(at - colon - 1) : strlen(colon + 1);
+    if (length > 0 && length < sizeof spacing)
+        memcpy(spacing, colon + 1, length);
+    grid->height = 0.0;
+    if (colon == text || length == 0 || !aur_parse_double(spacing, &grid->spacing) ||
+        !(grid->spacing > 0.0) || (at != NULL && !aur_parse_double(at + 1, &grid->height)))
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "must be a surface, rectangle or mesh, a spacing and a height, like floor:0.5@0.8, not "
+            "'%s'",
+            text);
+    char *const target = (char *)(uintptr_t)text; /* an argument of the program, which is cut here */
+    target[colon - text] = '\0';
+    grid->target = text;
+    return AUR_OK;
+}
+
 static aur_result choose_json(const char *text, void *field, aur_error *error) {
     (void)text, (void)error;
     *(const char **)field = "json";
@@ -48,6 +73,13 @@ static const cli_option options[] = {
               "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
               "mesh: .obj, .ply, .stl or .off"),
      .content = "file"},
+    {CLI_TEXT(
+         irradiance_command, grid.target, "grid", "TARGET:SPACING[@HEIGHT]", NULL,
+         "sensors in square cells, in place of --sensors: over surfaces by name (floor, *Floor*), over a "
+         "mesh file, or over the rectangle X0,Y0,X1,Y1,H"),
+     .parse = parse_grid},
+    {CLI_REAL(irradiance_command, grid.margin, "margin", "D", 0, INFINITY, "0",
+              "of --grid: no sensors nearer to the edges")},
     {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
               "a line or row a sensor, in the format that the name ends in; '-' is standard output"),
      .letter = 'o', .content = "file", .writes = true},
@@ -87,7 +119,8 @@ static const cli_option options[] = {
                 "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
      .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
     {CLI_TEXT(irradiance_command, plot, "plot", "FILE", NULL,
-              "draw the luminance, or the lux of --illuminance, as a map with a scale of colours: .svg, "
+              "draw the luminance, or the lux of --illuminance, as a map with a scale of colours, and "
+              "contours on a grid: .svg, "
               ".pdf, .png, or "
               ".tex for pgfplots"),
      .parse = cli_parse_plot, .content = "file", .writes = true},
@@ -165,7 +198,9 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
         result = aur_irradiance_write(given->output, given->format, &given->columns, sensors, sizeof *results,
                                       results, error);
     if (result == AUR_OK && given->plot != NULL)
-        result = cli_irradiance_plot(given->plot, given->columns.unit, sensors, results, error);
+        result = cli_irradiance_plot(given->plot,
+                                     given->sky.daylight_factor ? "daylight factor, %" : given->columns.unit,
+                                     sensors, results, error);
     free(results);
     return result;
 }
@@ -185,8 +220,13 @@ static void find_format(const cli_call *call, irradiance_command *given) {
 static int run(const cli_call *call) {
     irradiance_command *const given = call->options;
     find_format(call, given);
-    if (given->sensors == NULL)
-        return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
+    if ((given->sensors == NULL) == (given->grid.target == NULL))
+        return cli_bad_usage(
+            given->sensors == NULL
+                ? "irradiance: the points are missing: --sensors POINTS or --grid SURFACE:SPACING"
+                : "irradiance: --sensors does not go with --grid");
+    if (cli_given(call, "margin") != NULL && given->grid.target == NULL)
+        return cli_bad_usage("irradiance: --margin is for --grid");
     if (!cli_daylight_check(call) || !cli_sky_check(call))
         return 2;
     if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
@@ -221,9 +261,15 @@ static int run(const cli_call *call) {
     aur_sensors *sensors = NULL;
     given->stand.size = sizeof given->stand;
     given->stand.warnings = cli_warnings(given->common.quiet);
-    aur_result result = aur_sensors_read(given->sensors, &given->stand, &sensors, &error);
+    given->grid.size = sizeof given->grid;
+    given->grid.warnings = given->stand.warnings;
+    memcpy(given->grid.up, given->daylight.options.up, sizeof given->grid.up);
+    aur_result result =
+        given->sensors != NULL ? aur_sensors_read(given->sensors, &given->stand, &sensors, &error) : AUR_OK;
     if (result == AUR_OK)
         result = aur_scene_load(call->operands[0], &load, &scene, &error);
+    if (result == AUR_OK && given->sensors == NULL)
+        result = aur_sensors_grid(scene, &given->grid, &sensors, &error);
     if (result == AUR_OK)
         result = given->daylight.weather != NULL
                      ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)

@@ -1,9 +1,12 @@
 /* A map of what arrives at sensors. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "program/cli/lighting/irradiance.h"
 #include "program/report/figure.h"
+
+enum { SIDE = 480 }; /* of the map, in pixels */
 
 /* The sensors along one coordinate. */
 typedef struct spread {
@@ -42,49 +45,148 @@ static bool find_cells(size_t count, const spread *x, const spread *y, double ce
     return ((x->high - x->low) / cell[0] + 1.0) * ((y->high - y->low) / cell[1] + 1.0) <= 4.0 * (double)count;
 }
 
-aur_result cli_irradiance_plot(const char *path, const char *unit, const aur_sensors_view *sensors,
-                               const aur_irradiance *results, aur_error *error) {
+/* --- contours, by marching squares between the middles of cells */
+
+typedef struct cells {
+    size_t across, up;
+    spread x, y;
+    double step[2];
+    double *values; /* [up][across], NaN where no sensor stands */
+    size_t count, capacity;
+    report_point *segments;
+} cells;
+
+/* The value of each cell of a grid. */
+static bool take_cells(cells *self, size_t count, const report_point *points) {
+    self->across = (size_t)floor((self->x.high - self->x.low) / self->step[0] + 1.5);
+    self->up = (size_t)floor((self->y.high - self->y.low) / self->step[1] + 1.5);
+    self->values = malloc(self->across * self->up * sizeof *self->values);
+    for (size_t i = 0; i < self->across * self->up && self->values != NULL; ++i)
+        self->values[i] = NAN;
+    for (size_t i = 0; i < count && self->values != NULL; ++i) {
+        const size_t x = (size_t)floor((points[i].x - self->x.low) / self->step[0] + 0.5);
+        const size_t y = (size_t)floor((points[i].y - self->y.low) / self->step[1] + 0.5);
+        self->values[y * self->across + x] = points[i].value;
+    }
+    return self->values != NULL;
+}
+
+/* The lines of a level in the triangle of three cells' middles: one at most. */
+static bool cut_triangle(cells *self, double level, const size_t corners[3]) {
+    report_point ends[2];
+    size_t found = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        const size_t a = corners[i], b = corners[(i + 1) % 3];
+        const double p = self->values[a], q = self->values[b];
+        if (!((p < level) != (q < level)) || found == 2)
+            continue;
+        const double t = (level - p) / (q - p), n = (double)self->across;
+        const double ax = fmod((double)a, n), bx = fmod((double)b, n), ay = floor((double)a / n),
+                     by = floor((double)b / n);
+        ends[found++] = (report_point){.x = self->x.low + self->step[0] * (ax + t * (bx - ax)),
+                                       .y = self->y.low + self->step[1] * (ay + t * (by - ay))};
+    }
+    if (found < 2)
+        return true;
+    if (self->count + 2 > self->capacity) {
+        const size_t capacity = 2 * self->capacity + 64;
+        report_point *const larger = realloc(self->segments, capacity * sizeof *larger);
+        if (larger == NULL)
+            return false;
+        self->segments = larger;
+        self->capacity = capacity;
+    }
+    self->segments[self->count++] = ends[0];
+    self->segments[self->count++] = ends[1];
+    return true;
+}
+
+/* Lines at round numbers, more of them than the scale has. */
+static bool add_contours(cells *self, double high) {
+    const report_ruler ruler = {.low = 0.0, .high = high, .from = 0.0, .to = 3.0 * SIDE};
+    double levels[REPORT_MOST_TICKS];
+    const size_t level_count = report_find_ticks(&ruler, levels);
+    bool fits = true;
+    for (size_t k = 0; k < level_count; ++k)
+        for (size_t j = 0; j + 1 < self->up && fits; ++j)
+            for (size_t i = 0; i + 1 < self->across && fits; ++i) {
+                const size_t at = j * self->across + i, above = at + self->across;
+                const double sum =
+                    self->values[at] + self->values[at + 1] + self->values[above] + self->values[above + 1];
+                fits =
+                    isnan(sum) || (cut_triangle(self, levels[k], (const size_t[3]){at, at + 1, above + 1}) &&
+                                   cut_triangle(self, levels[k], (const size_t[3]){at, above + 1, above}));
+            }
+    return fits;
+}
+
+/* Along which axis the sensors spread least: the map is seen along it. */
+static size_t find_view(const aur_sensors_view *sensors, double *room, spread spreads[3]) {
+    size_t along = 2;
+    for (size_t a = 3; a-- > 0;) {
+        spreads[a] = measure(sensors, a, room);
+        if (spreads[a].high - spreads[a].low < spreads[along].high - spreads[along].low)
+            along = a;
+    }
+    return along;
+}
+
+/* The sensors as points of the map; returns the largest value. */
+static double take_points(const aur_sensors_view *sensors, const aur_irradiance *results,
+                          const size_t axes[2], report_point *points) {
+    double most = 0.0;
+    for (size_t i = 0; i < sensors->count; ++i) {
+        points[i] = (report_point){.x = sensors->positions[3 * i + axes[0]],
+                                   .y = sensors->positions[3 * i + axes[1]],
+                                   .value = results[i].value[AUR_IRRADIANCE_TOTAL][3],
+                                   .size = fmin(fmax(0.3 * SIDE / sqrt((double)sensors->count), 1.0), 6.0)};
+        most = fmax(most, points[i].value);
+    }
+    return most > 0.0 ? most : 1.0;
+}
+
+static aur_result draw(const char *path, const char *unit, const aur_sensors_view *sensors,
+                       const aur_irradiance *results, double *room, report_point *points, aur_error *error) {
     static const char *const names[] = {"x", "y", "z"};
     static const size_t seen[3][2] = {{1, 2}, {0, 2}, {0, 1}}; /* along x, y, z */
-    enum { SIDE = 480 };
     report_figure figure = {.width = SIDE + 80, .height = SIDE, .columns = 1, .panel_count = 1};
+    spread spreads[3];
+    const size_t *const axes = seen[find_view(sensors, room, spreads)];
+    cells grid = {.x = spreads[axes[0]], .y = spreads[axes[1]]};
+    report_series series[2] = {{.ink = REPORT_INK_SCALE, .count = sensors->count, .points = points},
+                               {.ink = REPORT_INK_TEXT, .parts = REPORT_SEGMENTS}};
+    const bool gridded = find_cells(sensors->count, &grid.x, &grid.y, series[0].cell);
+    series[0].parts = gridded ? REPORT_CELLS : REPORT_DOTS;
+    figure.scale.high = take_points(sensors, results, axes, points);
+    memcpy(grid.step, series[0].cell, sizeof grid.step);
+    aur_result result = report_false_color(8, figure.scale.stops, error);
+    if (result == AUR_OK && gridded &&
+        (!take_cells(&grid, sensors->count, points) || !add_contours(&grid, figure.scale.high)))
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the contours");
+    series[1].count = grid.count;
+    series[1].points = grid.segments;
+    const report_panel panel = {.x = {.label = names[axes[0]]},
+                                .y = {.label = names[axes[1]]},
+                                .equal = true,
+                                .series_count = grid.count > 0 ? 2 : 1,
+                                .series = series};
+    figure.panels = &panel;
+    figure.scale.label = unit != NULL ? unit : "luminance";
+    figure.scale.stop_count = 8;
+    if (result == AUR_OK)
+        result = report_figure_save(path, report_figure_format_of(path), &figure, error);
+    free(grid.values);
+    free(grid.segments);
+    return result;
+}
+
+aur_result cli_irradiance_plot(const char *path, const char *unit, const aur_sensors_view *sensors,
+                               const aur_irradiance *results, aur_error *error) {
     double *const room = malloc(sensors->count * sizeof *room);
     report_point *const points = malloc(sensors->count * sizeof *points);
-    aur_result result = room == NULL || points == NULL
-                            ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the map")
-                            : report_false_color(8, figure.scale.stops, error);
-    if (result == AUR_OK) {
-        spread spreads[3];
-        size_t along = 2;
-        for (size_t a = 3; a-- > 0;) {
-            spreads[a] = measure(sensors, a, room);
-            if (spreads[a].high - spreads[a].low < spreads[along].high - spreads[along].low)
-                along = a;
-        }
-        const size_t x = seen[along][0], y = seen[along][1];
-        report_series series = {.ink = REPORT_INK_SCALE, .count = sensors->count, .points = points};
-        series.parts =
-            find_cells(sensors->count, &spreads[x], &spreads[y], series.cell) ? REPORT_CELLS : REPORT_DOTS;
-        double most = 0.0;
-        for (size_t i = 0; i < sensors->count; ++i) {
-            points[i] =
-                (report_point){.x = sensors->positions[3 * i + x],
-                               .y = sensors->positions[3 * i + y],
-                               .value = results[i].value[AUR_IRRADIANCE_TOTAL][3],
-                               .size = fmin(fmax(0.3 * SIDE / sqrt((double)sensors->count), 1.0), 6.0)};
-            most = fmax(most, points[i].value);
-        }
-        const report_panel panel = {.x = {.label = names[x]},
-                                    .y = {.label = names[y]},
-                                    .equal = true,
-                                    .series_count = 1,
-                                    .series = &series};
-        figure.panels = &panel;
-        figure.scale.label = unit != NULL ? unit : "luminance";
-        figure.scale.high = most > 0.0 ? most : 1.0;
-        figure.scale.stop_count = 8;
-        result = report_figure_save(path, report_figure_format_of(path), &figure, error);
-    }
+    const aur_result result = room == NULL || points == NULL
+                                  ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the map")
+                                  : draw(path, unit, sensors, results, room, points, error);
     free(points);
     free(room);
     return result;

@@ -172,6 +172,8 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
     if (result != AUR_OK)
         return result;
     *object = *made;
+    const char *const id = aur_xml_attribute_value(self->node, "id");
+    (*made)->name = id != NULL ? id : aur_xml_attribute_value(self->node, "name");
     (*made)->bsdf = bsdf;
     (*made)->interior = interior;
     (*made)->exterior = exterior;

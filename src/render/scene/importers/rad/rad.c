@@ -353,6 +353,7 @@ static aur_result take_surface(aur_rad *self, const char *type, aur_rad_word mod
     const aur_rad_pose own = self->pose;
     aur_rad_primitive item = {.modifier = modifier,
                               .type = {type, strlen(type), modifier.line},
+                              .name = self->words[2],
                               .number_count = count,
                               .numbers = copy};
     item.row = find_row(item.type);

@@ -11,6 +11,14 @@ static const char *boolean(bool value) {
     return value ? "true" : "false";
 }
 
+/* The element of a surface, with its name. */
+static aur_xml_node *add_shape(aur_rad *self, const aur_rad_primitive *item, const char *type) {
+    aur_xml_node *const shape = aur_node_object(self->nodes, self->parent, "shape", type);
+    if (item->name.length > 0)
+        aur_node_set(self->nodes, shape, "name", "%.*s", (int)item->name.length, item->name.text);
+    return shape;
+}
+
 static void refer(aur_nodes *nodes, aur_xml_node *shape, aur_xml_node *medium, const char *name) {
     aur_xml_node *const ref = medium != NULL ? aur_node_add(nodes, shape, "ref") : NULL;
     if (ref == NULL)
@@ -59,7 +67,7 @@ static aur_result add_polygon(aur_rad *self, const aur_rad_primitive *item, aur_
             x[3 * i + k] = x[3 * (count - 1 - i) + k];
             x[3 * (count - 1 - i) + k] = swap;
         }
-    aur_xml_node *const shape = aur_node_object(self->nodes, self->parent, "shape", "polygon");
+    aur_xml_node *const shape = add_shape(self, item, "polygon");
     aur_node_numbers(self->nodes, shape, "string", "vertices", item->number_count, x);
     return finish(self, shape, material);
 }
@@ -73,7 +81,7 @@ static aur_result add_round(aur_rad *self, const aur_rad_primitive *item, aur_ra
     const bool flips = (inwards != (radius < 0.0)) != self->pose.inverts;
     aur_nodes *const nodes = self->nodes;
     place(self, x);
-    aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", sphere ? "sphere" : "cylinder");
+    aur_xml_node *const shape = add_shape(self, item, sphere ? "sphere" : "cylinder");
     aur_node_numbers(nodes, shape, "point", sphere ? "center" : "p0", 3, x);
     if (!sphere) {
         place(self, x + 3);
@@ -95,7 +103,7 @@ static aur_result add_cone(aur_rad *self, const aur_rad_primitive *item, aur_rad
     place(self, x);
     place(self, x + 3);
     aur_nodes *const nodes = self->nodes;
-    aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", "cone");
+    aur_xml_node *const shape = add_shape(self, item, "cone");
     aur_node_numbers(nodes, shape, "point", "p0", 3, x);
     aur_node_numbers(nodes, shape, "point", "p1", 3, x + 3);
     aur_node_property(nodes, shape, "float", "radius0", "%.17g", fabs(self->pose.scale * x[6]));
@@ -120,7 +128,7 @@ static aur_result add_ring(aur_rad *self, const aur_rad_primitive *item, aur_rad
     const double matrix[16] = {up[0], side[0], axis[0], x[0], up[1], side[1], axis[1], x[1],
                                up[2], side[2], axis[2], x[2], 0.0,   0.0,     0.0,     1.0};
     aur_nodes *const nodes = self->nodes;
-    aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", "disk");
+    aur_xml_node *const shape = add_shape(self, item, "disk");
     aur_node_property(nodes, shape, "float", "inner_radius", "%.17g", inner / outer);
     aur_xml_node *const to_world = aur_node_add(nodes, shape, "transform");
     aur_node_set(nodes, to_world, "name", "to_world");
@@ -165,7 +173,7 @@ static aur_result add_mesh(aur_rad *self, const aur_rad_primitive *item, aur_rad
     aur_nodes *const nodes = self->nodes;
     for (size_t i = 0; i < self->pose_count && result == AUR_OK; ++i) {
         const aur_rad_pose pose = aur_rad_pose_multiply(&self->pose, &self->poses[i]);
-        aur_xml_node *const shape = aur_node_object(nodes, self->parent, "shape", "obj");
+        aur_xml_node *const shape = add_shape(self, item, "obj");
         aur_node_property(nodes, shape, "string", "filename", "%.*s", (int)file.length, file.text);
         aur_xml_node *const to_world = aur_node_add(nodes, shape, "transform");
         aur_node_set(nodes, to_world, "name", "to_world");
