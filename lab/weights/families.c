@@ -145,7 +145,10 @@ static double sun_integral(family f) {
 static double spikes(family f, const double *u) {
     const double near = cos(f->a / 180.0 * PI);
     for (int k = 0; k < 64; ++k) {
-        const double z = (2.0 * k + 1.0) / 64.0 - 1.0, s = sqrt(1.0 - z * z), phi = 2.399963229728653 * k;
+        const double z = (2.0 * k + 1.0) / 64.0 - 1.0;
+        if (fabs(z - u[2]) > f->a / 57.0) /* farther than the radius */
+            continue;
+        const double s = sqrt(1.0 - z * z), phi = 2.399963229728653 * k;
         if (z * u[2] + s * cos(phi) * u[0] + s * sin(phi) * u[1] > near)
             return 1.0;
     }
