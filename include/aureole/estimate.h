@@ -35,16 +35,19 @@ typedef struct aur_estimate_options {
     size_t dimension; /* 1 or more */
     size_t values;    /* of the functional, 1 to 4096; the first is held against the errors wanted */
     double absolute,
-        relative;         /* the half width wanted: the larger of the two; both 0: one level of all points */
-    double confidence;    /* of the intervals, in (0,1) */
-    size_t replicates;    /* randomisations, 4 to 64 */
-    size_t first;         /* points of a randomisation on the first level; each level has twice as many */
+        relative;      /* the half width wanted: the larger of the two; both 0: one level of all points */
+    double confidence; /* of the intervals, in (0,1) */
+    size_t replicates; /* randomisations, 4 to 64 */
+    /* Points of a randomisation on the first level; each level has twice as many. 0: 128, or fewer where two
+     * levels need it. */
+    size_t first;
     uint64_t evaluations; /* points at most, of all levels and randomisations; at least first * replicates */
     uint64_t seed;
     aur_progress progress; /* points so far, of those allowed */
+    aur_warnings warnings; /* one message where the target was not reached, or all randomisations are equal */
 } aur_estimate_options;
 
-/* One percent of the first value with 95 % confidence, by 16 randomisations of 16 points or more, at most
+/* One percent of the first value with 95 % confidence, by 16 randomisations, at most
  * 2^20 points. */
 AUR_API aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
                                              aur_error *error) AUR_NONNULL(3);
@@ -61,13 +64,16 @@ typedef struct aur_estimate_report {
     size_t size;
     uint64_t evaluations;
     size_t levels;
-    bool reached; /* the error wanted; false where one more level would take more points than allowed */
+    bool reached;  /* the error wanted; false where one more level would take more points than allowed */
+    bool constant; /* the first value is the same in all randomisations: its half width is infinite */
 } aur_estimate_report;
 
 /* Estimates a functional: results[options->values]. Sets that are nets in base 2 are scrambled (Owen 1995),
  * the others shifted modulo 1 (Cranley and Patterson 1976). Levels have points of their own, and are put
  * together by weights n^1.5 of their sizes n, whatever they say, so that a linear functional has no bias; the
- * interval is Student's over the randomisations. `report` may be NULL. Errors: ARGUMENT (which option, and
+ * interval is Student's over the randomisations, and where few of these are distinct, as counts of points
+ * are, never below what one more point can do. A target is reached after two levels or more; a functional of
+ * one value ends after 65536 points. `report` may be NULL. Errors: ARGUMENT (which option, and
  * the range; a value that is not finite), NAME, UNSUPPORTED (a set without that dimension), MEMORY,
  * CANCELLED, and what the functional returns. */
 AUR_API aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,

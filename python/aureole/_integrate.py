@@ -299,7 +299,7 @@ def average(
 class Estimate(NamedTuple):
     value: Array  #: (values,), the mean over the randomisations
     error: Array  #: (values,), its standard error
-    half_width: Array  #: (values,), of Student's interval
+    half_width: Array  #: (values,), of Student's interval; infinite where all randomisations are equal
     evaluations: int
     levels: int
     converged: bool
@@ -307,7 +307,7 @@ class Estimate(NamedTuple):
 
 def estimate(
     f: Callable[[Array, Array], Any], dimension: int, values: int = 1, *, set: str = "sobol", tol: float = 0.01,
-    absolute: float = 0.0, confidence: float = 0.95, replicates: int = 16, first: int = 16, evaluations: int = 2**20,
+    absolute: float = 0.0, confidence: float = 0.95, replicates: int = 16, first: int = 0, evaluations: int = 2**20,
     seed: Seed = 0, progress: Optional[Progress] = None,
 ) -> Estimate:  # fmt: skip
     """Any functional of points with weights, by independent randomisations of the points, with its interval.
@@ -319,7 +319,7 @@ def estimate(
     set : of `dimension` dimensions. Nets in base 2 are Owen-scrambled, other sets shifted modulo 1.
     tol, absolute : the half width wanted, relative and absolute; both 0: one level of all points.
     confidence, replicates, first, evaluations : of the intervals; randomisations, 4 to 64; points of a randomisation on
-        the first level, each level having twice as many; points at most, of all.
+        the first level (0: 128), each level having twice as many; points at most, of all.
 
     >>> found = estimate(lambda u, w: w @ np.exp(u[:, 0] * u[:, 1]), 2, tol=1e-5)
     >>> found.converged, bool(abs(found.value[0] - 1.31790215) < 3e-5)
@@ -336,7 +336,8 @@ def estimate(
     report = core.options("estimate_report")
     with CoreCall(progress, f) as call:
         call.count = values
-        call.attach(options, warnings=False)
+        call.category = IntegrationWarning
+        call.attach(options)
         core.call(
             lib.aur_estimate, lib.aureole_functional, call.handle, options, core.output(results, "aur_estimated"),
             report,

@@ -292,7 +292,7 @@ class Domains(unittest.TestCase):
         def keep(*arrays):
             kept.append([(array, array.copy()) for array in arrays])
 
-        aureole.estimate(lambda u, w: (keep(u, w), float(w @ u[:, 0]))[1], 2, tol=1e-9, evaluations=2**14)
+        aureole.estimate(lambda u, w: (keep(u, w), float(w @ u[:, 0]))[1], 2, tol=0, evaluations=2**14)
         aureole.integrate(lambda u: (keep(u), u[:, 2] ** 2)[1], 1e-9, evaluations=2**14)
         aureole.integrate(lambda u, t: (keep(u, t), t * u[:, 2] ** 2)[1], 0, absolute=1, axis=(0, 2), evaluations=2**14)
         aureole.Potential(function=lambda u: (keep(u), max(float(u[2]), 0.0))[1])
@@ -518,6 +518,9 @@ class Figures(unittest.TestCase):
         found = aureole.estimate(lambda u, w: [w @ u.prod(axis=1), w.sum()], 3, 2, tol=1e-3)
         self.assertLess(abs(found.value[0] - 1 / 8), 3 * found.half_width[0])
         self.assertAlmostEqual(found.value[1], 1)
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "one value for all 16 randomisations"):
+            found = aureole.estimate(lambda u, w: w @ (u[:, 0] < 1e-7), 1)
+        self.assertEqual((found.converged, found.half_width[0]), (False, np.inf))
 
     def test_nearest(self):
         xyz = aureole.points("spherical-fibonacci", 500, domain="sphere")

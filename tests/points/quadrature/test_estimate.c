@@ -60,6 +60,7 @@ static void test_reasons(void **state) {
     assert_int_equal(aur_estimate(means, &evaluations, &options, found, &report, &error), AUR_OK);
     assert_true(!report.reached && report.levels == 1 && report.evaluations == 1600);
     options.absolute = 1e-12;
+    options.first = 16;
     assert_int_equal(aur_estimate(means, &evaluations, &options, found, &report, &error), AUR_OK);
     assert_true(!report.reached && report.levels == 2 && report.evaluations == 16 * (16 + 32));
 }
@@ -98,6 +99,42 @@ static void test_coverage(void **state) {
     }
 }
 
+/* Whether the first coordinate is below the number that `user` points to. */
+static aur_result below(void *user, const aur_estimate_points *points, double *values, aur_error *error) {
+    (void)error;
+    values[0] = 0.0;
+    for (size_t i = 0; i < points->count; ++i)
+        values[0] += points->points[i] < *(const double *)user ? points->weights[i] : 0.0;
+    return AUR_OK;
+}
+
+/* Randomisations of a stratified set agree: no interval is 0. */
+static void test_agreement(void **state) {
+    (void)state;
+    double bound = 0.3;
+    size_t held = 0;
+    for (uint64_t seed = 0; seed < 100; ++seed) {
+        aur_estimate_options options = {.size = sizeof options};
+        aur_estimate_options_init(1, 1, &options, NULL);
+        options.seed = seed;
+        aur_estimated found;
+        aur_estimate_report report = {.size = sizeof report};
+        assert_int_equal(aur_estimate(below, &bound, &options, &found, &report, NULL), AUR_OK);
+        assert_true(report.reached && report.levels > 1 && !report.constant && found.half_width > 0.0);
+        held += fabs(found.value - bound) <= found.half_width;
+    }
+    print_message("%zu of 100 hold\n", held);
+    assert_true(held >= 87); /* fewer than 87 of 100 with .95 come once in 800 */
+    bound = 1e-7;
+    aur_estimate_options options = {.size = sizeof options};
+    aur_estimate_options_init(1, 1, &options, NULL);
+    aur_estimated found;
+    aur_estimate_report report = {.size = sizeof report};
+    assert_int_equal(aur_estimate(below, &bound, &options, &found, &report, NULL), AUR_OK);
+    assert_true(!report.reached && report.constant && isinf(found.half_width) && found.value == 0.0);
+    assert_true(report.evaluations >= 65536 && report.evaluations < 131072);
+}
+
 static aur_result wrong(void *user, const aur_estimate_points *points, double *values, aur_error *error) {
     values[0] = NAN;
     return *(const bool *)user && points->replicate == 3
@@ -125,7 +162,7 @@ static void test_refusals(void **state) {
     bad[2].relative = -1.0;
     bad[3].confidence = 0.0;
     bad[4].replicates = 3;
-    bad[5].evaluations = 100;
+    bad[5].evaluations = 15;
     for (size_t i = 0; i < 6; ++i)
         assert_int_equal(aur_estimate(wrong, &fails, &bad[i], &found, NULL, &error), AUR_ERROR_ARGUMENT);
     options.set = "sobool";
@@ -134,6 +171,7 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_means), cmocka_unit_test(test_reasons),
-                                       cmocka_unit_test(test_coverage), cmocka_unit_test(test_refusals)};
+                                       cmocka_unit_test(test_coverage), cmocka_unit_test(test_agreement),
+                                       cmocka_unit_test(test_refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

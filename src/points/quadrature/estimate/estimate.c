@@ -22,7 +22,8 @@ aur_moments aur_levels_moments(const aur_levels *levels, size_t index) {
     return moments;
 }
 
-enum { MOST_REPLICATES = 64, MOST_VALUES = 4096 };
+/* Points of a randomisation on the first level; points after which a functional of one value is given up. */
+enum { MOST_REPLICATES = 64, MOST_VALUES = 4096, FIRST = 128, CONSTANT = 65536 };
 
 static aur_result check(const aur_estimate_options *o, aur_error *error) {
     if (o->dimension < 1)
@@ -39,7 +40,7 @@ static aur_result check(const aur_estimate_options *o, aur_error *error) {
     if (o->replicates < 4 || o->replicates > MOST_REPLICATES)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the replicates must be 4 to %d, not %zu", MOST_REPLICATES,
                         o->replicates);
-    if (o->first < 1 || o->evaluations / o->replicates < o->first)
+    if (o->evaluations / o->replicates < 1 || o->evaluations / o->replicates < o->first)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "%zu replicates of %zu points, at least 1 each, do not fit into %llu evaluations",
                         o->replicates, o->first, (unsigned long long)o->evaluations);
@@ -114,10 +115,41 @@ static aur_result evaluate_level(work *w, size_t count, aur_error *error) {
     return AUR_OK;
 }
 
+static int ascending(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+/* What one point more can do, as far as replicates tell: the smallest step between their values where at most
+ * half of them are distinct, as counts of points of a stratified set are. 0: they are distinct; infinite: all
+ * are equal, but for rounding, and nothing is known. */
+static double step_between(const work *w, size_t value) {
+    const size_t count = w->options->replicates;
+    double sorted[MOST_REPLICATES];
+    for (size_t r = 0; r < count; ++r)
+        sorted[r] = w->levels.sums[r * w->options->values + value] / w->levels.weight;
+    qsort(sorted, count, sizeof *sorted, ascending);
+    const double rounding = 1e-13 * fmax(fabs(sorted[0]), fabs(sorted[count - 1]));
+    size_t distinct = 1;
+    double least = INFINITY;
+    for (size_t r = 1; r < count; ++r)
+        if (sorted[r] - sorted[r - 1] > rounding) {
+            ++distinct;
+            least = fmin(least, sorted[r] - sorted[r - 1]);
+        }
+    return distinct > count / 2 ? 0.0 : least;
+}
+
+/* If all R replicates hold the same count, the probability that one holds one more is, at alpha/2, below
+ * about ln(2/alpha)/R: the mean is uncertain by that part of the step. */
 static aur_estimated estimated(const work *w, size_t value) {
     const aur_moments moments = aur_levels_moments(&w->levels, value);
-    return (aur_estimated){moments.mean, aur_moments_standard_error(&moments),
-                           aur_moments_interval(&moments, w->options->confidence)};
+    const aur_estimate_options *const o = w->options;
+    const double alpha = 1.0 - o->confidence, step = step_between(w, value);
+    const double floor = step > 0.0 ? log(2.0 / alpha) * step / (double)o->replicates : 0.0;
+    const double quantile = aur_student_quantile(o->replicates - 1, 1.0 - 0.5 * alpha);
+    const double error = aur_moments_standard_error(&moments);
+    return (aur_estimated){moments.mean, hypot(error, floor / quantile), hypot(quantile * error, floor)};
 }
 
 static aur_result estimate(work *w, aur_error *error) {
@@ -125,17 +157,30 @@ static aur_result estimate(work *w, aur_error *error) {
     const bool to_error = o->absolute > 0.0 || o->relative > 0.0;
     const uint64_t most = o->evaluations / o->replicates; /* of one replicate */
     uint64_t used = 0;
-    for (uint64_t count = to_error ? o->first : most; used + count <= most; count *= 2) {
+    uint64_t first = o->first > 0 ? o->first : FIRST;
+    while (o->first == 0 && first > 1 && 3 * first > most) /* no room for two levels */
+        first /= 2;
+    for (uint64_t count = to_error ? first : most; used + count <= most; count *= 2) {
         const aur_result result = evaluate_level(w, (size_t)count, error);
         if (result != AUR_OK)
             return result;
         used += count;
-        const aur_estimated first = estimated(w, 0);
-        w->report.reached =
-            to_error && first.half_width <= fmax(o->absolute, o->relative * fabs(first.value));
-        if (w->report.reached)
-            return AUR_OK;
+        const aur_estimated found = estimated(w, 0);
+        w->report.constant = isinf(found.half_width);
+        w->report.reached = to_error && w->report.levels > 1 &&
+                            found.half_width <= fmax(o->absolute, o->relative * fabs(found.value));
+        if (w->report.reached || (w->report.constant && w->report.evaluations >= CONSTANT))
+            break;
     }
+    if (w->report.constant)
+        aur_warn_at(&o->warnings, (aur_location){0},
+                    "the functional has one value for all %zu randomisations: what a point of %llu has not "
+                    "hit is not known",
+                    o->replicates, (unsigned long long)w->report.evaluations);
+    else if (to_error && !w->report.reached)
+        aur_warn_at(&o->warnings, (aur_location){0},
+                    "the target was not reached: the half width is %.3g after %llu points",
+                    estimated(w, 0).half_width, (unsigned long long)w->report.evaluations);
     return AUR_OK;
 }
 
@@ -170,7 +215,6 @@ aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estima
                                                   .relative = 0.01,
                                                   .confidence = 0.95,
                                                   .replicates = 16,
-                                                  .first = 16,
                                                   .evaluations = UINT64_C(1) << 20};
     const aur_result result =
         aur_description_write(&defaults, sizeof defaults, options, "aur_estimate_options", error);
