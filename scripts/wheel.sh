@@ -50,7 +50,7 @@ make_wheel() {
 make_wheel aureole .
 core=$wheel render=
 [ "$(stat -c %s "$core")" -lt 2000000 ] || { echo "wheel.sh: the wheel of aureole has 2 MB or more" >&2; exit 1; }
-python3 -m zipfile -l "$core" | grep -q 'abi3.so'
+python3 -m zipfile -l "$core" | grep 'abi3.so' >/dev/null
 if [ -e build/release/libaureole-render.so ] && [ "${RENDER:-ON}" = ON ]; then
   make_wheel aureole-render ./python/render
   render=$wheel
