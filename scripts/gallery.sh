@@ -48,9 +48,9 @@ new_section() {
   triangles=$("$aureole" info "scenes/$scene" -q | awk '$1 == "triangles" { print $2 }')
   size=$("$aureole" info "$out/$name.exr" | awk '$1 == "EXR" { print $2 " x " $3; exit }')
   error=$(sed -n 's/.* has an error of \(.*\) % of its mean, between \(.*\) and \(.*\) (95 %).*/\1 % (\2 to \3)/p' "$said")
-  printf '## %s\n\n[![%s](gallery/%s.png)](gallery/%s.png)\n\n' "$title" "$title" "$name" "$name"
+  printf '## %s\n\n[![%s](gallery/%s.jpg)](gallery/%s.jpg)\n\n' "$title" "$title" "$name" "$name"
   printf '    aureole render scenes/%s %s -o %s.exr\n' "$scene" "$options" "$name"
-  printf '    aureole convert %s.exr %s.png --exposure %s --tone %s\n\n' "$name" "$name" "$exposure" "$tone"
+  printf '    aureole convert %s.exr %s.jpg --exposure %s --tone %s\n\n' "$name" "$name" "$exposure" "$tone"
   printf '| triangles | size | error of the mean, with its 95 %% interval | CPU seconds |\n|---|---|---|---|\n'
   printf '| %s | %s | %s | %s |\n\n' "$triangles" "$size" "$error" "$(cat "$out/$name.seconds")"
 }
@@ -61,7 +61,7 @@ while IFS='|' read -r name scene options exposure tone title; do
   said=$out/$name.said
   read -ra words <<<"$options"
   cpu_seconds "$aureole" render "scenes/$scene" "${words[@]}" -o "$out/$name.exr" >"$out/$name.seconds"
-  "$aureole" convert "$out/$name.exr" "$pictures/$name.png" --exposure "$exposure" --tone "$tone"
+  "$aureole" convert "$out/$name.exr" "$pictures/$name.jpg" --exposure "$exposure" --tone "$tone"
 done < <(gallery)
 
 {

@@ -8,7 +8,7 @@ status=0
 fail() { echo "FAILED: $*"; status=1; }
 
 BUILD=$(dirname "$1") DOXYGEN='' "$tree/scripts/site.sh" "$PWD/site" >log.txt 2>&1 || fail "$(cat log.txt)"
-for page in index.html docs/keys.html docs/gallery.html docs/papers/marques-2013.html include/aureole/core.h.html docs/gallery/room.png docs/report/index.html; do
+for page in index.html docs/keys.html docs/gallery.html docs/papers/marques-2013.html include/aureole/core.h.html docs/gallery/room.jpg docs/report/index.html; do
   [ -s "site/$page" ] || fail "there is no $page"
 done
 grep -q 'https\?://[^"]*\.\(js\|css\)' site/index.html && fail "a page asks the network for a script or a style"

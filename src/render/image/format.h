@@ -67,6 +67,13 @@ extern const aur_table aur_image_format_table;
 
 aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error);
 
+/* Formats of 8 bits: the image as it is displayed, grey or R, G, B, by exposure and tone curve; NULL where
+ * memory is short, else to be freed. And the keys of that, for the rows of such formats. */
+unsigned char *aur_image_display(const aur_image_target *target, const aur_image *image,
+                                 size_t *channel_count);
+enum { AUR_DISPLAY_KEY_COUNT = 2 };
+extern const aur_key aur_display_keys[AUR_DISPLAY_KEY_COUNT];
+
 /* FORMAT when a file claims a size that no picture may have. */
 aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error);
 

@@ -1,5 +1,6 @@
-/* JPEG, BMP and TGA, which are read only, through stb. */
+/* JPEG, and BMP and TGA, which are read only, through stb. */
 #include <stb_image.h>
+#include <stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -88,11 +89,32 @@ static aur_result read_jpeg(const aur_image_source *source, aur_image **image, a
     return read_ldr(source, "JPEG", block_pixels * bits, image, error);
 }
 
+static aur_result write_jpeg(const aur_image_target *target, const aur_image *image, aur_error *error) {
+    enum { QUALITY = 90, LARGEST_SIDE = 65535 }; /* above 90 colours have as many samples as brightness */
+    size_t count;
+    if (image->width > LARGEST_SIDE || image->height > LARGEST_SIDE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "a JPEG of %zu x %zu pixels: it may have at most %d columns and rows", image->width,
+                        image->height, LARGEST_SIDE);
+    unsigned char *const bytes = aur_image_display(target, image, &count);
+    const int written = bytes != NULL
+                            ? stbi_write_jpg_to_func(aur_image_put_bytes, target->stream, (int)image->width,
+                                                     (int)image->height, (int)count, bytes, QUALITY)
+                            : 0;
+    free(bytes);
+    return written != 0 ? AUR_OK : aur_image_fail_encode(error);
+}
+
 const aur_image_format aur_image_format_jpeg = {
-    .row = {.name = "jpg", .summary = "JPEG: grey or R, G, B, 8 bits, sRGB; is read only", .source = ""},
+    .row = {.name = "jpg",
+            .summary = "JPEG: grey or R, G, B, 8 bits, sRGB; written with quality 90",
+            .source = "",
+            .key_count = AUR_DISPLAY_KEY_COUNT,
+            .keys = aur_display_keys},
     .name = "JPEG",
     .recognize = recognize_jpeg,
-    .read = read_jpeg};
+    .read = read_jpeg,
+    .write = write_jpeg};
 
 static bool recognize_bmp(const aur_image_source *source) {
     return aur_image_begins(source, "BM", 2);

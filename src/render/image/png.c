@@ -125,24 +125,14 @@ static aur_result read_png(const aur_image_source *source, aur_image **image, au
 }
 
 static aur_result write_png(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    const size_t *const channels = target->channels;
-    const size_t count = channels[0] == channels[1] ? 1 : 3;
-    const size_t pixels = image->width * image->height;
+    size_t count;
     if (image->width > PNG_USER_WIDTH_MAX || image->height > PNG_USER_HEIGHT_MAX)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "a PNG of %zu x %zu pixels: it may have at most %d columns and %d rows", image->width,
                         image->height, PNG_USER_WIDTH_MAX, PNG_USER_HEIGHT_MAX);
-    unsigned char *const bytes = malloc(pixels * count);
+    unsigned char *const bytes = aur_image_display(target, image, &count);
     if (bytes == NULL)
         return aur_image_fail_encode(error);
-    const double factor = exp2((double)target->options.exposure);
-    for (size_t i = 0; i < pixels; ++i) {
-        for (size_t c = 0; c < count; ++c) {
-            const double radiance = factor * (double)image->data[i * image->channel_count + channels[c]];
-            const double shown = aur_srgb_encode(aur_tone_apply(target->options.tone, radiance));
-            bytes[i * count + c] = (unsigned char)(shown * 255.0 + 0.5);
-        }
-    }
     png_image header = {.version = PNG_IMAGE_VERSION,
                         .width = (png_uint_32)image->width,
                         .height = (png_uint_32)image->height,
@@ -152,18 +142,12 @@ static aur_result write_png(const aur_image_target *target, const aur_image *ima
     return written != 0 || ferror(target->stream) ? AUR_OK : aur_image_fail_encode(error);
 }
 
-static const aur_key keys[] = {
-    {AUR_KEY_OF_REAL(aur_image_write_options, "exposure", exposure, -INFINITY, INFINITY, "0",
-                     "radiance is multiplied by 2 to this power")},
-    {AUR_KEY_OF_CHOICE(aur_image_write_options, "tone", tone, "srgb",
-                       "the tone curve; with srgb radiance 1 is white", "srgb", "filmic")},
-};
-
 const aur_image_format aur_image_format_png = {
     .row = {.name = "png",
             .summary = "PNG: one to four channels of 8 or 16 bits, sRGB; written with 8, as grey or R, G, B",
             .source = "",
-            AUR_ROW_KEYS(keys)},
+            .key_count = AUR_DISPLAY_KEY_COUNT,
+            .keys = aur_display_keys},
     .name = "PNG",
     .recognize = recognize,
     .read = read_png,

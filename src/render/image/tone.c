@@ -1,6 +1,7 @@
 #include "render/image/format.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "points/base/names.h"
 
@@ -54,3 +55,27 @@ aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error
 const char *aur_tone_name(aur_tone tone) {
     return (size_t)tone < TONE_NAMES ? tone_names[tone] : NULL;
 }
+
+unsigned char *aur_image_display(const aur_image_target *target, const aur_image *image,
+                                 size_t *channel_count) {
+    const size_t *const channels = target->channels;
+    const size_t count = channels[0] == channels[1] ? 1 : 3;
+    const size_t pixels = image->width * image->height;
+    unsigned char *const bytes = malloc(pixels * count);
+    const double factor = exp2((double)target->options.exposure);
+    *channel_count = count;
+    for (size_t i = 0; bytes != NULL && i < pixels; ++i)
+        for (size_t c = 0; c < count; ++c) {
+            const double radiance = factor * (double)image->data[i * image->channel_count + channels[c]];
+            const double shown = aur_srgb_encode(aur_tone_apply(target->options.tone, radiance));
+            bytes[i * count + c] = (unsigned char)(shown * 255.0 + 0.5);
+        }
+    return bytes;
+}
+
+const aur_key aur_display_keys[AUR_DISPLAY_KEY_COUNT] = {
+    {AUR_KEY_OF_REAL(aur_image_write_options, "exposure", exposure, -INFINITY, INFINITY, "0",
+                     "radiance is multiplied by 2 to this power")},
+    {AUR_KEY_OF_CHOICE(aur_image_write_options, "tone", tone, "srgb",
+                       "the tone curve; with srgb radiance 1 is white", "srgb", "filmic")},
+};

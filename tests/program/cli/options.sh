@@ -33,7 +33,7 @@ refuses "--count: must be a size N of at least 1, A:B" measure sobol -n 4,0 --me
 refuses "--format: must be one of table, csv, json, not 'jsn'; did you mean 'json'?" sets --format jsn
 refuses "--map: must be one of lambert, concentric, azimuthal, polar, not 'lamber'; did you mean 'lambert'?" \
   points sobol -n 4 --domain disk --map lamber
-refuses "--to: must be one of exr, pfm, hdr, png, not 'gif'" convert a b --to gif
+refuses "--to: must be one of exr, pfm, hdr, png, jpg, not 'gif'" convert a b --to gif
 refuses "-D: 'width' is not of the form name=value" info a.xml -D width
 refuses "unexpected argument 'halton'" points sobol halton -n 4
 refuses "unexpected argument 'x'" sets sobol x

@@ -94,8 +94,8 @@ timeout 20 "$aureole" render -q --spp 1 box.xml -o out.exr --integrator finalgat
 # Output that cannot be: another folder, a full disk (a limit on the size of files stands for it).
 "$aureole" render -q --spp 1 box.xml -o no-such-folder/out.exr 2>message.txt
 [ $? -eq 3 ] && grep -q 'no-such-folder/out.exr: cannot write' message.txt || fail "a folder that is not there: $(cat message.txt)"
-"$aureole" render -q --spp 1 box.xml -o out.jpg 2>message.txt
-[ $? -eq 2 ] && grep -q 'use exr, pfm, hdr or png' message.txt || fail "an unknown extension: $(cat message.txt)"
+"$aureole" render -q --spp 1 box.xml -o out.gif 2>message.txt
+[ $? -eq 2 ] && grep -q 'use exr, pfm, hdr, png or jpg' message.txt || fail "an unknown extension: $(cat message.txt)"
 for kind in exr pfm png; do
   (trap '' XFSZ; ulimit -f 1; "$aureole" render -q --spp 1 --width 64 --height 64 --integrator path box.xml -o full.$kind 2>message.txt)
   [ $? -eq 3 ] && grep -q "full.$kind: cannot write" message.txt || fail "a full disk, $kind: $(cat message.txt)"

@@ -84,7 +84,7 @@ cmp -s a.png dark.png && fail "--exposure has no effect"
 echo precious >kept.exr
 expect 2 convert nan.exr kept.exr
 expect 2 convert a.exr a.gif
-complains "exr, pfm, hdr or png"
+complains "exr, pfm, hdr, png or jpg"
 expect 2 convert a.exr b.exr --exposure 1
 complains "--exposure is not for exr"
 expect 2 convert a.exr b.png --half
