@@ -308,6 +308,66 @@ static void one_light_needs_no_tree(void **state) {
     aur_scene_destroy(scene);
 }
 
+static void write_sky(void) {
+    static const char head[] = "PF\n8 4\n-1\n";
+    char bytes[sizeof head - 1 + 96 * sizeof(float)];
+    memcpy(bytes, head, sizeof head - 1);
+    for (size_t i = 0; i < 96; ++i) {
+        const float radiance = 20.0f * unit(i, 9);
+        memcpy(bytes + sizeof head - 1 + i * sizeof radiance, &radiance, sizeof radiance);
+    }
+    write_file("sky.pfm", bytes, sizeof bytes);
+}
+
+/* Sixteen references at once get the bits of each by itself, beside an environment that is drawn together. */
+static void lanes_are_single_samples(void **state) {
+    (void)state;
+    char body[8192];
+    size_t length = (size_t)snprintf(
+        body, sizeof body, "<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter>");
+    write_sky();
+    for (size_t i = 0; i < 40; ++i)
+        length += (size_t)snprintf(
+            body + length, sizeof body - length,
+            "<emitter type='point'><point name='position' x='%g' y='%g' z='%g'/></emitter>",
+            4.0 * (double)unit(i, 1) - 2.0, 4.0 * (double)unit(i, 2) - 2.0, 4.0 * (double)unit(i, 3));
+    snprintf(body + length, sizeof body - length, SQUARE("<translate z='-1'/>", AREA("3")));
+    aur_scene *const scene = must_load_body(body);
+    aur_lane_vectors positions, normals;
+    aur_lane_numbers choice, u, v;
+    size_t from_sky = 0, drawn = 0;
+    for (size_t round = 0; round < 100; ++round) {
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            const size_t i = AUR_PACKET_SIZE * round + k;
+            aur_lane_set(&positions, k, unit_point(i, 2.0f));
+            aur_lane_set(&normals, k,
+                         k % 2 == 0 ? (aur_vector){0} : aur_sample_sphere(unit(i, 4), unit(i, 5)));
+            choice[k] = unit(i, 6);
+            u[k] = unit(i, 7);
+            v[k] = unit(i, 8);
+        }
+        const aur_light_references references = {&positions, &normals};
+        aur_light_lanes lanes;
+        aur_light_lanes_each(scene, UINT16_MAX, &references, choice, u, v, &lanes);
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            const aur_light_reference at = {aur_lane_vector(&positions, k), aur_lane_vector(&normals, k)};
+            aur_light_sample one;
+            if (!aur_light_sample_direct(scene, &at, (const float[3]){choice[k], u[k], v[k]}, &one))
+                one = (aur_light_sample){0};
+            const aur_light_sample lane = aur_light_lane(&lanes, k);
+            assert_true(lane.pdf == one.pdf);
+            drawn += one.pdf > 0.0f;
+            from_sky += one.pdf > 0.0f && one.environment;
+            if (one.pdf > 0.0f) {
+                assert_memory_equal(&lane.position, &one.position, sizeof one.position);
+                assert_memory_equal(&lane.radiance, &one.radiance, sizeof one.radiance);
+            }
+        }
+    }
+    assert_true(from_sky > 100 && drawn - from_sky > 100);
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probabilities_are_those_of_choosing),
@@ -315,6 +375,7 @@ int main(void) {
         cmocka_unit_test(same_light_as_each_alone),
         cmocka_unit_test(weights_count),
         cmocka_unit_test(one_light_needs_no_tree),
+        cmocka_unit_test(lanes_are_single_samples),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
