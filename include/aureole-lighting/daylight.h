@@ -114,6 +114,7 @@ typedef struct aur_daylight {
     uint64_t directions;
     double dark;     /* the share of directions that meet the black back of a surface */
     bool on_surface; /* the sensor lay on one, and looked from just above */
+    bool doubtful;   /* surfaces there are too near to each other to tell what covers the sensor */
 } aur_daylight;
 
 /* All sensors together; `size` is set by the caller to that of the struct. Spatial daylight autonomy and

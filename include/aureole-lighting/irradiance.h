@@ -151,6 +151,7 @@ typedef struct aur_irradiance {
     uint64_t directions;
     double dark;     /* the share of directions that meet the black back of a surface */
     bool on_surface; /* the sensor lay on one, and looked from just above */
+    bool doubtful;   /* surfaces there are too near to each other to tell what covers the sensor */
 } aur_irradiance;
 
 /* Estimates the irradiance at each sensor: cosine distributed directions of one set, randomised independently

@@ -390,6 +390,7 @@ class Irradiance(NamedTuple):
     directions: NDArray[np.uint64]  #: (n,)
     dark: Array  #: (n,): the share of directions that meet the black back of a surface
     on_surface: NDArray[np.bool_]  #: (n,): the sensor lay on one, and looked from just above
+    doubtful: NDArray[np.bool_]  #: (n,): surfaces there are too near to each other to tell what covers the sensor
 
 
 def irradiance(
@@ -418,10 +419,10 @@ def irradiance(
     )  # fmt: skip
     row = np.dtype(
         {
-            "names": ["value", "error", "half_width", "directions", "dark", "on_surface"],
-            "formats": [("<f8", (5, 4)), ("<f8", (5, 4)), ("<f8", 4), "<u8", "<f8", "?"],
+            "names": ["value", "error", "half_width", "directions", "dark", "on_surface", "doubtful"],
+            "formats": [("<f8", (5, 4)), ("<f8", (5, 4)), ("<f8", 4), "<u8", "<f8", "?", "?"],
             "offsets": [ffi.offsetof("aur_irradiance", name) for name in
-                        ("value", "error", "half_width", "directions", "dark", "on_surface")],
+                        ("value", "error", "half_width", "directions", "dark", "on_surface", "doubtful")],
             "itemsize": ffi.sizeof("aur_irradiance"),
         }
     )  # fmt: skip
@@ -436,4 +437,5 @@ def irradiance(
         values[:, 0], values[:, 1], values[:, 2], values[:, 3], values[:, 4],
         {name: found["error"][:, part] for part, name in enumerate(("total", "direct", "sky", "reflected", "sun"))},
         found["half_width"], found["directions"], found["dark"], found["on_surface"],
+        found["doubtful"],
     )  # fmt: skip

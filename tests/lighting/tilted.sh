@@ -122,7 +122,7 @@ for ball in "0 0 -1000" "600 0 -800" "-480 600 -640"; do
   look_from "$(awk "BEGIN { printf \"%g, %g, %g\", -($x) / 500, -($y) / 500, -($z) / 500 }")" \
     "<shape type=\"sphere\"><point name=\"center\" x=\"$x\" y=\"$y\" z=\"$z\"/><float name=\"radius\" value=\"1000\"/></shape>"
 done
-# Below a rug nothing arrives, from 1e-6 of its size above the floor on, tilted and at map coordinates: two sensors on the floor and one
+# Below a rug nothing arrives, from 3e-7 above a floor 2 wide on, tilted and at map coordinates (below, it is in the floor's plane): two sensors on the floor and one
 # on the rug's underside read 0; below a light pi times its radiance, and below nothing but air (null) the sky, as beside the rug and on it.
 rugs() { # rugs GAP ANGLE X Y RUG EXPECTED
   local map="<rotate x=\"1\" y=\"2\" z=\"-1\" angle=\"$2\"/><translate x=\"$3\" y=\"$4\"/>"
@@ -141,11 +141,17 @@ XML
     fail "a rug $*: $(cat said)"
 }
 dark='<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf>'
-for gap in 1e-6 2.5e-6 1e-5 1e-3; do
-  for place in "0 0 0" "40 0 0" "75 500000.25 5200000.5" "-130 2600000 1200000" "20 1e5 1e5"; do
+for gap in 4e-7 1e-6 2.5e-6 1e-5 1e-3; do
+  for place in "0 0 0" "40 0 0" "75 500000.25 5200000.5" "-130 2600000 1200000" "20 1e5 1e5" "33 30 40"; do
     rugs $gap $place "$dark" 0
   done
 done
 rugs 2e-6 75 500000.25 5200000.5 "$dark<emitter type=\"area\"><rgb name=\"radiance\" value=\"2\"/></emitter>" 6.2831853
 rugs 2e-6 75 500000.25 5200000.5 '<bsdf type="null"/>' 3.14159265
+# Of two disks in one place, which are no triangles, nothing tells which lies on the other: a warning names the first sensor.
+disk='<shape type="disk"><transform name="to_world"><scale value="1"/></transform></shape>'
+echo "<scene version=\"3.0.0\"><emitter type=\"constant\"/>$disk${disk/value=\"1/value=\".5}</scene>" >disks.xml
+printf '.8 0 0 0 0 1\n.1 .1 0 0 0 1\n' >disks.pts
+"$aureole" irradiance disks.xml --sensors disks.pts -n 64 2>&1 | grep -qF 'disks.pts:2: 1 of 2 sensors stand where surfaces are nearer to each other than numbers tell (the first of them is sensor 1)' ||
+  fail "no warning of two disks in one place"
 exit $((failures > 0))

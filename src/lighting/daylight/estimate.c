@@ -163,7 +163,8 @@ static void estimate_sensor(const work *w, aur_path_group *group, const room *r,
         for (size_t k = 0; k < LANES; ++k)
             overcast[k] += w->overcast[p] * r->coefficients.all[p * LANES + k];
     aur_daylight *const found = &w->results[sensor];
-    *found = (aur_daylight){.directions = w->rule.count * LANES, .on_surface = place.on_surface};
+    *found = (aur_daylight){
+        .directions = w->rule.count * LANES, .on_surface = place.on_surface, .doubtful = place.doubtful};
     found->dark = (double)look.dark / (double)found->directions;
     const aur_daylight_year year = {r->all, r->sun, overcast};
     aur_daylight_measure_year(&w->lit, w->options, &year, r->scratch, found);
@@ -262,7 +263,7 @@ static void warn(const work *w) {
             lit->other_skies);
     aur_sensor_oddities odd = {0};
     for (size_t i = 0; i < w->sensors->count; ++i)
-        aur_sensor_note(i, w->results[i].on_surface, w->results[i].dark,
+        aur_sensor_note(i, w->results[i].on_surface, w->results[i].doubtful, w->results[i].dark,
                         w->results[i].value[AUR_DAYLIGHT_ANNUAL], &odd);
     aur_sensors_warn(w->sensors, to, &odd);
 }

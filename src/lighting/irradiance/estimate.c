@@ -150,7 +150,7 @@ static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sens
     aur_levels levels = {.replicates = REPLICATES, .values = VALUES, .sums = sums};
     const bool knows = w->known.map != NULL || w->known.solution != NULL;
     uint64_t dark = 0;
-    aur_irradiance found = {.on_surface = surface_point.on_surface};
+    aur_irradiance found = {.on_surface = surface_point.on_surface, .doubtful = surface_point.doubtful};
     for (size_t level = 0; level < w->level_count; ++level) {
         aur_sensor_sums sensor_sums;
         aur_sensor_trace(group, &w->rules[level], &surface_point, knows ? &w->known : NULL, (uint32_t)level,
@@ -191,7 +191,7 @@ static void warn(const work *w) {
     for (size_t i = 0; i < w->sensors->count; ++i) {
         const aur_irradiance *const found = &w->results[i];
         const double value = found->value[AUR_IRRADIANCE_TOTAL][luminance];
-        aur_sensor_note(i, found->on_surface, found->dark, value, &odd);
+        aur_sensor_note(i, found->on_surface, found->doubtful, found->dark, value, &odd);
         if (o->error > 0.0 && found->half_width[luminance] > o->error * value) {
             aur_sensor_count(i, &unreached);
             worst = fmax(worst, value > 0.0 ? found->half_width[luminance] / value : INFINITY);

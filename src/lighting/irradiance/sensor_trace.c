@@ -69,62 +69,6 @@ static bool move_off(const aur_scene *scene, float reach, footing *before, aur_s
     return true;
 }
 
-/* How far before the place a triangle's plane is, along a unit direction, in doubles. */
-static double distance_to(const aur_mesh *mesh, size_t triangle, const double from[3],
-                          const double ahead[3]) {
-    aur_vector corner[3];
-    double corners[3][3], between[3];
-    aur_plane plane;
-    aur_mesh_corners(mesh, triangle, corner);
-    for (size_t c = 0; c < 3; ++c)
-        aur_vector_to_doubles(corner[c], corners[c]);
-    if (!(aur_polygon_plane(3, (const double(*)[3])corners, &plane) > 0.0))
-        return INFINITY;
-    for (int d = 0; d < 3; ++d)
-        between[d] = corners[0][d] - from[d];
-    return aur_dot3(plane.normal, between) / aur_dot3(plane.normal, ahead);
-}
-
-/* What is so near before a sensor on a surface that its rays, which begin off that, would begin beyond:
- * doubles know it from the surface. Light that passes by its edges is less than rounding. Looks along the
- * normal. */
-static void find_cover(const aur_scene *scene, const double from[3], aur_vector at, const footing *standing,
-                       aur_sensor_point *surface_point) {
-    enum { MOST_HITS = 16 };
-    const float sign = aur_vector_dot(standing->normal, surface_point->frame.z) < -1e-3f ? -1.0f : 1.0f;
-    const aur_vector axis = aur_vector_scale(standing->normal, sign);
-    double ahead[3], distances[MOST_HITS], nearest = INFINITY, cover = 2.0 * (double)standing->offset;
-    aur_vector_to_doubles(axis, ahead);
-    aur_surface surfaces[MOST_HITS];
-    size_t count = 0;
-    aur_ray ray = {aur_vector_add_scaled(at, -2.0f * standing->offset, axis), 0.0f, axis,
-                   5.0f * standing->offset};
-    for (aur_hit hit; count < MOST_HITS && aur_scene_intersect(scene, &ray, &hit);) {
-        ray.nearest = nextafterf(hit.distance, INFINITY);
-        if (hit.instance != AUR_NO_INSTANCE || scene->shapes[hit.shape]->curved != NULL)
-            continue;
-        aur_scene_surface(scene, &ray, &hit, &surfaces[count]);
-        distances[count] = distance_to(&scene->shapes[hit.shape]->mesh, hit.primitive, from, ahead);
-        if (!(fabsf(aur_vector_dot(surfaces[count].geometric_normal, axis)) > 0.99f))
-            continue;
-        nearest = fabs(distances[count]) < fabs(nearest) ? distances[count] : nearest;
-        ++count;
-    }
-    /* Corners that are rounded put the surface itself 2 of the 25 roundings off. */
-    const double least = nearest + 0.1 * (double)standing->offset;
-    for (size_t i = 0; i < count; ++i) {
-        const aur_bsdf *const bsdf = surfaces[i].bsdf;
-        if (!(distances[i] > least && distances[i] < cover) || bsdf->transmits || bsdf->passes)
-            continue;
-        cover = distances[i];
-        surface_point->covered = true;
-        const float cosine = aur_vector_dot(axis, surface_point->frame.z);
-        const aur_vector light = aur_surface_emission(scene, &surfaces[i], aur_vector_scale(axis, -1.0f));
-        aur_vector_to_doubles(aur_vector_scale(light, 0.5f * AUR_PI_F * (1.0f + cosine)),
-                              surface_point->closed);
-    }
-}
-
 /* Twice the largest offset there can be, as an axis may meet a surface at an angle. */
 static float reach_of(const aur_scene *scene, aur_vector at) {
     const aur_vector low = scene->lower, high = scene->upper;
@@ -161,7 +105,9 @@ void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *li
     const float reach = reach_of(scene, at);
     for (size_t i = 0; i < MOST_SURFACES && move_off(scene, reach, &before, surface_point); ++i) {
         surface_point->on_surface = true;
-        find_cover(scene, from, at, &before, surface_point);
+        const float side = aur_vector_dot(before.normal, surface_point->frame.z) < -1e-3f ? -1.0f : 1.0f;
+        aur_sensor_find_cover(scene, from, aur_vector_scale(before.normal, side), before.offset,
+                              surface_point);
     }
     if (lights->count == 0 || surface_point->covered)
         return;

@@ -86,6 +86,7 @@ typedef struct aur_sensor_point {
     aur_vector position; /* where its rays begin */
     bool on_surface;     /* it has been moved off one */
     bool covered;        /* something lies on it: no light arrives but what that sends out */
+    bool doubtful;       /* or may lie on it: surfaces are too near to each other to tell */
     aur_frame frame;     /* z is the normal */
     double closed[3];    /* the part of the direct light that has a closed form, r, g, b */
     float *shares;       /* of each emitter, see aur_closed_lights_at; NULL: there are no closed lights */
@@ -98,6 +99,12 @@ typedef struct aur_sensor_point {
 void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *lights,
                              const double position[3], const double normal[3], uint64_t seed, float *shares,
                              aur_sensor_point *surface_point);
+
+/* Looks for what covers a sensor `from` the scene's origin, which stands on a surface within `offset` of it,
+ * along the unit `axis` away from that. Sets covered, closed and doubtful. Light that passes by the cover's
+ * edges is less than rounding. */
+void aur_sensor_find_cover(const aur_scene *scene, const double from[3], aur_vector axis, float offset,
+                           aur_sensor_point *surface_point);
 
 /* Irradiance as the randomisations tell it. */
 typedef struct aur_sensor_sums {

@@ -68,6 +68,11 @@ void aur_sensors_warn(const aur_sensors_view *sensors, const aur_warnings *to,
             "%zu of %zu sensors lie on surfaces (the first of them is sensor %zu): they look from just "
             "above",
             on_surfaces->count, sensors->count, on_surfaces->first);
+    if (odd->doubtful.count > 0)
+        aur_warn_at(to, aur_sensor_location(sensors, odd->doubtful.first),
+                    "%zu of %zu sensors stand where surfaces are nearer to each other than numbers tell (the "
+                    "first of them is sensor %zu): their light may be that above a cover or below it",
+                    odd->doubtful.count, sensors->count, odd->doubtful.first);
     if (inside->count > 0)
         aur_warn_at(to, aur_sensor_location(sensors, inside->first),
                     "%zu of %zu sensors see mostly the black backs of surfaces (the first of them is sensor "

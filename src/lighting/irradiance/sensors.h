@@ -38,7 +38,7 @@ typedef struct aur_sensor_oddity {
 } aur_sensor_oddity;
 
 typedef struct aur_sensor_oddities {
-    aur_sensor_oddity on_surfaces, inside, unlit;
+    aur_sensor_oddity on_surfaces, doubtful, inside, unlit;
 } aur_sensor_oddities;
 
 static inline void aur_sensor_count(size_t sensor, aur_sensor_oddity *kind) {
@@ -47,10 +47,12 @@ static inline void aur_sensor_count(size_t sensor, aur_sensor_oddity *kind) {
 }
 
 /* Sensors one after the other: `dark` is the share of directions that meet the black back of a surface. */
-static inline void aur_sensor_note(size_t sensor, bool on_surface, double dark, double light,
+static inline void aur_sensor_note(size_t sensor, bool on_surface, bool doubtful, double dark, double light,
                                    aur_sensor_oddities *odd) {
     if (on_surface)
         aur_sensor_count(sensor, &odd->on_surfaces);
+    if (doubtful)
+        aur_sensor_count(sensor, &odd->doubtful);
     if (dark > 0.5)
         aur_sensor_count(sensor, &odd->inside);
     else if (!(light > 0.0))

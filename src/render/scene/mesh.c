@@ -86,6 +86,9 @@ void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur
         turn_winding(mesh);
 }
 
+/* A mesh that is larger keeps its points only where that is wanted: they are 24 bytes each. */
+enum { EXACT_VERTICES = 1 << 16 };
+
 aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_points, aur_location location,
                              aur_error *error) {
     mesh->positions = malloc((3 * mesh->vertex_count + 1) * sizeof(float));
@@ -103,7 +106,7 @@ aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_p
     for (size_t k = 0; i < 3 * mesh->vertex_count; ++i, ++k)
         mesh->positions[i] = (float)(mesh->points[i] - origins[k]);
     mesh->positions[3 * mesh->vertex_count] = 0.0f;
-    if (keep_points)
+    if (keep_points || mesh->vertex_count <= EXACT_VERTICES)
         return AUR_OK;
     free(mesh->points);
     mesh->points = NULL;

@@ -10,7 +10,8 @@
 
 typedef struct aur_mesh {
     size_t vertex_count, triangle_count;
-    double *points;    /* 3 * vertex_count, world coordinates; after aur_mesh_recenter NULL, if not kept */
+    double *points; /* 3 * vertex_count, world coordinates; after aur_mesh_recenter NULL in large ones, if not
+                       kept */
     float *positions;  /* 3 * vertex_count from the origin, and 4 bytes that Embree may read; NULL before */
     float *normals;    /* 3 * vertex_count of unit length, or NULL: flat triangles */
     float *uvs;        /* 2 * vertex_count, or NULL */

@@ -44,6 +44,11 @@ AUR_INTERNAL bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray
 /* Whether anything lies on the ray, between its nearest and farthest distance. */
 AUR_INTERNAL bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 
+/* Calls `found` with each surface (its shape, primitive and instance) that may be within `radius` of a point,
+ * however they lie: rays tell apart only what floats tell apart. Others may be among them. */
+AUR_INTERNAL void aur_scene_near(const aur_scene *scene, aur_vector point, float radius,
+                                 void (*found)(void *context, const aur_hit *place), void *context);
+
 /* The surface at a hit. */
 AUR_INTERNAL void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit,
                                     aur_surface *surface);

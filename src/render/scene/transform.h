@@ -31,7 +31,7 @@ double aur_transform_determinant(const aur_transform *a);
 void aur_transform_move(aur_transform *a, const double origin[3]);
 
 /* Apply an affine map. */
-void aur_transform_point(const aur_transform *a, const double point[3], double result[3]);
+AUR_INTERNAL void aur_transform_point(const aur_transform *a, const double point[3], double result[3]);
 void aur_transform_direction(const aur_transform *a, const double direction[3], double result[3]);
 /* Applies the map whose inverse is `inverse` to a normal, by the transposed inverse. The result's length is
  * not 1. */

@@ -49,6 +49,7 @@ static const struct {
     {"<shape type='disk'>$</shape>", {0.1f, 0.05f, 0.0f}, true},
     {"<shape type='sphere'>$</shape>", {0.36f, 0.48f, 0.8f}, false},
     {"<shape type='cylinder'>$</shape>", {0.6f, 0.8f, 0.4f}, false},
+    {"<shape type='cone'>$</shape>", {0.3f, 0.4f, 0.5f}, false},
     {"<shape type='shapegroup' id='g'><shape type='rectangle'><transform name='to_world'><scale "
      "value='1e-3'/>"
      "<rotate x='1' y='1' angle='20'/></transform></shape></shape>"

@@ -65,20 +65,29 @@ static float area_below(const aur_shape *shape, float z) {
     return z / shape->length * (radius + first) / (last + first);
 }
 
+/* In doubles, and moved outwards onto the cone that rays meet, as the axes are rounded. */
+static aur_vector place_of(const aur_shape *shape, aur_vector outwards, float z) {
+    const double radius = radius_at(shape, (double)z), height = z;
+    const aur_vector along = shape->axis[2];
+    const double way[3] = {radius * (double)outwards.x + height * (double)along.x,
+                           radius * (double)outwards.y + height * (double)along.y,
+                           radius * (double)outwards.z + height * (double)along.z};
+    const double x = aur_shape_dot(way, shape->axis[0]), y = aur_shape_dot(way, shape->axis[1]);
+    const double more = radius_at(shape, aur_shape_dot(way, along)) - sqrt(x * x + y * y);
+    return (aur_vector){(float)((double)shape->center.x + way[0] + more * (double)outwards.x),
+                        (float)((double)shape->center.y + way[1] + more * (double)outwards.y),
+                        (float)((double)shape->center.z + way[2] + more * (double)outwards.z)};
+}
+
 static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine, float z) {
     const float slope = shape->inner, scale = 1.0f / sqrtf(1.0f + slope * slope);
     const aur_vector outwards =
         aur_vector_add_scaled(aur_vector_scale(shape->axis[0], cosine), sine, shape->axis[1]);
     const aur_vector normal =
         aur_vector_scale(aur_vector_add_scaled(outwards, -slope, shape->axis[2]), scale);
-    const aur_vector foot = aur_vector_add_scaled(shape->center, z, shape->axis[2]);
-    const aur_vector position = aur_vector_add_scaled(foot, (float)radius_at(shape, (double)z), outwards);
     aur_shape_point point = {.texture = {.u = aur_shape_azimuth(cosine, sine), .v = area_below(shape, z)}};
-    aur_round_point(position, aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+    aur_round_point(place_of(shape, outwards, z), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
                     aur_coordinate_sum(shape->center) + shape->radius + fabsf(z), &point);
-    /* Coordinates, radius and height are rounded once each, in floats. */
-    point.offset *= 4.0f;
-    point.rounding *= 4.0f;
     return point;
 }
 
