@@ -343,6 +343,12 @@ static double sun_and_sky(const double u[3], double x) {
     return 1000.0 * u[2] + (depth < 2.0 * half * half ? 2e7 : 0.0);
 }
 
+static double narrow(const double u[3], double x) {
+    (void)x;
+    assert_true(u[2] >= 0.0);
+    return exp(2e4 * (fabs(u[0] * sun_axis[0] + u[2] * sun_axis[2]) - 1.0));
+}
+
 static double one_over_r(const double u[3], double x) {
     (void)x;
     double squared = 0.0;
@@ -377,6 +383,25 @@ static void peaks(void **state) {
     f = (integrand){.value = sun_and_sky};
     assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
     assert_relative(integral.value, 2000.0 * AUR_PI / 3.0 + 2e7 * AUR_PI * sine * sine * sun_axis[2], 0.03);
+
+    /* Where the rest of the domain has nothing, its tiny values raise no doubt; and nothing is known of 0. */
+    f = (integrand){.value = narrow};
+    aur_integrate_options_init(AUR_DOMAIN_AXES, &options, NULL);
+    options.peak_count = 1;
+    options.peaks = &peak;
+    peak.radius = 3.0;
+    assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+    assert_true(integral.reason == AUR_INTEGRATE_TOLERANCE && integral.doubts == 0);
+    assert_relative(integral.value, 2.0 * AUR_PI / 2e4, 0.03);
+    assert_true(integral.evaluations < 100000);
+    peak.radius = 0.0; /* all axes, each once */
+    options.evaluations = 1 << 17;
+    f = (integrand){.value = height};
+    assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+    assert_relative(integral.value, 2.0 * AUR_PI / 3.0, 0.03);
+    f = (integrand){.value = zero};
+    assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+    assert_true(isinf(integral.interval) && integral.doubts == AUR_INTEGRATE_ALL_EQUAL);
 
     /* The integral of 1/|u - a| over the sphere is 4 pi; of x^-.9 on [0,1] it is 10. */
     aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);

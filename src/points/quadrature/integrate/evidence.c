@@ -142,10 +142,11 @@ aur_evidence aur_evidence_of(size_t count, size_t older, double *values, double 
         sum += fabs(values[i]);
         largest = fmax(largest, fabs(values[i]));
     }
+    evidence.largest = largest;
+    evidence.magnitude = count > 0 ? sum / (double)count : 0.0;
     if (evidence.all_equal)
         return evidence;
     evidence.dominated = largest > 0.5 * sum;
-    evidence.magnitude = sum / (double)count;
     /* A gap that four times as many values leave as it was is a jump of the function or a place that is not
      * resolved; those of smooth functions close. */
     const double gap = largest_gap(count, values);

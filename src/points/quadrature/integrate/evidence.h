@@ -5,13 +5,13 @@
 #include <stddef.h>
 
 typedef struct aur_evidence {
-    size_t count;     /* of values */
-    bool all_equal;   /* 0 values are */
-    bool sparse;      /* few values differ from the most frequent one */
-    bool dominated;   /* one value has most of the sum of magnitudes */
-    bool heavy_tail;  /* as of infinite variance */
-    double magnitude; /* mean */
-    double jump;      /* what a point may add that no value has shown */
+    size_t count;              /* of values */
+    bool all_equal;            /* 0 values are */
+    bool sparse;               /* few values differ from the most frequent one */
+    bool dominated;            /* one value has most of the sum of magnitudes */
+    bool heavy_tail;           /* as of infinite variance */
+    double magnitude, largest; /* mean and largest magnitude */
+    double jump;               /* what a point may add that no value has shown */
 } aur_evidence;
 
 /* Judges values[count] (reordered), of which the first `older` were there two levels ago; scratch has room

@@ -260,11 +260,27 @@ static void widen(integration *work, size_t value, size_t s, const aur_evidence 
 
 /* What is known of the function beside the spread of replicates, over all values. */
 typedef struct doubts {
-    bool all_equal; /* all values of all points outside of peaks, without any in them */
+    bool all_equal; /* all values of all points */
     unsigned bits;
 } doubts;
 
-static unsigned bits_of(const aur_evidence *evidence) {
+/* The error that one value of the level may have. */
+static double target_of(const integration *work, size_t value) {
+    const aur_integrate_options *const o = &work->options;
+    double largest = fabs(work->found[value].value);
+    for (size_t v = 0; v < work->values && !o->separate; ++v)
+        largest = fmax(largest, fabs(work->found[v].value));
+    return fmax(o->absolute, o->relative * largest);
+}
+
+/* The doubts of one stratum. Beside peaks that were declared, where the function is small, they do not count:
+ * where the share of the domain that may be unseen, with a hundred times the largest value, does not matter.
+ */
+static unsigned bits_of(const integration *work, size_t value, size_t s, const aur_evidence *evidence) {
+    const stratum *const part = &work->parts[s];
+    const double unseen = 3.0 / (double)(part->count * work->options.replicates);
+    if (work->strata > 1 && 100.0 * unseen * part->scale * evidence->largest < 0.1 * target_of(work, value))
+        return 0U;
     return (evidence->sparse ? AUR_INTEGRATE_SPARSE : 0U) |
            (evidence->dominated ? AUR_INTEGRATE_DOMINATED : 0U) |
            (evidence->heavy_tail ? AUR_INTEGRATE_HEAVY_TAIL : 0U);
@@ -293,32 +309,32 @@ static aur_result judge_values(integration *work, doubts *doubt, aur_error *erro
             const size_t count = gather(work, &work->parts[s], v, &older);
             const aur_evidence evidence = aur_evidence_of(count, older, work->scratch, work->scratch + count);
             widen(work, v, s, &evidence);
-            doubt->bits |= bits_of(&evidence);
+            const unsigned bits = bits_of(work, v, s, &evidence);
+            work->shares[s] = bits != 0 ? INFINITY : work->shares[s]; /* it is this one that must grow */
+            doubt->bits |= bits;
             equal = equal && evidence.all_equal;
         }
+        /* A peak that was declared may well be flat, but nothing is known of 0 everywhere. */
+        equal = equal && (work->options.peak_count == 0 || work->found[v].half_width == 0.0);
         work->all_equal[v] = equal;
         varies = varies || !equal;
         doubt->all_equal = doubt->all_equal || (equal && work->options.separate);
     }
-    doubt->all_equal = work->options.peak_count == 0 && (doubt->all_equal || !varies);
+    doubt->all_equal = doubt->all_equal || !varies;
     return AUR_OK;
 }
 
 /* The errors of the level, compared with the target. */
 static bool compare(integration *work) {
-    const aur_integrate_options *const o = &work->options;
     aur_integral *const integral = &work->integral;
-    double largest = 0.0;
-    for (size_t v = 0; v < work->values; ++v)
-        largest = fmax(largest, fabs(work->found[v].value));
     bool met = true;
+    const double joint = target_of(work, 0);
     integral->error = 0.0;
     for (size_t v = 0; v < work->values; ++v) {
         const aur_estimated *const found = &work->found[v];
         const double change = integral->levels > 0 ? fabs(found->value - work->before[v]) : INFINITY;
         const double own = fmax(found->half_width, 0.25 * change);
-        const double target = o->separate ? fabs(found->value) : largest;
-        met = met && own <= fmax(o->absolute, o->relative * target);
+        met = met && own <= (work->options.separate ? target_of(work, v) : joint);
         integral->error = fmax(integral->error, own);
         if (v == 0)
             integral->difference = change;
@@ -400,7 +416,8 @@ static aur_result integrate(integration *work, aur_error *error) {
             memmove(work->variances[v] + 1, work->variances[v], 2 * sizeof **work->variances);
         }
     }
-    work->integral.resolution = 3.0 / (double)work->integral.evaluations;
+    const stratum *const rest = &work->parts[work->options.peak_count];
+    work->integral.resolution = 3.0 / (double)(rest->count * work->options.replicates);
     return AUR_OK;
 }
 

@@ -103,8 +103,10 @@ void aur_shape_point(const aur_integrate_options *options, const double *cube, d
 
 /* --- peaks */
 
-static double peak_height(const aur_integrate_peak *peak) {
-    return peak->radius > 0.0 ? 2.0 * pow(sin(0.5 * fmin(peak->radius, 180.0) / 180.0 * AUR_PI), 2.0) : 2.0;
+static double peak_height(const aur_integrate_options *options, const aur_integrate_peak *peak) {
+    const double most = options->domain == AUR_DOMAIN_AXES ? 90.0 : 180.0;
+    const double degrees = peak->radius > 0.0 ? fmin(peak->radius, most) : most;
+    return 2.0 * pow(sin(0.5 * degrees / 180.0 * AUR_PI), 2.0);
 }
 
 /* The part of one side of the cube that a box has. */
@@ -116,7 +118,7 @@ static double peak_side(const aur_integrate_peak *peak, size_t d, double *from) 
 
 double aur_shape_peak_measure(const aur_integrate_options *options, const aur_integrate_peak *peak) {
     if (!is_cube(options))
-        return 2.0 * AUR_PI * peak_height(peak);
+        return 2.0 * AUR_PI * peak_height(options, peak);
     double volume = 1.0, from;
     for (size_t d = 0; d < aur_shape_dimension(options); ++d)
         volume *= peak_side(peak, d, &from);
@@ -129,7 +131,8 @@ bool aur_shape_peak_holds(const aur_integrate_options *options, const aur_integr
         return true;
     if (!is_cube(options)) {
         const double cosine = aur_dot3(point, peak->centre);
-        return 1.0 - (options->domain == AUR_DOMAIN_AXES ? fabs(cosine) : cosine) <= peak_height(peak);
+        return 1.0 - (options->domain == AUR_DOMAIN_AXES ? fabs(cosine) : cosine) <=
+               peak_height(options, peak);
     }
     for (size_t d = 0; d < aur_shape_dimension(options); ++d)
         if (fabs(point[d] - peak->centre[d]) > peak->radius)
@@ -141,7 +144,7 @@ bool aur_shape_peak_holds(const aur_integrate_options *options, const aur_integr
  * for it. */
 static void cap_point(const aur_integrate_options *options, const aur_integrate_peak *peak,
                       const double *cube, double *point, double *factor) {
-    const double height = peak_height(peak), power = 2.0 / (2.0 - peak->exponent);
+    const double height = peak_height(options, peak), power = 2.0 / (2.0 - peak->exponent);
     double t = height * pow(cube[0], power);
     if (peak->exponent > 0.0)
         t = fmax(t, NEAREST);
