@@ -105,6 +105,18 @@ said=$("$aureole" viewfactors open.obj 2>&1 >/dev/null)
 grep -q 'open.obj:9: 6 edges belong to one facet only' <<<"$said" || fail "an open mesh: $said"
 grep -q '1 edges join facets of which one looks inwards' <<<"$said" || fail "an inconsistent mesh: $said"
 grep -q 'rows see backs of facets' <<<"$said" || fail "backs that are seen: $said"
+# Facets that are narrower than rays in floats resolve: the four sides of a slab, before the work begins.
+for height in 1e-9 1e-4; do
+  awk -v h=$height 'BEGIN { for (i = 0; i < 8; ++i) {
+      x = i % 2; y = int(i / 2) % 2; z = int(i / 4) * h + .3
+      printf "v %.17g %.17g %.17g\n", x * .8 - z * .6, y, x * .6 + z * .8 }
+    print "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6" }' >slab.obj
+  said=$("$aureole" viewfactors slab.obj 2>&1 >/dev/null)
+  case $height in
+    1e-9) grep -q 'slab.obj:11: 8 facets are narrower than rays in floats resolve' <<<"$said" || fail "a slab 1e-9 high: $said" ;;
+    *) ! grep -q narrower <<<"$said" || fail "a slab 1e-4 high: $said" ;;
+  esac
+done
 # The largest share of what leaves a row is said, not the last one: a plate that sees the back of its twin a side above it, .1998 of it.
 cat >twins.obj <<'OBJ'
 v 0 0 0

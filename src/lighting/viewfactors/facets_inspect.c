@@ -154,12 +154,37 @@ static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
     report(facets, warnings, &disagreeing, "edges join facets of which one looks inwards and one outwards");
 }
 
+/* Whether the facet is narrower, across its longest side, than rays that leave or meet it there are rounded.
+ */
+static bool is_too_narrow(const aur_facets *facets, size_t facet) {
+    const double(*const c)[3] = (const double(*)[3])facets->corners[facet];
+    double longest = 0.0, across[3] = {0.0}, reach[3] = {0.0};
+    for (size_t k = 0; k < 3; ++k) {
+        const double side[3] = {c[(k + 1) % 3][0] - c[k][0], c[(k + 1) % 3][1] - c[k][1],
+                                c[(k + 1) % 3][2] - c[k][2]};
+        if (aur_length3(side) > longest) {
+            longest = aur_length3(side);
+            aur_cross3(facets->planes[facet].normal, side, across);
+        }
+        for (size_t d = 0; d < 3; ++d)
+            reach[d] = fmax(reach[d], fabs(c[k][d]));
+    }
+    aur_normalize3(across);
+    const aur_vector direction = {(float)across[0], (float)across[1], (float)across[2]};
+    const aur_vector reaches = {(float)reach[0], (float)reach[1], (float)reach[2]};
+    return 2.0 * facets->areas[facet] < longest * (double)aur_surface_rounding(reaches, direction);
+}
+
 aur_result aur_facets_inspect(aur_facets *facets, const aur_warnings *warnings, aur_error *error) {
-    finding empty = {0};
+    finding empty = {0}, narrow = {0};
     for (size_t i = 0; i < facets->count; ++i)
         if (facets->areas[i] == 0.0)
             find(&empty, i);
+        else if (is_too_narrow(facets, i))
+            find(&narrow, i);
     report(facets, warnings, &empty, "facets have no area and are left out");
+    report(facets, warnings, &narrow,
+           "facets are narrower than rays in floats resolve: their rows are not exact");
     report_overlaps(facets, warnings);
     uint32_t *const places = malloc(3 * facets->count * sizeof *places);
     use *const uses = malloc(3 * facets->count * sizeof *uses);
