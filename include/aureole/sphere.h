@@ -193,6 +193,13 @@ AUR_API aur_result aur_points_request_init(const aur_directions_options *options
 AUR_API aur_result aur_points_generate(const char *set, const aur_points_request *request,
                                        aur_points **points, aur_error *error) AUR_NONNULL(1, 2, 3);
 
+/* The pixels[count] of HEALPix (Gorski 2005) in which the vectors xyz[3 * count] lie, of any length but 0: of
+ * 12 side^2 in rings, or nested. The set `healpix` has their centres in the same order (order=nested).
+ * `capacity` counts pixels. Errors: ARGUMENT for a side beyond 1 to 2^24, a nested one that is no power of 2,
+ * a vector without a direction (which); CAPACITY. */
+AUR_API aur_result aur_healpix_pixels(uint64_t side, bool nested, size_t count, const double *xyz,
+                                      size_t capacity, uint64_t *pixels, aur_error *error) AUR_NONNULL(4, 6);
+
 /* The table of all sets, of the square and of the sphere. */
 AUR_API size_t aur_set_count(void);
 AUR_API const aur_set_description *aur_set_at(size_t index); /* NULL beyond the table */

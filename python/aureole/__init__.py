@@ -34,6 +34,7 @@ from ._core import core as _core
 from ._integrate import Average, Estimate, Integral, average, estimate, integrate, point_group, symmetric_rule
 from ._maps import (
     fibonacci_nearest,
+    healpix_pixels,
     lobe_pdf,
     lobe_unwarp,
     lobe_warp,
@@ -120,6 +121,7 @@ __all__ = [
     "estimate",
     "fibonacci_nearest",
     "flip",
+    "healpix_pixels",
     "integrate",
     "irradiance",
     "lobe_pdf",

@@ -146,6 +146,23 @@ def rotate(xyz: ArrayLike, seed: Seed, *, about_z: bool = False) -> Array:
     return array
 
 
+def healpix_pixels(xyz: ArrayLike, side: int, *, nested: bool = False) -> NDArray[np.uint64]:
+    """The pixels (n,) of HEALPix in which vectors (n, 3) lie, of 12 side^2 in rings, or nested.
+
+    `points("healpix:order=nested", 12 * side**2)` has their centres.
+
+    >>> healpix_pixels([[0, 0, 1.0], [0, 0, -1.0]], 4)
+    array([  0, 188], dtype=uint64)
+    """
+    array = rows(xyz, 3, "xyz")
+    found = np.empty(len(array), np.uint64)
+    core.call(
+        lib.aur_healpix_pixels, side, nested, len(array), core.input(array), len(array),
+        core.output(found, "uint64_t"),
+    )  # fmt: skip
+    return found
+
+
 def symmetry_group(symmetry: str) -> Array:
     """The quaternions of a crystal's rotations, the identity first: "1", "222", "432", ...
 

@@ -37,6 +37,8 @@ typedef struct aur_native_set {
     ROW(healpix)                                                                                             \
     ROW(t_design)                                                                                            \
     ROW(lebedev)                                                                                             \
+    ROW(gauss)                                                                                               \
+    ROW(eqsp)                                                                                                \
     ROW(electrostatic)                                                                                       \
     ROW(greedy)                                                                                              \
     ROW(super_fibonacci)                                                                                     \

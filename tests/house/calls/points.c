@@ -116,6 +116,10 @@ static void rotations(void) {
 }
 
 static void maps_and_lobes(void) {
+    uint64_t pixel;
+    aur_error wrong;
+    accept(aur_healpix_pixels(4, true, 1, (const double[]){0.0, 0.0, 1.0}, 1, &pixel, &wrong), &wrong);
+    require(pixel < 192, "aur_healpix_pixels");
     const double square[2] = {0.25, 0.5};
     double disk[2], direction[3], back[2];
     aur_map_to_disk(AUR_MAP_CONCENTRIC, 1, square, disk, NULL);

@@ -33,6 +33,7 @@ while IFS= read -r line; do
   [ "$set" = healpix ] && n=12
   [ "$set" = t-design ] && n=8
   [ "$set" = lebedev ] && n=14
+  [ "$set" = gauss ] && n=8
   for domain in $domains; do
     where=(--domain "$domain")
     [ "$domain" = own ] && where=()

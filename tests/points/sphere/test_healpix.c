@@ -53,6 +53,65 @@ static void pixels_are_symmetric_and_equal(void **state) {
     }
 }
 
+/* healpy 1.20's. */
+static void directions_have_their_pixels(void **state) {
+    (void)state;
+    static const struct {
+        uint64_t side;
+        double direction[3];
+        uint64_t ring, nested;
+    } known[] = {{1, {0.1, 0.2, 0.3}, 0, 0},
+                 {4, {0.0, 0.0, 1.0}, 0, 15},
+                 {4, {0.0, 0.0, -1.0}, 188, 128},
+                 {4, {1.0, 0.0, 0.0}, 88, 70},
+                 {4, {-0.3, -0.5, 0.1}, 83, 123},
+                 {64, {0.1, -0.2, -0.9}, 48454, 45235},
+                 {1024, {0.3, -0.2, 0.9}, 452022, 4043388},
+                 {1024, {-0.6, 0.7, -0.2}, 7622094, 10454255},
+                 {16777216, {0.123, 0.456, 0.789}, 239780591234526, 138701662095607},
+                 {16777216, {-0.5, 0.1, -0.2}, 2305530657756251, 1728197228684217}};
+    uint64_t pixel;
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k)
+        for (int nested = 0; nested < 2; ++nested) {
+            assert_int_equal(
+                aur_healpix_pixels(known[k].side, nested != 0, 1, known[k].direction, 1, &pixel, NULL),
+                AUR_OK);
+            assert_int_equal(pixel, nested != 0 ? known[k].nested : known[k].ring);
+        }
+    const double none[3] = {0.0};
+    assert_int_equal(aur_healpix_pixels(3, true, 1, known[0].direction, 1, &pixel, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_healpix_pixels(0, false, 1, known[0].direction, 1, &pixel, NULL),
+                     AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_healpix_pixels(4, false, 1, none, 1, &pixel, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_healpix_pixels(4, false, 1, known[0].direction, 0, &pixel, NULL),
+                     AUR_ERROR_CAPACITY);
+}
+
+/* Both ways: the centre of a pixel lies in it; nested pixels are the four quarters of larger ones. */
+static void centres_lie_in_their_pixels(void **state) {
+    (void)state;
+    enum { SIDE = 8, COUNT = 12 * SIDE * SIDE };
+    static const char *const sets[] = {"healpix", "healpix:order=nested"};
+    uint64_t found[COUNT];
+    for (size_t s = 0; s < 2; ++s) {
+        aur_directions_options options = {.size = sizeof options};
+        aur_directions_options_init(COUNT, AUR_DOMAIN_SPHERE, &options, NULL);
+        double *const xyz = check_directions(sets[s], options);
+        assert_int_equal(aur_healpix_pixels(SIDE, s == 1, COUNT, xyz, COUNT, found, NULL), AUR_OK);
+        for (size_t i = 0; i < COUNT; ++i)
+            assert_int_equal(found[i], i);
+        free(xyz);
+    }
+    for (size_t i = 0; i < 1000; ++i) {
+        double direction[3];
+        uint64_t pixels[2];
+        check_random_direction(5, i, direction);
+        for (size_t k = 0; k < 2; ++k)
+            assert_int_equal(aur_healpix_pixels(SIDE << k, true, 1, direction, 1, pixels + k, NULL), AUR_OK);
+        assert_int_equal(pixels[1] / 4, pixels[0]);
+    }
+}
+
 static void other_sizes_are_refused(void **state) {
     (void)state;
     aur_directions_options options = {.size = sizeof options};
@@ -67,6 +126,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_of_side_two_stand_where_they_should),
         cmocka_unit_test(pixels_are_symmetric_and_equal),
+        cmocka_unit_test(directions_have_their_pixels),
+        cmocka_unit_test(centres_lie_in_their_pixels),
         cmocka_unit_test(other_sizes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -126,6 +126,57 @@ static void lebedev_rules_are_exact(void **state) {
         check_exact("lebedev", aur_lebedev_rules + r, aur_lebedev_rules[r].count < 500 ? 1 : 4);
 }
 
+/* Degree 2n - 1 with 2 n^2 points, 2 n (n - 1) + 2 and fewer; one degree more is not exact. */
+static void products_are_exact(void **state) {
+    (void)state;
+    static const struct {
+        const char *set;
+        size_t count, degree;
+    } rules[] = {{"gauss", 2, 1},
+                 {"gauss", 200, 19},
+                 {"gauss", 882, 41},
+                 {"gauss:rings=lobatto", 2, 1},
+                 {"gauss:rings=lobatto", 182, 19},
+                 {"gauss:rings=lobatto", 842, 41},
+                 {"gauss:pruned=true", 5098, 109}}; /* of 6050 */
+    for (size_t r = 0; r < sizeof rules / sizeof rules[0]; ++r) {
+        bool said = false;
+        double *const xyz = points_of(rules[r].set, rules[r].count, &said);
+        const worst found = worst_harmonic(rules[r].degree, 1, rules[r].count, xyz, xyz + 3 * rules[r].count);
+        assert_true(found.exact <= 1e-14 && found.beyond > 1e-3); /* rounding of Newton's weights */
+        free(xyz);
+    }
+}
+
+/* Leopardi's own: regions of each collar, and areas that are equal because caps of whole regions end between
+ * the collars. */
+static void partitions_are_leopardis(void **state) {
+    (void)state;
+    static const size_t collars[] = {1, 4, 4, 1};
+    bool said = false;
+    double *xyz = points_of("eqsp", 10, &said);
+    for (size_t c = 0, at = 0; c < 4; at += collars[c++])
+        for (size_t k = 1; k < collars[c]; ++k)
+            assert_near(xyz[3 * (at + k) + 2], xyz[3 * at + 2], 1e-15);
+    assert_true(xyz[2] == 1.0 && xyz[3 * 9 + 2] == -1.0);
+    free(xyz);
+    for (size_t count = 1; count < 300; count = count * 3 / 2 + 1) {
+        xyz = points_of("eqsp", count > 2 ? count : 2, &said);
+        size_t begin = 0;
+        for (size_t i = 1; i <= count && count > 2; ++i) {
+            if (i < count && fabs(xyz[3 * i + 2] - xyz[3 * begin + 2]) < 1e-13)
+                continue;
+            /* The centre's angle is midway between the caps of `begin` and of i regions. */
+            const double top = acos(1.0 - 2.0 * (double)begin / (double)count);
+            const double bottom = acos(1.0 - 2.0 * (double)i / (double)count);
+            if (begin > 0 && i < count)
+                assert_near(acos(xyz[3 * begin + 2]), 0.5 * (top + bottom), 1e-12);
+            begin = i;
+        }
+        free(xyz);
+    }
+}
+
 /* Weights of the rule with 14 points: 1/15 on the axes and 3/40 on the diagonals of the cube. */
 static void fourteen_points_have_known_weights(void **state) {
     (void)state;
@@ -148,10 +199,9 @@ static void other_sizes_are_refused(void **state) {
         const char *set;
         uint64_t count;
         const char *nearest;
-    } wrong[] = {{"lebedev", 100, "86 or 110"},
-                 {"lebedev", 5, "from 6"},
-                 {"t-design", 17, "8 or 18"},
-                 {"t-design", 1, "from 4"}};
+    } wrong[] = {{"lebedev", 100, "86 or 110"}, {"lebedev", 5, "from 6"},
+                 {"gauss", 9, "8 or 18"},       {"gauss:pruned=true", 5000, "4924 or 5098"},
+                 {"t-design", 17, "8 or 18"},   {"t-design", 1, "from 4"}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
         aur_directions_options options = {.size = sizeof options};
         aur_directions_options_init(wrong[k].count, AUR_DOMAIN_SPHERE, &options, NULL);
@@ -167,6 +217,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(designs_are_exact),
         cmocka_unit_test(lebedev_rules_are_exact),
+        cmocka_unit_test(products_are_exact),
+        cmocka_unit_test(partitions_are_leopardis),
         cmocka_unit_test(fourteen_points_have_known_weights),
         cmocka_unit_test(other_sizes_are_refused),
     };
