@@ -517,6 +517,11 @@ static void grids(void **state) {
     assert_true(errors[0] < 1e-9 && errors[1] < 1e-4);
 }
 
+static double tenth_power(const double u[3], double x) {
+    (void)x;
+    return pow(u[2], 10.0);
+}
+
 /* A named set has one level of any number of points. */
 static void sets(void **state) {
     (void)state;
@@ -534,6 +539,16 @@ static void sets(void **state) {
         assert_true(integral.levels == 1 && integral.evaluations == 50 * 16);
         assert_relative(integral.value, 1.0 / 3.0, 1e-13); /* exact weights */
     }
+    /* 50 points of Lebedev are exact to degree 11, which their own weights alone are. */
+    integrand f = {.value = tenth_power};
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
+    options.set = "lebedev";
+    options.relative = 0.0;
+    options.first = 50;
+    aur_integral integral = {.size = sizeof integral};
+    assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+    assert_relative(integral.value, 4.0 * AUR_PI / 11.0, 1e-13);
 }
 
 int main(void) {

@@ -13,8 +13,9 @@
 #include "points/sphere/map.h"
 
 /* Points of the last level with weights of a high degree: what is not smooth enough to be done then gains
- * nothing by them. Beyond, degree 6 makes up for grids that are uneven between their complete levels. */
-enum { EXACT_POINTS = 1024, EXACT_DEGREE = 6 };
+ * nothing by them. A set of one level is worth more. Beyond, degree 6 makes up for grids that are uneven
+ * between their complete levels. */
+enum { EXACT_POINTS = 1024, EXACT_POINTS_OF_SETS = 16384, EXACT_DEGREE = 6 };
 
 struct aur_replicates {
     const aur_integrate_options *options;
@@ -180,23 +181,27 @@ aur_result aur_replicates_weights(const aur_replicates *r, size_t count, double 
         weights[i] = 1.0 / (double)count;
     if (r->grid == NULL || count < 2)
         return AUR_OK;
-    double *const xyz = malloc(3 * count * sizeof *xyz);
+    double *const xyz = malloc(4 * count * sizeof *xyz);
     if (xyz == NULL)
         return aur_fail_memory(error);
+    double *const near = xyz + 3 * count;
     const bool axes = r->options->domain == AUR_DOMAIN_AXES;
     aur_exact_options options = {.size = sizeof options};
     aur_exact_options_init(r->options->domain, &options, NULL);
     options.threads = 1;
     const size_t degree = (size_t)fmax(sqrt((double)count * (axes ? 2.0 : 1.0) / 2.2) - 1.0, 0.0);
-    options.degree = count > EXACT_POINTS && degree > EXACT_DEGREE ? EXACT_DEGREE : degree;
-    /* A set's own weights may be exact to a higher degree: the nearest to them are they themselves. */
-    double *const own = r->options->set != NULL ? weights : NULL;
-    aur_result result = aur_directions_points(r->grid, 0, count, 3 * count, xyz, own, error);
-    double sum = 0.0;
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        sum += weights[i];
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        weights[i] /= sum;
+    const size_t most = r->options->set != NULL ? EXACT_POINTS_OF_SETS : EXACT_POINTS;
+    options.degree = count > most && degree > EXACT_DEGREE ? EXACT_DEGREE : degree;
+    aur_result result = aur_directions_points(r->grid, 0, count, 3 * count, xyz, near, error);
+    if (r->options->set != NULL && result == AUR_OK) {
+        /* A set's own weights may be exact to a higher degree: the nearest to them are they themselves. */
+        double sum = 0.0;
+        for (size_t i = 0; i < count; ++i)
+            sum += near[i];
+        for (size_t i = 0; i < count; ++i)
+            weights[i] = near[i] / sum;
+        options.near = near;
+    }
     if (result == AUR_OK)
         result = aur_weights_exact(count, xyz, &options, count, weights, NULL, error);
     free(xyz);
