@@ -62,6 +62,8 @@ typedef struct aur_render_options {
     bool use_cache;
     /* One more integrator, which `integrator` or the scene may name (gather.h); NULL: none. */
     const aur_gather_integrator *gather;
+    /* The key `clamp` of `path` and `volpath`, for whichever integrator is used; 0: no limit. */
+    double clamp;
 } aur_render_options;
 
 AUR_EXPERIMENTAL aur_result aur_render_options_init(aur_render_options *options, aur_error *error)

@@ -51,6 +51,8 @@ static aur_result write_identity(const aur_scene *scene, const aur_render_option
             aur_version(), o->seed, o->integrator != NULL ? o->integrator : "of the scene", o->sampler,
             o->filter != NULL ? o->filter : "of the scene", o->samples_per_pixel, o->width, o->height,
             o->crop_x0, o->crop_x1, o->crop_y0, o->crop_y1, tracer);
+    if (o->clamp != 0.0)
+        fprintf(stream, "clamp %.9g\n", o->clamp);
     if (o->shard_count != 0)
         fprintf(stream, "shard %zu/%zu\n", o->shard, o->shard_count);
     fputs(contents, stream);

@@ -1,6 +1,7 @@
 /* The driver: a film in tiles, each done by one thread from its pixels' own random numbers, so that neither
  * threads nor the order of tiles can change it. */
 #include <aureole-render/render.h>
+#include <aureole/text.h>
 
 #include <inttypes.h>
 #include <stdatomic.h>
@@ -106,7 +107,14 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
     if (result != AUR_OK)
         return result;
     const aur_integrator_context context = context_of(render);
-    result = aur_integrator_create(&parameters, &context, &render->integrator, error);
+    if (s->clamp != 0.0) {
+        char text[40];
+        aur_format(text, sizeof text, "%.9g", s->clamp);
+        result = aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, "clamp", text, parameters.location,
+                                         error);
+    }
+    if (result == AUR_OK)
+        result = aur_integrator_create(&parameters, &context, &render->integrator, error);
     aur_parameters_release(&parameters);
     return result;
 }

@@ -2,6 +2,7 @@
  * sampling and Russian roulette (Kajiya 1986; Veach 1997). */
 #include <stdlib.h>
 
+#include "render/film/clamp.h"
 #include "render/path/path.h"
 #include "render/vertex/candidates.h"
 
@@ -19,6 +20,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(aur_path, "candidates", candidates, 1, AUR_CANDIDATES_MOST, "1",
                         "points on lights at each surface, of which one gets the shadow ray, chosen by what "
                         "it would bring: less noise under skies for more time")},
+    AUR_CLAMP_KEY(aur_path),
     {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
                      "extra camera rays per sample at edges of visible lights (image average)"),
      .computed = true},
@@ -36,7 +38,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
      * are sampled. */
     if (aur_parameters_find(parameters, "lamp_rays") == NULL)
         data->lamp_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
-    return aur_path_prepare(data, context->scene, error);
+    const aur_result result = aur_clamp_prepare(data->clamp, parameters, context, integrator, error);
+    return result == AUR_OK ? aur_path_prepare(data, context->scene, error) : result;
 }
 
 /* A filter with negative parts weighs a sample's rays differently; hidden lamps are not looked at. */
@@ -56,7 +59,10 @@ static void release(aur_integrator *integrator) {
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
-    return aur_path_radiance(integrator->data, integrator->scene, sample, NULL, counters);
+    const aur_path *const data = integrator->data;
+    aur_vector straight;
+    const aur_vector all = aur_path_radiance(data, integrator->scene, sample, NULL, &straight, counters);
+    return aur_clamped(all, straight, data->clamp);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {

@@ -1,5 +1,6 @@
 /* Path tracing in scenes with participating media. Both of Mitsuba 3's names for it are the same here, its
  * volpathmis: where extinction has no colour there is no difference but for noise. */
+#include "render/film/clamp.h"
 #include "render/vertex/vertex.h"
 #include "render/volume/volume_path.h"
 
@@ -11,19 +12,39 @@ static const aur_key keys[] = {
                         "Russian roulette from this depth on")},
     {AUR_KEY_OF_BOOLEAN(aur_volume_path, "hide_emitters", hide_emitters, "false",
                         "lights are black to the camera")},
+    AUR_CLAMP_KEY(aur_volume_path),
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    (void)parameters, (void)error;
     aur_volume_path *const data = integrator->data;
     data->passes = aur_panes_exist(context->scene);
-    return AUR_OK;
+    return aur_clamp_prepare(data->clamp, parameters, context, integrator, error);
 }
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
-    return aur_volume_path_radiance(integrator->data, integrator->scene, sample, counters);
+    const aur_volume_path *const data = integrator->data;
+    aur_vector straight;
+    const aur_vector all = aur_volume_path_radiance(data, integrator->scene, sample, &straight, counters);
+    return aur_clamped(all, straight, data->clamp);
+}
+
+static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
+    const aur_volume_path *const data = integrator->data;
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = tile->first; i < tile->first + tile->count && !tile->counters.stopped; ++i) {
+                aur_camera_sample sample;
+                aur_vector straight;
+                if (!aur_tile_wants(tile, x, y, i))
+                    continue;
+                const float weight = aur_view_sample(tile->view, x, y, i, &sample);
+                const aur_vector all =
+                    aur_volume_path_radiance(data, integrator->scene, &sample, &straight, &tile->counters);
+                aur_tile_add_clamped(tile, x, y, weight, all, straight, data->clamp);
+            }
+    return AUR_OK;
 }
 
 #define VOLUME_PATH(name_, summary_)                                                                         \
@@ -35,6 +56,8 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         .size = sizeof(aur_volume_path),                                                                     \
         .create = create,                                                                                    \
         .radiance = radiance,                                                                                \
+        .tile = tile,                                                                                        \
+        .cuts = true,                                                                                        \
         .shows_lamps = true,                                                                                 \
     }
 

@@ -16,6 +16,7 @@ typedef struct aur_path {
     uint32_t candidates; /* points on lights of which one gets the shadow ray; 0 is 1 */
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
+    float clamp;         /* most light after the first surface in a sample; 0: no limit */
     double lamp_rays;    /* rays for lamps alone that a sample has more, in the picture's mean */
     const aur_vertex_kernels *kernels;
     aur_shape_class *classes;      /* one a shape */
@@ -23,9 +24,10 @@ typedef struct aur_path {
 } aur_path;
 
 AUR_INTERNAL aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
-/* Radiance along one camera ray. `seen`: what of it lights send straight, where that is known; or NULL. */
+/* Radiance along one camera ray. `seen`: what of it lights send straight, where that is known; or NULL.
+ * *straight becomes what they send. */
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
-                             const aur_vector *seen, aur_counters *counters);
+                             const aur_vector *seen, aur_vector *straight, aur_counters *counters);
 /* Adds sample `index` of a pixel of the tile by itself. */
 void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
                          aur_tile *tile);

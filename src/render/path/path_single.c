@@ -1,4 +1,5 @@
 /* One path by itself: the clear form, which paths in packets are compared with. */
+#include "render/film/clamp.h"
 #include "render/path/path.h"
 #include "render/vertex/candidates.h"
 #include "render/vertex/vertex.h"
@@ -58,7 +59,7 @@ static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surf
 }
 
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
-                             const aur_vector *seen, aur_counters *counters) {
+                             const aur_vector *seen, aur_vector *straight, aur_counters *counters) {
     /* Light sampling cannot hit the camera either. */
     aur_walk walk = {.radiance = seen != NULL ? *seen : (aur_vector){0},
                      .beta = {1.0f, 1.0f, 1.0f},
@@ -76,6 +77,8 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
         const bool met = aur_visible_surface(scene, hide, &walk.ray, &surface, counters);
         if (!told && (met || !hide))
             aur_walk_add_emission(scene, met ? &surface : NULL, &walk);
+        if (depth == 1)
+            *straight = walk.radiance;
         if (!met || depth == data->max_depth || aur_path_stops(depth, &counters->stopped) ||
             !scatter(data, scene, &surface, depth, pairs, &walk))
             break;
@@ -86,9 +89,10 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
 void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
                          aur_tile *tile) {
     aur_camera_sample sample;
-    aur_vector seen;
+    aur_vector seen, straight;
     const float weight = aur_view_sample(tile->view, x, y, index, &sample);
     const bool told = aur_edge_probe(data->probes, tile->view, x, y, index, &seen);
-    aur_tile_add(tile, x, y, weight,
-                 aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &tile->counters));
+    const aur_vector radiance =
+        aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &straight, &tile->counters);
+    aur_tile_add_clamped(tile, x, y, weight, radiance, straight, data->clamp);
 }

@@ -3,6 +3,7 @@
  * The pixels are those of one 4 x 4 block of a tile, neighbours. Interleaved (Keller and Heidrich 2001) they
  * are those of one group (render/trace/interleave.h), one of each block, and share all numbers but the
  * camera's: paths on flat walls run in parallel, and their packets stay coherent. */
+#include "render/film/clamp.h"
 #include "render/path/path_group.h"
 #include "render/trace/interleave.h"
 
@@ -40,11 +41,17 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
                       uint32_t wanted) {
     float weights[AUR_PACKET_SIZE];
     begin(g, tile->view, x, y, lanes, weights);
-    aur_path_group_trace(g, 1);
+    aur_path_group_meet(g, 1);
+    const aur_lane_vectors straight = g->lanes.sum;
+    if (g->data->max_depth > 1 && g->alive != 0) {
+        aur_path_group_scatter(g, 1);
+        aur_path_group_trace(g, 2);
+    }
     tile->counters.stopped |= g->stopped;
     for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        aur_tile_add(tile, x[k], y[k], weights[k], aur_lane_vector(&g->lanes.sum, k));
+        aur_tile_add_clamped(tile, x[k], y[k], weights[k], aur_lane_vector(&g->lanes.sum, k),
+                             aur_lane_vector(&straight, k), g->data->clamp);
     }
 }
 

@@ -45,7 +45,7 @@ bool aur_volume_shadow(const aur_scene *scene, bool passes, float reach, const a
 /* A path on its way. */
 typedef struct volume_walk {
     aur_medium_walk state;
-    aur_vector sum;
+    aur_vector sum, straight; /* radiance found so far, and what of it was never scattered */
     aur_ray ray;
     const aur_medium *medium; /* that the ray is in; NULL: none */
     aur_bounce bounce;        /* of the ray; its pdf is in `state` */
@@ -91,7 +91,10 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, vol
     float light_pdf;
     const aur_vector emission =
         aur_vertex_emission(scene, &walk->bounce, walk->ray.direction, surface, &light_pdf);
+    const aur_vector before = walk->sum;
     add_light(walk, emission, light_pdf);
+    if (walk->depth == 1)
+        walk->straight = aur_vector_add(walk->straight, aur_vector_subtract(walk->sum, before));
 }
 
 /* A point on a light that is seen from `from` by a ray in `medium`, where `scattered` of its light is
@@ -252,7 +255,8 @@ static bool step(const aur_volume_path *data, const aur_scene *scene, volume_wal
 }
 
 aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene *scene,
-                                    const aur_camera_sample *sample, aur_counters *counters) {
+                                    const aur_camera_sample *sample, aur_vector *straight,
+                                    aur_counters *counters) {
     static const aur_vector one = {1.0f, 1.0f, 1.0f};
     const uint64_t pixel = aur_hash2(sample->stream.pixel, UINT64_C(0x6d65646961));
     volume_walk walk = {
@@ -290,5 +294,6 @@ aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene
         walk.pairs = (const float(*)[2]) & ahead[walk.depth % 2 * AUR_PATH_PAIRS];
         walk.fresh = true;
     }
+    *straight = walk.straight;
     return walk.sum;
 }

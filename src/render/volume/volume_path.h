@@ -9,12 +9,14 @@ typedef struct aur_volume_path {
     uint32_t max_depth; /* as aur_path has them: edges between scatterings, at surfaces or in media */
     uint32_t rr_depth;
     bool hide_emitters;
+    float clamp;
     bool passes; /* some surface lets light straight through; set by whoever makes this ready */
 } aur_volume_path;
 
-/* Radiance along one camera ray. */
+/* Radiance along one camera ray, and what of it lights send straight. */
 aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene *scene,
-                                    const aur_camera_sample *sample, aur_counters *counters);
+                                    const aur_camera_sample *sample, aur_vector *straight,
+                                    aur_counters *counters);
 
 /* Light on its way from a point on a light, through media and surfaces that let it straight on. */
 

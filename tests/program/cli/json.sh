@@ -31,7 +31,7 @@ json 'it' weights spherical-fibonacci -n 8 --domain sphere --method exact --repo
 json 'it[0]["samples"] == 128 and it[0]["output"] == "a.exr"' render scene.xml --spp 2 -o a.exr --json
 json 'it[0]["error"] < .5 and it[0]["integrator"].startswith("path")' render scene.xml --integrator path --error 50% -q -o b.exr --json
 # One set of keys, whatever was asked for; what is not known is null.
-keys='list(it[0]) == ["output", "integrator", "error", "error_low", "error_high", "bias_high", "relative_error", "relative_error_low", "relative_error_high", "mean_error", "mean_error_low", "mean_error_high", "display_error", "display_error_low", "display_error_high", "race", "mean", "rounds", "samples_per_pixel", "samples", "rays", "prepare_seconds", "render_seconds", "cpu_seconds", "invalid_samples"]'
+keys='list(it[0]) == ["output", "integrator", "error", "error_low", "error_high", "bias_high", "relative_error", "relative_error_low", "relative_error_high", "mean_error", "mean_error_low", "mean_error_high", "display_error", "display_error_low", "display_error_high", "race", "mean", "rounds", "samples_per_pixel", "clamped", "samples", "rays", "prepare_seconds", "render_seconds", "cpu_seconds", "invalid_samples"]'
 json "$keys and it[0]['error_low'] is None and it[0]['integrator'] == 'path' and it[0]['samples_per_pixel'] == 2" \
   render scene.xml --integrator path --spp 2 -q -o b.exr --json
 json "$keys and it[0]['integrator'] and it[0]['error'] is None" render scene.xml --spp 1 -q -o b.exr --json

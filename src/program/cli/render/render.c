@@ -94,6 +94,10 @@ static const cli_option options[] = {
     {CLI_INTEGER(render_command, options.height, "height", "N", 1, LARGEST_SIDE, "the scene's",
                  "of the whole picture in pixels"),
      .key.computed = true},
+    {CLI_REAL(
+        render_command, options.clamp, "clamp", "C", 0, 1e30, "0",
+        "limit what light after the first surface adds to a sample of path or volpath (0: no limit); how "
+        "much light that takes away is estimated and reported")},
     {CLI_TEXT(render_command, options, "crop", "x0,x1,y0,y1", NULL,
               "render the pixels x0 <= x < x1, y0 <= y < y1 only"),
      .parse = parse_crop},
@@ -150,7 +154,8 @@ static aur_result render_steps(aur_render *render, render_command *command, cli_
     return result;
 }
 
-static aur_result print_json(const aur_render *render, const render_command *command, aur_error *error) {
+static aur_result print_json(const aur_render *render, const render_command *command, const aur_image *image,
+                             aur_error *error) {
     aur_scene_description scene = {.size = sizeof scene};
     aur_scene_get_description(command->scene, &scene, NULL);
     cli_render_summary summary = {
@@ -163,6 +168,7 @@ static aur_result print_json(const aur_render *render, const render_command *com
         .mean = NAN,
         .rounds = NAN,
         .samples_per_pixel = (double)command->end.samples,
+        .clamped = cli_clamped_part(image),
         .statistics.size = sizeof summary.statistics};
     aur_render_get_statistics(render, &summary.statistics, NULL);
     return cli_print_json(&summary, error);
@@ -194,7 +200,7 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
         cli_print_statistics(render);
     }
     if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
-        result = print_json(render, command, error);
+        result = print_json(render, command, *image, error);
     return result;
 }
 
@@ -228,6 +234,10 @@ static bool check_output(const char *path) {
 }
 
 static void say_end(render_command *command, const aur_image *image) {
+    const double clamped = cli_clamped_part(image);
+    if (clamped > 0.0)
+        aur_print(stderr, "aureole: --clamp took away %.2g %% of the light (an estimate of the bias)\n",
+                  100.0 * clamped);
     if (command->denoise.wanted)
         command->end.error = 0.0; /* it is that of the noisy picture */
     if (command->options.shard_count > 0)

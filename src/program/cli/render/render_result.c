@@ -89,6 +89,7 @@ aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
     report_fact_number(table, "mean", summary->mean);
     report_fact_number(table, "rounds", summary->rounds);
     report_fact_number(table, "samples_per_pixel", summary->samples_per_pixel);
+    report_fact_number(table, "clamped", summary->clamped);
     report_fact_number(table, "samples", (double)statistics->samples);
     report_fact_number(table, "rays", (double)statistics->rays);
     report_fact_number(table, "prepare_seconds", statistics->prepare_seconds);
@@ -121,6 +122,20 @@ double cli_relative_error(const aur_film *film) {
                       aur_image_mean(image, mean, NULL) == AUR_OK;
     aur_image_destroy(image);
     return seen && mean[3] > 0.0 ? rmse[3] / mean[3] : 0.0;
+}
+
+double cli_clamped_part(const aur_image *image) {
+    static const char *const names[] = {"R", "G", "B", "clamped.R", "clamped.G", "clamped.B"};
+    double kept = 0.0, taken = 0.0;
+    const size_t channels = aur_image_channel_count(image);
+    for (size_t c = 0; c < 6; ++c) {
+        const size_t channel = aur_image_find_channel(image, names[c]);
+        if (channel >= channels)
+            return 0.0;
+        for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image); ++i)
+            *(c < 3 ? &kept : &taken) += (double)aur_image_data(image)[i * channels + channel];
+    }
+    return taken > 0.0 ? taken / (kept + taken) : 0.0;
 }
 
 static bool is_black(const aur_image *image) {

@@ -21,6 +21,7 @@ typedef struct cli_render_summary {
     const char *output, *integrator;
     double error, error_low, error_high, bias_high; /* by the measure of the target */
     double mean, rounds, samples_per_pixel;
+    double clamped;                    /* cli_clamped_part */
     const aur_error_figures *measures; /* [AUR_ERROR_MEASURE_COUNT], or NULL */
     const aur_adaptive *adaptive;      /* whose race is listed, or NULL */
     aur_render_statistics statistics;
@@ -36,6 +37,8 @@ void cli_write_partial(const char *wanted, const aur_image *image);
  * where they are too few, or the picture is black. */
 double cli_relative_error(const aur_film *film);
 
+/* Of an image with channels clamped.R, .G, .B: the part of all light that a limit took away; else 0. */
+double cli_clamped_part(const aur_image *image);
 /* The last line: where the picture is and how good it is. Warns before it of a black picture, which nobody
  * wants. */
 void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end);

@@ -1,0 +1,52 @@
+/* Samples whose light after the first surface is limited, for images without fireflies. What a limit takes
+ * away is unbiased by itself and goes into channels of its own: their mean estimates the bias. */
+#pragma once
+
+#include "points/base/error.h"
+#include "render/film/integrator.h"
+
+/* A key for limits; the field is a float, 0: none. */
+#define AUR_CLAMP_KEY(struct_)                                                                               \
+    {                                                                                                        \
+        AUR_KEY_OF_REAL(struct_, "clamp", clamp, 0.0, 1e30, "0",                                             \
+                        "most that light after the first surface adds to a sample, in its largest of R, G, " \
+                        "B; 0: no limit. Channels clamped.R, .G, .B have what that takes away")              \
+    }
+
+/* Adds the channels where there is a limit. The number of samples must be known: an error that is to be
+ * reached does not count what the limit takes away. Errors: UNSUPPORTED. */
+static inline aur_result aur_clamp_prepare(float clamp, const aur_parameters *parameters,
+                                           const aur_integrator_context *context, aur_integrator *integrator,
+                                           aur_error *error) {
+    static const char *const names[] = {"clamped.R", "clamped.G", "clamped.B"};
+    if (!(clamp > 0.0f))
+        return AUR_OK;
+    if (!aur_integrator_knows_samples(context))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "integrator '%s': 'clamp' needs a number of samples: the error that renders to an "
+                           "error reach does not count the light that it takes away",
+                           parameters->plugin);
+    integrator->extra_count = 3;
+    integrator->extra_names = names;
+    return AUR_OK;
+}
+
+/* What the limit leaves of a sample, of which `straight` comes from the first surface itself. */
+static inline aur_vector aur_clamped(aur_vector radiance, aur_vector straight, float clamp) {
+    const aur_vector rest = aur_vector_subtract(radiance, straight);
+    const float most = aur_vector_max(rest);
+    return clamp > 0.0f && most > clamp ? aur_vector_add_scaled(straight, clamp / most, rest) : radiance;
+}
+
+/* Adds such a sample to a pixel. */
+static inline void aur_tile_add_clamped(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance,
+                                        aur_vector straight, float clamp) {
+    if (!(clamp > 0.0f) || !aur_is_radiance(radiance)) {
+        aur_tile_add(tile, x, y, weight, radiance);
+        return;
+    }
+    const aur_vector left = aur_clamped(radiance, straight, clamp);
+    const aur_vector taken = aur_vector_subtract(radiance, left);
+    const float values[] = {left.x, left.y, left.z, taken.x, taken.y, taken.z};
+    aur_tile_add_channels(tile, x, y, weight, values);
+}

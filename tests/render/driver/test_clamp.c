@@ -1,0 +1,128 @@
+/* A limit on what light after the first surface adds to a sample. */
+#include "render/scene/scene_text.h"
+
+#include <aureole-render/render.h>
+
+enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
+
+/* A small bright lamp before a mirror and a grey wall, so that some samples are fireflies; it is seen. */
+static const char body[] =
+    "<shape type='rectangle'><transform name='to_world'><scale value='4'/><rotate y='1' "
+    "angle='180'/><translate "
+    "z='6'/></transform><bsdf type='diffuse'/></shape><shape type='sphere'><point name='center' x='1' z='5'/>"
+    "<bsdf type='roughconductor'><float name='alpha' value='.1'/></bsdf></shape><shape type='sphere'><float "
+    "name='radius' value='.3'/><point name='center' x='-1' y='.5' z='4'/><emitter type='area'><rgb "
+    "name='radiance' "
+    "value='40 30 20'/></emitter></shape>";
+
+static aur_image *render(const aur_scene *scene, const char *integrator, double clamp, size_t samples) {
+    aur_renderer *renderer = NULL;
+    aur_image *image = NULL;
+    aur_error error = {0};
+    aur_render_options options = {.size = sizeof options};
+    assert_int_equal(aur_render_options_init(&options, NULL), AUR_OK);
+    options.integrator = integrator;
+    options.width = options.height = SIDE;
+    options.samples_per_pixel = samples;
+    options.filter = "box";
+    options.clamp = clamp;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    if (aur_renderer_render(renderer, &options, &image, NULL, &error) != AUR_OK)
+        fail_msg("%s: %s", integrator, error.message);
+    aur_renderer_destroy(renderer);
+    return image;
+}
+
+/* What a limit leaves and what it takes away are together the image without one; of single samples no more is
+ * left than the limit and what the first surface itself sends. */
+static void takes_no_more_than_it_says(void **state) {
+    (void)state;
+    static const char *const integrators[][2] = {
+        {"path", "path:max_depth=1"},
+        {"path:packets=false", "path:max_depth=1,packets=false"},
+        {"path:hide_emitters=true", "path:max_depth=1,hide_emitters=true"},
+        {"volpath", "volpath:max_depth=1"},
+    };
+    aur_scene *const scene = must_load_body(body);
+    for (size_t i = 0; i < sizeof integrators / sizeof integrators[0]; ++i)
+        for (size_t samples = 1; samples <= 8; samples += 7) {
+            const double limit = 0.25;
+            aur_image *const all = render(scene, integrators[i][0], 0.0, samples);
+            aur_image *const limited = render(scene, integrators[i][0], limit, samples);
+            aur_image *const straight = render(scene, integrators[i][1], 0.0, samples);
+            assert_int_equal(aur_image_channel_count(all), 3);
+            assert_int_equal(aur_image_channel_count(limited), 6);
+            assert_string_equal(aur_image_channel_name(limited, 3), "clamped.R");
+            double taken = 0.0;
+            for (size_t k = 0; k < VALUES; ++k) {
+                const float *const pixel = &aur_image_data(limited)[k / 3 * 6 + k % 3];
+                const double whole = (double)aur_image_data(all)[k];
+                taken += (double)pixel[3];
+                assert_true(pixel[3] >= 0.0f);
+                assert_near((double)pixel[0] + (double)pixel[3], whole, 1e-5 * whole);
+                assert_true((double)pixel[0] <=
+                            (double)aur_image_data(straight)[k] * (1.0 + 1e-5) + limit * (1.0 + 1e-5));
+            }
+            assert_true(taken > 0.0);
+            aur_image_destroy(all);
+            aur_image_destroy(limited);
+            aur_image_destroy(straight);
+        }
+    aur_scene_destroy(scene);
+}
+
+/* A limit that nothing reaches changes no bit. */
+static void changes_nothing_below(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    aur_image *const all = render(scene, "path", 0.0, 4), *const limited = render(scene, "path", 1e20, 4);
+    for (size_t k = 0; k < VALUES; ++k) {
+        assert_true(aur_image_data(limited)[k / 3 * 6 + k % 3] == aur_image_data(all)[k]);
+        assert_true(aur_image_data(limited)[k / 3 * 6 + 3 + k % 3] == 0.0f);
+    }
+    aur_image_destroy(all);
+    aur_image_destroy(limited);
+    aur_scene_destroy(scene);
+}
+
+/* Integrators without the key, and limits that are none. */
+static void refuses(void **state) {
+    (void)state;
+    static const struct {
+        const char *integrator;
+        double clamp;
+        size_t samples;
+        const char *message;
+    } rows[] = {
+        {"finalgather", 1.0, 4, "'clamp'"},
+        {"path", -1.0, 4, "'clamp'"},
+        {"path:clamp=2", 1.0, 4, "'clamp'"},
+        {"path", 1.0, AUR_SAMPLES_PER_PIXEL_MAX, "needs a number of samples"},
+    };
+    aur_scene *const scene = must_load_body(body);
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        aur_render *made = NULL;
+        aur_error error = {0};
+        aur_render_options options = {.size = sizeof options};
+        assert_int_equal(aur_render_options_init(&options, NULL), AUR_OK);
+        options.integrator = rows[i].integrator;
+        options.samples_per_pixel = rows[i].samples;
+        options.clamp = rows[i].clamp;
+        assert_true(aur_render_create(renderer, &options, &made, &error) != AUR_OK);
+        assert_non_null(strstr(error.message, rows[i].message));
+        aur_render_destroy(made);
+    }
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(takes_no_more_than_it_says),
+        cmocka_unit_test(changes_nothing_below),
+        cmocka_unit_test(refuses),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
