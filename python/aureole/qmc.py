@@ -178,8 +178,6 @@ class _Sobol(Engine):
         """Of each bit of an index (bits, d), and of index 0 (d,): binary digits after the point, 64 of them."""
         bits = min(self.bits or 53, 53)
         whole = self.d and PointSet(self.row.name, 2**53, dimension=self.d)
-        if whole and whole.points(0, 1).any():
-            raise ArgumentError(f"Sobol: there are no direction numbers for {self.d} dimensions; scramble='owen' takes any number")
         points = [whole.points(2**k, 1)[0] for k in range(bits)] if whole else []
         numbers = (np.reshape(points, (bits, self.d)) * 2.0**53).astype(np.uint64) << np.uint64(11)
         if self._linear is None:

@@ -133,6 +133,8 @@ class Engines(unittest.TestCase):
             for n in (1, 7, 8, 100, 1, 37):
                 error = abs(ours.random(n) - theirs.random(n)).max()
                 self.assertLessEqual(error, 2**-53 if way.get("bits") == 64 else 0, (d, way))
+        ours, theirs = (module.Sobol(2000, scramble=False).random(8) for module in (aureole.qmc, qmc))
+        self.assertTrue((ours == theirs).all())
         for d, first in itertools.product((1, 2, 7, 100), (0, 5000)):
             for scramble in (False, True):
                 ours, theirs = (maker.Halton(d, scramble=scramble, seed=5) for maker in (aureole.qmc, qmc))

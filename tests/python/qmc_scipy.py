@@ -11,7 +11,7 @@ for module in (_qmc, qmc):
 
 from scipy.integrate.tests.test_quadrature import TestQMCQuad  # noqa: E402, F401
 from scipy.stats.tests import test_qmc  # noqa: E402
-from scipy.stats.tests.test_qmc import TestMultinomialQMC, TestMultivariateNormalQMC, TestNormalQMC  # noqa: E402, F401
+from scipy.stats.tests.test_qmc import TestMultinomialQMC, TestMultivariateNormalQMC, TestNormalQMC, TestSobol  # noqa: E402, F401
 
 if hasattr(test_qmc, "test_deterministic"):
     from scipy.stats.tests.test_qmc import test_deterministic  # noqa: F401
@@ -30,15 +30,6 @@ class TestHalton(test_qmc.TestHalton):
         if scramble and one_permutation:
             pytest.skip(reason)
         super().test_sample(scramble)
-
-
-class TestSobol(test_qmc.TestSobol):
-    def test_high_dim(self):
-        try:
-            aureole.qmc.Sobol(1111, scramble=False)
-        except ValueError as error:
-            pytest.skip(str(error))
-        super().test_high_dim()
 
 
 class Others(test_qmc.QMCEngineTests):
