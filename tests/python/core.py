@@ -464,6 +464,9 @@ class Figures(unittest.TestCase):
             measure = aureole.integrate(lambda x: 1 + 1e-9 * x[:, 0], 1e-3, domain=domain).value
             self.assertLess(abs(mean.value * measure / value - 1), 0.03, domain)
             self.assertTrue(0 < mean.error < 0.02)
+        smooth = aureole.average(lambda u: np.exp(4 * u[:, 0]), 500)  # exact weights, and an error that knows it
+        self.assertLess(abs(smooth.value - np.sinh(4) / 4), 3 * smooth.error)
+        self.assertLess(smooth.error, 1e-9)
         found = aureole.average(lambda x: x.sum(axis=1), 256, "cube", dimension=64)
         self.assertLess(abs(found.value - 32), 5 * found.error)
 

@@ -226,15 +226,17 @@ static void judge_replicates(integration *work, size_t value) {
     }
 }
 
-/* The values of one stratum, those of two levels ago first, for `evidence`; how many are of it. */
+/* The values of one stratum, a quarter that is a set by itself first, for `evidence`; how many are of it. The
+ * quarter is that of two levels ago; of sets without levels, which may go along z, every fourth point. */
 static size_t gather(const integration *work, const stratum *part, size_t value, size_t *older) {
+    const bool levels = work->options.set == NULL;
     size_t count = 0;
-    const size_t quarter = part->count / 4;
     for (size_t round = 0; round < 2; ++round) {
         for (size_t r = 0; r < work->options.replicates; ++r)
-            for (size_t i = round == 0 ? 0 : quarter; i < (round == 0 ? quarter : part->count); ++i) {
+            for (size_t i = 0; i < part->count; ++i) {
+                const bool early = levels ? i < part->count / 4 : i % 4 == 0;
                 const double term = part->values[r][i * work->values + value];
-                if (!isnan(term))
+                if (early == (round == 0) && !isnan(term))
                     work->scratch[count++] = term;
             }
         *older = round == 0 ? count : *older;
