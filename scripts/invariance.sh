@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# invariance.sh [PROGRAM]: prints what must not change an answer, and whether it does, as the table of docs/reliability.md. The
+# invariance.sh [PROGRAM]: prints what must not change an answer, and whether it does; docs/reliability.md has a summary. The
 # tests of tests/invariance run the same rows with fewer seeds and places.
 set -euo pipefail
 program=$(realpath "${1:-build/release/aureole}")
