@@ -33,20 +33,24 @@ AUR_API aur_result aur_domain_from_name(const char *name, aur_domain *domain, au
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_domain_name(aur_domain domain);
 
-/* How a set is randomised. DIGIT: Kollig-Keller, one XOR word a dimension; OWEN: nested uniform scrambling;
- * SHIFT: Cranley-Patterson, addition modulo 1; ROTATE: a random rotation about z (on the square: a shift of
- * the azimuth coordinate, which is the second); ROTATE3D: a uniformly random rotation of the sphere. */
+/* How a set is randomised. DIGIT: Kollig-Keller, one XOR word a dimension; OWEN: nested scrambling whose
+ * flips are one hash of the digits before (Burley 2020), for means and variances as good as uniform: pairs of
+ * points are as under NESTED, larger groups are not; NESTED: Owen's nested uniform scrambling, each flip by
+ * itself, of sets of binary digits, some ten times slower; SHIFT: Cranley-Patterson, addition modulo 1;
+ * ROTATE: a random rotation about z (on the square: a shift of the azimuth coordinate, which is the second);
+ * ROTATE3D: a uniformly random rotation of the sphere. */
 typedef enum aur_scramble {
     AUR_SCRAMBLE_NONE,
     AUR_SCRAMBLE_DIGIT,
     AUR_SCRAMBLE_OWEN,
     AUR_SCRAMBLE_SHIFT,
     AUR_SCRAMBLE_ROTATE,
-    AUR_SCRAMBLE_ROTATE3D
+    AUR_SCRAMBLE_ROTATE3D,
+    AUR_SCRAMBLE_NESTED
 } aur_scramble;
 
-/* "none", "digit", "owen", "shift", "rotate", "rotate3d" to the value and back. Errors: NAME, *scramble
- * untouched; the name of a value out of range is NULL. */
+/* "none", "digit", "owen", "shift", "rotate", "rotate3d", "nested" to the value and back. Errors: NAME,
+ * *scramble untouched; the name of a value out of range is NULL. */
 AUR_API aur_result aur_scramble_from_name(const char *name, aur_scramble *scramble, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_scramble_name(aur_scramble scramble);

@@ -16,7 +16,7 @@ from ._core import CoreCall, core, ffi, lib
 Array = NDArray[np.float64]
 Domain = Literal["square", "cube", "disk", "hemisphere", "sphere", "axes", "rotations"]
 Map = Literal["lambert", "concentric", "azimuthal", "polar"]
-Scramble = Literal["none", "digit", "owen", "shift", "rotate", "rotate3d"]
+Scramble = Literal["none", "digit", "owen", "shift", "rotate", "rotate3d", "nested"]
 Density = Literal["same", "optimal"]
 
 
@@ -87,7 +87,8 @@ def points(
     density : "same": points follow the lobe; "optimal": its power 2/(s+1), with weights (Marques 2018).
     smoothness : s of the optimal density, in (1, 6).
     cap : degrees; not 0: the points fill the cap of this polar angle about +z.
-    scramble : "digit" (Kollig, Keller 2002), "owen" (Owen 1995), "shift" (Cranley, Patterson 1976), "rotate" (about z),
+    scramble : "digit" (Kollig, Keller 2002), "owen" (by a hash: Burley 2020), "nested" (Owen 1995), "shift" (Cranley,
+        Patterson 1976), "rotate" (about z),
         "rotate3d" (a uniformly random rotation).
     seed : of scrambling and of random sets: an integer from 0, the same points for the same one; None or a generator
         of NumPy's for other points in each call. The default is 0, so that two calls give the same points.

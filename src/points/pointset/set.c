@@ -7,7 +7,8 @@
 #include "points/base/names.h"
 #include "points/pointset/runs.h"
 
-static const char *const scramble_names[] = {"none", "digit", "owen", "shift", "rotate", "rotate3d"};
+static const char *const scramble_names[] = {"none",   "digit",    "owen",  "shift",
+                                             "rotate", "rotate3d", "nested"};
 enum { SCRAMBLE_COUNT = sizeof scramble_names / sizeof scramble_names[0] };
 
 aur_result aur_scramble_from_name(const char *name, aur_scramble *scramble, aur_error *error) {
@@ -53,7 +54,13 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
     if (set->scramble == AUR_SCRAMBLE_ROTATE && set->dimension < 2)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "rotate shifts the second coordinate, and one dimension has none");
-    if ((set->kind->scramblings >> set->scramble & 1u) == 0)
+    const bool has = (set->kind->scramblings >> set->scramble & 1u) != 0;
+    if (!has && set->scramble == AUR_SCRAMBLE_NESTED)
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "nested is for sets of binary digits, sobol for one; set '%s' takes none, shift or rotate%s",
+            name, (set->kind->scramblings >> AUR_SCRAMBLE_OWEN & 1u) != 0 ? ", digit or owen" : "");
+    if (!has)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "set '%s' has no digits to scramble: it takes none, shift or rotate, not %s", name,
                         scramble);
@@ -62,7 +69,7 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
 
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {
     double *const out = block->data + d * block->coordinate_stride;
-    if (set->scramble != AUR_SCRAMBLE_DIGIT && set->scramble != AUR_SCRAMBLE_OWEN) {
+    if (!aur_scrambles_digits(set->scramble)) {
         aur_multiples run = {.position = block->first, .step = 1 % set->size, .size = set->size};
         aur_runs(block->count)->multiples(&run, block->count, out);
         return;

@@ -23,7 +23,8 @@ typedef struct aur_block {
 
 enum {
     AUR_SCRAMBLES_SHIFT = 1 << AUR_SCRAMBLE_NONE | 1 << AUR_SCRAMBLE_SHIFT | 1 << AUR_SCRAMBLE_ROTATE,
-    AUR_SCRAMBLES_ALL = AUR_SCRAMBLES_SHIFT | 1 << AUR_SCRAMBLE_DIGIT | 1 << AUR_SCRAMBLE_OWEN
+    AUR_SCRAMBLES_ALL = AUR_SCRAMBLES_SHIFT | 1 << AUR_SCRAMBLE_DIGIT | 1 << AUR_SCRAMBLE_OWEN,
+    AUR_SCRAMBLES_BINARY = AUR_SCRAMBLES_ALL | 1 << AUR_SCRAMBLE_NESTED
 };
 
 /* aur_set_description.domains */
@@ -46,7 +47,8 @@ typedef struct aur_square_set {
      * dimension, scrambling, seed and net_base are set and within the limits above; what a key or a file says
      * may change them. */
     aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, aur_error *error);
-    /* Coordinates in [0,1) with NONE, DIGIT and OWEN applied; SHIFT and ROTATE are added by the caller. */
+    /* Coordinates in [0,1) with NONE, DIGIT, OWEN and NESTED applied; SHIFT and ROTATE are added by the
+     * caller. */
     void (*fill)(const aur_pointset *set, const aur_block *block);
     /* The same for the first two coordinates, written to data[2 i + d]: true where it has a faster way. Or
      * NULL. */

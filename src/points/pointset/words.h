@@ -3,6 +3,7 @@
 #pragma once
 
 #include <aureole/pointset.h>
+#include <stdbool.h>
 
 #include "points/base/random.h"
 #include "points/pointset/net_2d.h"
@@ -41,13 +42,35 @@ static inline uint64_t aur_owen_word(uint64_t word, uint64_t key) {
     return (uint64_t)aur_reverse_bits(head) << 32 | tail;
 }
 
-/* DIGIT and OWEN; the other scramblings leave a word as it is. */
+/* Owen's nested uniform scrambling (Owen 1995): the flips of the nodes of six levels, 63 of them, are bits of
+ * one hash of the digits before these levels. */
+static inline uint64_t aur_nested_word(uint64_t word, uint64_t key) {
+    uint64_t flips = 0;
+    for (unsigned level = 0; level < 54; level += 6) {
+        const uint64_t before = level == 0 ? 0 : word >> (64 - level);
+        const uint64_t nodes = aur_hash3(key, level, before);
+        const uint64_t digits = word >> (58 - level) & 63;
+        for (unsigned b = 0; b < 6; ++b) {
+            const uint64_t node = (UINT64_C(1) << b) - 1 + (digits >> (6 - b));
+            flips |= (nodes >> node & 1u) << (63 - level - b);
+        }
+    }
+    return word ^ flips;
+}
+
+static inline bool aur_scrambles_digits(aur_scramble scramble) {
+    return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_NESTED;
+}
+
+/* DIGIT, OWEN and NESTED; the other scramblings leave a word as it is. */
 static inline uint64_t aur_scramble_word(aur_scramble scramble, uint64_t word, uint64_t key) {
     switch (scramble) {
     case AUR_SCRAMBLE_DIGIT:
         return word ^ key;
     case AUR_SCRAMBLE_OWEN:
         return aur_owen_word(word, key);
+    case AUR_SCRAMBLE_NESTED:
+        return aur_nested_word(word, key);
     default:
         return word;
     }
@@ -65,10 +88,10 @@ static inline uint64_t aur_fraction_word(uint64_t index, uint64_t count) {
     return (uint64_t)(((wide)index << 64) / count);
 }
 
-/* index / count with DIGIT and OWEN applied as in base 2. */
+/* index / count with DIGIT, OWEN and NESTED applied as in base 2. */
 static inline double aur_scrambled_fraction(aur_scramble scramble, uint64_t index, uint64_t count,
                                             uint64_t key) {
-    if (scramble != AUR_SCRAMBLE_DIGIT && scramble != AUR_SCRAMBLE_OWEN)
+    if (!aur_scrambles_digits(scramble))
         return aur_fraction(index, count);
     return aur_word_to_double(aur_scramble_word(scramble, aur_fraction_word(index, count), key));
 }

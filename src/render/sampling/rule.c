@@ -20,6 +20,8 @@ aur_result aur_gather_rule_options_name(aur_gather_rule_options *options, const 
     aur_result result = aur_map_from_name(map, &options->map, error);
     if (result == AUR_OK && scramble != NULL)
         result = aur_scramble_from_name(scramble, &options->scramble, error);
+    if (result == AUR_OK && options->scramble == AUR_SCRAMBLE_NESTED)
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "%s: patterns take 'owen', not 'nested'", integrator);
     if (result == AUR_OK && options->scramble == AUR_SCRAMBLE_ROTATE3D)
         result =
             aur_fail(error, AUR_ERROR_UNSUPPORTED,

@@ -140,6 +140,50 @@ static void nets_stay_nets(void **state) {
 }
 
 /* An aligned run of 2^m points anywhere in Sobol's sequence is a net as well. */
+/* The flips of the eight nodes of the fourth digit, over seeds: Owen's scrambling has all 256 patterns, each
+ * as often (chi squared with 255 degrees of freedom, below 350 but for one in 10^4); the hash has no more
+ * than half. Nets stay nets. */
+static void nested_flips_are_independent(void **state) {
+    (void)state;
+    enum { SEEDS = 1 << 13, NODES = 8 };
+    static const aur_scramble kinds[] = {AUR_SCRAMBLE_OWEN, AUR_SCRAMBLE_NESTED};
+    for (size_t k = 0; k < 2; ++k) {
+        unsigned counts[1 << NODES] = {0}, seen = 0;
+        for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+            /* The first point of each node: multiples of 1/8, whose fourth digit is 0 before. */
+            double *const points =
+                make_points("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                            .count = NODES,
+                                                            .dimension = 1,
+                                                            .scramble = kinds[k],
+                                                            .seed = seed});
+            unsigned pattern = 0;
+            for (size_t i = 0; i < NODES; ++i)
+                pattern |= ((unsigned)(points[i] * 2 * NODES) & 1u) << i;
+            ++counts[pattern];
+            free(points);
+        }
+        double chi = 0.0;
+        for (size_t c = 0; c < 1 << NODES; ++c) {
+            const double expected = (double)SEEDS / (1 << NODES), off = counts[c] - expected;
+            chi += off * off / expected;
+            seen += counts[c] > 0;
+        }
+        assert_true(kinds[k] == AUR_SCRAMBLE_NESTED ? seen == 256 && chi < 350.0 : seen <= 128);
+    }
+    static const char *const names[] = {"sobol", "larcher-pillichshammer"};
+    for (size_t n = 0; n < 2; ++n)
+        for (uint64_t seed = 0; seed < 10; ++seed) {
+            double *const points =
+                make_points(names[n], (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                             .count = 512,
+                                                             .scramble = AUR_SCRAMBLE_NESTED,
+                                                             .seed = seed});
+            assert_true(is_net(2, 9, points, 2, 0, 1));
+            free(points);
+        }
+}
+
 static void sobol_is_a_sequence(void **state) {
     (void)state;
     aur_pointset *const set = make_set("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options),
@@ -386,12 +430,12 @@ static void incomplete_nets_are_told(void **state) {
 
 static void names_of_scramblings_round_trip(void **state) {
     (void)state;
-    for (int s = AUR_SCRAMBLE_NONE; s <= AUR_SCRAMBLE_ROTATE3D; ++s) {
+    for (int s = AUR_SCRAMBLE_NONE; s <= AUR_SCRAMBLE_NESTED; ++s) {
         aur_scramble scramble;
         assert_int_equal(aur_scramble_from_name(aur_scramble_name((aur_scramble)s), &scramble, NULL), AUR_OK);
         assert_int_equal(scramble, s);
     }
-    assert_null(aur_scramble_name((aur_scramble)6));
+    assert_null(aur_scramble_name((aur_scramble)7));
     aur_scramble scramble;
     assert_int_equal(aur_scramble_from_name("owens", &scramble, NULL), AUR_ERROR_NAME);
 }
@@ -405,6 +449,7 @@ int main(void) {
         cmocka_unit_test(sobol_has_all_published_dimensions),
         cmocka_unit_test(sobol_repeats_are_uncorrelated),
         cmocka_unit_test(nets_stay_nets),
+        cmocka_unit_test(nested_flips_are_independent),
         cmocka_unit_test(sobol_is_a_sequence),
         cmocka_unit_test(scrambled_halton_is_stratified),
         cmocka_unit_test(discrepancies_have_their_closed_forms),

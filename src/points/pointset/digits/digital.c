@@ -33,6 +33,11 @@ static void fill_plainly(const aur_digital_run *run, size_t d, size_t count, dou
 }
 
 static void fill_run(aur_digital_run *run, double *out) {
+    if (run->scramble == AUR_SCRAMBLE_NESTED) { /* the kernels have the others */
+        for (size_t d = 0; d < run->dimension_count; ++d)
+            fill_plainly(run, d, (size_t)(run->last - run->first), out);
+        return;
+    }
     aur_digital_kernel *const kernel = AUR_KERNEL_HERE(aur_digital_run);
     const size_t count = (size_t)(run->last - run->first);
     const size_t start = run->dimension_count == 2 ? aur_output_stream_start(count, out) : SIZE_MAX;

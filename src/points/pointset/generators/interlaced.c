@@ -90,7 +90,7 @@ const aur_square_set aur_set_interlaced = {
          .best_sizes = AUR_SIZES_POWERS,
          .size_base = 2,
          .extensible = true},
-    .scramblings = AUR_SCRAMBLES_ALL,
+    .scramblings = AUR_SCRAMBLES_BINARY,
     .prepare = prepare,
     .fill = fill,
 };

@@ -41,7 +41,7 @@ const aur_square_set aur_set_larcher_pillichshammer = {
                     .best_sizes = AUR_SIZES_POWERS,
                     .size_base = 2,
                     .binary_net = true},
-    .scramblings = AUR_SCRAMBLES_ALL,
+    .scramblings = AUR_SCRAMBLES_BINARY,
     .fill = fill,
     .fill_pairs = fill_pairs,
 };

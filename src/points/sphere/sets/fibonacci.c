@@ -120,14 +120,14 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
 }
 
 const aur_native_set aur_native_fibonacci = {
-    .description = {.row = {.name = "spherical-fibonacci",
-                            .summary =
-                                "a spiral of golden angles at equal heights; the most uniform there is",
-                            .source = "Swinbank 2006, Marques 2013",
-                            AUR_ROW_KEYS(keys)},
-                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK | AUR_ON_AXES,
-                    .dimensions = {3, 3},
-                    .maximum_size = UINT64_C(1) << 50},
+    .description =
+        {.row = {.name = "spherical-fibonacci",
+                 .summary = "a spiral of golden angles at equal heights: among the most even, at any size",
+                 .source = "Swinbank 2006, Marques 2013",
+                 AUR_ROW_KEYS(keys)},
+         .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK | AUR_ON_AXES,
+         .dimensions = {3, 3},
+         .maximum_size = UINT64_C(1) << 50},
     .prepare = prepare,
     .fill = fill,
 };
