@@ -51,7 +51,7 @@ static void pictures(void) {
     require(aur_row_find_key(row, "tone") != NULL && aur_row_find_key(row, "half") == NULL, "keys of PNG");
     accept(aur_image_find_writer("-", NULL, &row, &error), &error);
     require(strcmp(row->name, "exr") == 0, "aur_image_find_writer");
-    refuse(aur_image_find_writer("calls.png", "jpg", &row, &error), AUR_ERROR_NAME, &error);
+    refuse(aur_image_find_writer("calls.png", "gif", &row, &error), AUR_ERROR_NAME, &error);
     accept(aur_image_write("calls.pfm", image, &options, &error), &error);
     refuse(aur_image_write("calls.doc", image, NULL, &error), AUR_ERROR_NAME, &error);
     refuse(aur_image_read("no such folder/calls.pfm", &other, &error), AUR_ERROR_OPEN, &error);
@@ -259,6 +259,21 @@ static void irradiances(const aur_scene *scene) {
     aur_sensors_destroy(sensors);
 }
 
+/* Four cells of one unit on the square from -1 to 1. */
+static void grids(const aur_scene *scene) {
+    aur_grid_options options = {.size = sizeof options};
+    accept(aur_grid_options_init(&options, &error), &error);
+    options.target = "-1,-1,1,1,0";
+    options.spacing = 1.0;
+    options.up[2] = 1.0;
+    aur_sensors *sensors = NULL;
+    accept(aur_sensors_grid(scene, &options, &sensors, &error), &error);
+    require(aur_sensors_get_view(sensors)->count == 4, "aur_sensors_grid");
+    aur_sensors_destroy(sensors);
+    options.spacing = 0.0;
+    refuse(aur_sensors_grid(scene, &options, &sensors, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
 /* A year of the same overcast hour, day and night. */
 static void years(const aur_scene *scene) {
     static const double position[3] = {0.0, 0.0, 5.0}, normal[3] = {0.0, 0.0, 1.0};
@@ -306,6 +321,7 @@ int main(void) {
     adaptive_renders(scene);
     radiosity_solutions(scene);
     irradiances(scene);
+    grids(scene);
     years(scene);
     aur_scene_destroy(scene);
     view_factors();
