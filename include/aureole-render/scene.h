@@ -50,6 +50,14 @@ typedef struct aur_scene_sky {
     bool alone;   /* the scene's own lights are left out */
 } aur_scene_sky;
 
+/* A measured lamp that is added to a scene: the emitter `photometric`. */
+typedef struct aur_scene_lamp {
+    const char *file;   /* IES (LM-63) or EULUMDAT */
+    double position[3]; /* of the middle of its opening */
+    double aim[3];      /* where it points (gamma 0), of any length; 0 0 0: down */
+    double turn;        /* degrees about that direction; 0: C 0 lies along +x where it points down */
+} aur_scene_lamp;
+
 /* All zero but `size`, as aur_scene_options_init fills it, takes the scene as it stands. */
 typedef struct aur_scene_options {
     size_t size; /* of the caller's struct, so that it can grow */
@@ -73,6 +81,8 @@ typedef struct aur_scene_options {
      * diffuse, where that is known; a warning counts them. Else a surface that uses one is an error. */
     bool diffuse;
     aur_scene_sky sky;
+    size_t lamp_count;
+    const aur_scene_lamp *lamps;
 } aur_scene_options;
 
 AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)

@@ -253,6 +253,8 @@ static int run(const cli_call *call) {
     load.warnings = cli_warnings(given->common.quiet);
     load.threads = given->common.threads;
     load.sky = given->sky.sky;
+    load.lamp_count = given->sky.lamp_count;
+    load.lamps = given->sky.lamps;
     load.sky.ground_albedo = given->daylight.options.ground_albedo;
     memcpy(load.sky.up, given->daylight.options.up, sizeof load.sky.up);
     memcpy(load.sky.north, given->daylight.options.north, sizeof load.sky.north);
@@ -261,7 +263,9 @@ static int run(const cli_call *call) {
     aur_sensors *sensors = NULL;
     given->stand.size = sizeof given->stand;
     given->stand.warnings = cli_warnings(given->common.quiet);
-    given->grid.size = sizeof given->grid;
+    aur_grid_options grid = {.size = sizeof grid};
+    aur_grid_options_init(&grid, NULL);
+    given->grid.size = grid.size;
     given->grid.warnings = given->stand.warnings;
     memcpy(given->grid.up, given->daylight.options.up, sizeof given->grid.up);
     aur_result result =

@@ -20,10 +20,14 @@ typedef struct cli_daylight {
 } cli_daylight;
 extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
 
-/* The sky at one time that --sky adds. */
+enum { CLI_LAMP_LIMIT = 256 };
+
+/* The sky at one time that --sky adds, and the lamps of --lamp. */
 typedef struct cli_sky {
     aur_scene_sky sky;
     bool daylight_factor;
+    size_t lamp_count;
+    aur_scene_lamp lamps[CLI_LAMP_LIMIT];
 } cli_sky;
 extern const cli_option cli_sky_options[]; /* of a cli_sky */
 /* False, with a message, where options do not go together. */

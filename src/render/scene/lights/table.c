@@ -9,6 +9,7 @@
     ROW(directionalarea)                                                                                     \
     ROW(point)                                                                                               \
     ROW(spot)                                                                                                \
+    ROW(photometric)                                                                                         \
     ROW(projector)                                                                                           \
     ROW(directional)                                                                                         \
     ROW(constant)                                                                                            \

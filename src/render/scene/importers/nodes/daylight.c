@@ -1,8 +1,9 @@
-/* Daylight that options add to a scene. */
-#include <stdlib.h>
+/* Daylight and lamps that options add to a scene. */
+#include <math.h>
 #include <string.h>
 
 #include "points/base/text.h"
+#include "points/base/vector3d.h"
 #include "render/scene/importers/nodes/node.h"
 
 typedef struct sky_form {
@@ -136,4 +137,35 @@ aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_
     aur_xml_node *const sun = add_emitter(nodes, "sun", sky, z_up);
     aur_node_property(nodes, sun, "rgb", "irradiance", "%.17g", form.direct);
     return add_place(nodes, sun, sky, true);
+}
+
+/* The lamp shines along its own -z, with C 0 along +x. */
+aur_result aur_nodes_add_lamp(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up) {
+    double z[3] = {-lamp->aim[0], -lamp->aim[1], -lamp->aim[2]}, x[3] = {1.0, 0.0, 0.0}, y[3];
+    if (!(aur_normalize3(z) > 0.0))
+        z[z_up ? 2 : 1] = 1.0;
+    if (fabs(z[0]) > 0.99) {
+        x[0] = 0.0;
+        x[z_up ? 1 : 2] = 1.0;
+    }
+    const double along = aur_dot3(x, z);
+    for (size_t i = 0; i < 3; ++i)
+        x[i] -= along * z[i];
+    aur_normalize3(x);
+    aur_cross3(z, x, y);
+    const double *const o = lamp->position, angle = lamp->turn * 3.14159265358979323846 / 180.0;
+    const double c = cos(angle), s = sin(angle);
+    double m[16] = {[15] = 1.0};
+    for (size_t i = 0; i < 3; ++i) {
+        m[4 * i] = c * x[i] + s * y[i];
+        m[4 * i + 1] = c * y[i] - s * x[i];
+        m[4 * i + 2] = z[i];
+        m[4 * i + 3] = o[i];
+    }
+    aur_xml_node *const emitter = aur_node_object(nodes, nodes->tree->root, "emitter", "photometric");
+    aur_node_property(nodes, emitter, "string", "filename", "%s", lamp->file);
+    aur_xml_node *const to_world = aur_node_add(nodes, emitter, "transform");
+    aur_node_set(nodes, to_world, "name", "to_world");
+    aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, m);
+    return nodes->result;
 }

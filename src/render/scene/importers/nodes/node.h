@@ -145,3 +145,5 @@ const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *ot
 /* Adds the sky of options->sky, and the sun, as the last children of the tree's root; `z_up`: where up is
  * when nothing says so. Errors: ARGUMENT for a model, date or place that cannot be read; MEMORY. */
 aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_up);
+/* Adds a lamp in the same place. Errors: MEMORY. */
+aur_result aur_nodes_add_lamp(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up);

@@ -408,13 +408,19 @@ static aur_result read_further(reading *shared, const char *path, const char *fu
     return read_file(shared, further, &from, shared->document->tree.root);
 }
 
-static aur_result add_sky(reading *shared, const char *path) {
+/* The sky and the lamps of the options. */
+static aur_result add_lights(reading *shared, const char *path) {
+    const aur_scene_options *const options = shared->options;
+    const bool z_up = shared->document->from_radiance;
     aur_nodes nodes = {
         .tree = &shared->document->tree,
         .variables = &shared->variables,
         .location = {.file = aur_arena_copy(&shared->document->tree.arena, path, strlen(path))},
         .error = shared->error};
-    return aur_nodes_add_sky(&nodes, &shared->options->sky, shared->document->from_radiance);
+    aur_result result = options->sky.model != NULL ? aur_nodes_add_sky(&nodes, &options->sky, z_up) : AUR_OK;
+    for (size_t i = 0; i < options->lamp_count && result == AUR_OK; ++i)
+        result = aur_nodes_add_lamp(&nodes, &options->lamps[i], z_up);
+    return result;
 }
 
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
@@ -438,8 +444,8 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
                               : read_file(&shared, path, NULL, NULL);
     for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
         result = read_further(&shared, path, options->further[i]);
-    if (result == AUR_OK && options->sky.model != NULL)
-        result = add_sky(&shared, path);
+    if (result == AUR_OK)
+        result = add_lights(&shared, path);
     if (result == AUR_OK)
         result = aur_xml_settle_ids(document, error);
     if (result == AUR_OK)

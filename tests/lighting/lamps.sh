@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Measured lamps by option and in XML against intensity times cosine over the squared distance.
+set -u
+aureole=$1
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+refused() {
+  local text=$1 said
+  shift
+  said=$("$aureole" "$@" 2>&1 >/dev/null)
+  [ $? = 2 ] || fail "$*: status is not 2: $said"
+  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
+}
+# 1000 cd straight down, 0 at 90 degrees, linear; in the plane of 90 degrees half of it.
+printf 'IESNA:LM-63-1995\nTILT=NONE\n1 1000 100 2 2 1 2 0 0 0 1 1 9\n0 90\n0 90\n10 0\n5 0\n' >lamp.ies
+printf 'void plastic black 0 0 5 0 0 0 0 0\nblack sphere far 0 0 4 0 0 -900 1\n' >open.rad
+printf '0 0 0 0 0 1\n1 0 1 0 0 1\n0 1 1 0 0 1\n1 0 1 0 0 -1\n' >points.pts
+near() { # FILE VALUES...
+  local file=$1
+  shift
+  awk -F, -v all="$*" 'BEGIN { n = split(all, v, " ") } NR > 1 { d = $4 - v[NR - 1]; if (d < 0) d = -d
+    if (!(d <= 4 * $5 + 2e-6 * v[NR - 1] + 1e-9)) { print $4 ", not " v[NR - 1]; bad = 1 } } END { exit bad || NR != n + 1 }' "$file" || fail "$file"
+}
+run() { "$aureole" irradiance -q open.rad --illuminance radiance -n 64 "$@" || fail "$*"; }
+# At 2 m below, and at 1 m below and beside: half of the intensity at 45 degrees, over 2, times cos 45.
+side=$(awk 'BEGIN { print 500 / 2 * sqrt(.5) }') half=$(awk 'BEGIN { print 250 / 2 * sqrt(.5) }')
+run --sensors points.pts --lamp lamp.ies@0,0,2 -o down.csv
+near down.csv 250 $side $half 0
+run --sensors points.pts --lamp lamp.ies@0,0,2,0,0,-3,90 -o turned.csv
+near turned.csv 250 $half $side 0
+run --sensors points.pts --lamp lamp.ies@0,0,2 --lamp lamp.ies@0,0,2,0,0,-1 -o two.csv
+near two.csv 500 $(awk "BEGIN { print 2 * $side, 2 * $half }") 0
+printf '<scene version="3.0.0"><emitter type="photometric"><string name="filename" value="lamp.ies"/><transform name="to_world"><translate z="2"/></transform></emitter></scene>' >lamp.xml
+"$aureole" irradiance -q open.rad lamp.xml --illuminance radiance -n 64 --sensors points.pts | cmp - down.csv || fail "XML"
+sed 's|</emitter>|<float name="scale" value="0.5"/></emitter>|' lamp.xml >dimmed.xml
+"$aureole" irradiance -q open.rad dimmed.xml --illuminance radiance -n 64 --sensors points.pts -o dimmed.csv
+near dimmed.csv 125 $(awk "BEGIN { print $side / 2, $half / 2 }") 0
+# Even light of 1 cd from 2 x 1 m, 1 m above: the mean of h^2 / r^4 times h over the opening; and its flux on a sphere of sensors.
+printf 'TILT=NONE\n1 1000 1 2 1 1 2 1 2 0 1 1 9\n0 180\n0\n1 1\n' >panel.ies
+printf '0 0 0 0 0 1\n' >one.pts
+"$aureole" irradiance -q open.rad --illuminance radiance -n 65536 --sensors one.pts --lamp panel.ies@0,0,1 -o panel.csv
+near panel.csv $(awk 'BEGIN { n = 400; for (i = 0; i < n; ++i) for (j = 0; j < n; ++j) { x = 2 * (i + .5) / n - 1; y = (j + .5) / n - .5
+  s += 1 / (1 + x * x + y * y) ^ 1.5 } print s / n / n }')
+# The lumens of a file arrive: 4 pi on a sphere about it, .1 %, whatever its opening.
+awk 'BEGIN { n = 4000; for (i = 0; i < n; ++i) { z = 1 - (2 * i + 1) / n; a = 2.399963229728653 * i; r = sqrt(1 - z * z)
+  printf "%.9g %.9g %.9g %.9g %.9g %.9g\n", 9 * r * cos(a), 9 * r * sin(a), 9 * z, -r * cos(a), -r * sin(a), -z } }' >sphere.pts
+for file in panel lamp; do
+  run --sensors sphere.pts --lamp $file.ies@0,0,0 -o sphere.csv
+  # of `lamp`: the planes' mean is 750 (1 - 2 g / pi), whose integral is 2 pi 750 (1 - 2 / pi)
+  awk -F, -v name=$file 'NR > 1 { s += $4 } END { pi = atan2(0, -1); flux = s / (NR - 1) * 4 * pi * 81
+    want = name == "panel" ? 4 * pi : 2 * pi * 750 * (1 - 2 / pi); d = flux / want - 1; if (d < 0) d = -d
+    if (d > .001) { print name ": " flux " lm, not " want; exit 1 } }' sphere.csv || fail "the flux of $file.ies"
+done
+# Particles and other estimators see the same light.
+"$aureole" irradiance -q open.rad --illuminance radiance -n 64 --sensors points.pts --lamp lamp.ies@0,0,2 --reflected map --particles 1000 -o map.csv &&
+  near map.csv 250 $side $half 0
+
+refused "must be a file and its place" irradiance open.rad --sensors one.pts --lamp lamp.ies
+refused "must be a file and its place" irradiance open.rad --sensors one.pts --lamp lamp.ies@1,2
+refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3
+refused "points.pts" irradiance open.rad --sensors one.pts --lamp points.pts@1,2,3
+refused "it needs the string 'filename'" irradiance open.rad lamp.xml <(printf '<scene version="3.0.0"><emitter type="photometric"/></scene>') --sensors one.pts
+exit $((failures > 0))
