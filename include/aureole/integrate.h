@@ -63,7 +63,7 @@ typedef struct aur_integrate_options {
      * the components of one: the target is relative to the largest of them. */
     bool separate;
     bool mean; /* the value is divided by the measure of the domain */
-    /* Points of a randomisation on the first level. 0: as many as give 4096 evaluations, and no result below
+    /* Points of a randomisation on the first level. 0: as many as give 2048 evaluations, and no result below
      * 8192. Otherwise the caller vouches that this many see the function. */
     size_t first;
     size_t peak_count;
@@ -90,7 +90,7 @@ typedef enum aur_integrate_reason {
 /* Reasons not to trust an interval: bits of aur_integral.doubts. */
 typedef enum aur_integrate_doubt {
     AUR_INTEGRATE_ALL_EQUAL = 1, /* all values are equal: the interval is infinite */
-    AUR_INTEGRATE_SPARSE = 2,    /* fewer than 32 values differ from the most frequent one */
+    AUR_INTEGRATE_SPARSE = 2,    /* fewer than 64 values differ from the most frequent one */
     AUR_INTEGRATE_DOMINATED = 4, /* one point has more than half of the sum of magnitudes */
     AUR_INTEGRATE_HEAVY_TAIL = 8 /* the largest values fall as slowly as those of infinite variance do */
 } aur_integrate_doubt;
@@ -115,7 +115,8 @@ typedef struct aur_integral {
  * weights. Both are without bias at a fixed level. Points double until the error is below the target;
  * nothing is evaluated twice.
  *
- * The interval is Student's over the replicates, and never below what one more point in one replicate could
+ * The interval is Student's over the replicates, whose variance is pooled with what earlier levels let expect
+ * where replicates agree by chance, and never below what one more point in one replicate could
  * do: by the largest lasting gap between values, and by the largest value where the tail is heavy. At least
  * two levels are compared, and a level with a doubt is not the last. A function of one value alone ends the
  * work after 65536 evaluations.

@@ -88,7 +88,9 @@ static aur_result run(lab_run *run, aur_error *error) {
     const size_t tolerances = lab_run_options(run)->quick ? 1 : 2;
     for (size_t k = 0; k < tolerances; ++k)
         for (size_t f = 0; f < lab_family_count() && result == AUR_OK; ++f)
-            result = study(run, lab_family_at(f), lab_family_at(f)->tolerance * (k == 0 ? 1.0 : 0.1), error);
+            if (lab_wants(run, lab_family_at(f)->name))
+                result =
+                    study(run, lab_family_at(f), lab_family_at(f)->tolerance * (k == 0 ? 1.0 : 0.1), error);
     return result;
 }
 
@@ -97,6 +99,7 @@ const lab_experiment lab_integrate_coverage = {
     .reproduces = "docs/choosing.md",
     .summary =
         "how often intervals of integrals to a tolerance hold, and how often a wrong one has no warning",
+    .rows = "function",
     .columns = columns,
     .takes_no_set = "it judges aur_integrate, which has its own points",
     .seconds = 1300,

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Values that must differ from the most frequent one: of 32 rare ones the count is uncertain by a third. */
-enum { SPARSE = 32, BUCKETS = 4096 };
+/* Values that must differ from the most frequent one: the count of 64 rare ones is uncertain by a quarter. */
+enum { SPARSE = 64, BUCKETS = 4096 };
 
 /* A tail whose largest value is smaller, relative to the mean magnitude, does not move a mean. */
 static const double NEGLIGIBLE = 0.01;

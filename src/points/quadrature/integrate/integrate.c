@@ -427,7 +427,7 @@ static void warn(const integration *work) {
     static const char *const words[] = {
         "all values of the function are equal: features smaller than a share of %.2g of the domain may not "
         "have been seen (peaks with points of their own and more evaluations help)",
-        "fewer than 32 values of the function differ from the others: the error may be larger (resolution: a "
+        "fewer than 64 values of the function differ from the others: the error may be larger (resolution: a "
         "share of %.2g of the domain)",
         "one point has more than half of the sum of the values: the error may be larger (resolution: a share "
         "of %.2g of the domain)",
