@@ -81,6 +81,20 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
     return result;
 }
 
+/* Targets and variances of the pixels. Returns what comes after them. */
+static const uint64_t *take_pixels(aur_candidate *candidate, const uint64_t *word) {
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        candidate->targets[i] = (uint32_t)*word++;
+        candidate->earlier[i] = (uint32_t)*word++;
+        candidate->variances[i] = aur_double_of_word(*word++);
+    }
+    for (size_t i = 0; i < candidate->replicas.pixel_count; ++i) {
+        candidate->pixels[i].variance = aur_double_of_word(*word++);
+        candidate->pixels[i].spread = aur_double_of_word(*word++);
+    }
+    return word;
+}
+
 static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_checkpoint *kept,
                             aur_error *error) {
     double numbers[NUMBERS];
@@ -123,15 +137,7 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         adaptive->race.order[i] = *word++;
         adaptive->race.entries[i].need = aur_double_of_word(*word++);
     }
-    for (size_t i = 0; i < adaptive->candidate.value_count; ++i) {
-        adaptive->candidate.targets[i] = (uint32_t)*word++;
-        adaptive->candidate.earlier[i] = (uint32_t)*word++;
-        adaptive->candidate.variances[i] = aur_double_of_word(*word++);
-    }
-    for (size_t i = 0; i < adaptive->candidate.replicas.pixel_count; ++i) {
-        adaptive->candidate.pixels[i].variance = aur_double_of_word(*word++);
-        adaptive->candidate.pixels[i].spread = aur_double_of_word(*word++);
-    }
+    word = take_pixels(&adaptive->candidate, word);
     for (size_t r = 0; r < adaptive->candidate.replicas.count && result == AUR_OK;
          ++r, word += AUR_SPENT_WORDS) {
         aur_render_take_spent(adaptive->candidate.replicas.renders[r], word);
