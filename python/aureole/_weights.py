@@ -153,7 +153,8 @@ def weights(
         that integrate polynomials to a degree without error; "voronoi": the areas of Voronoi cells.
     domain : "sphere", "hemisphere" or "axes", whose weights are for even functions; None: what the array is known to be
         of (see `measure`).
-    lobe : as for `points`.
+    lobe : as for `points`; but a GGX lobe is here what the surface reflects, D G2 cos above the horizon normalised to 1,
+        not the density of visible normals that points follow. Points below the horizon have weight 0.
     cap : degrees; not 0: the points are on the cap of that polar angle. Not for optimal weights.
     smoothness, regularization, sum_constraint : of optimal weights.
     degree, near, negative : of exact weights: see `weights_exact`.
@@ -291,7 +292,8 @@ def rule(
     """Directions (n, 3) with their weights (n,) in one call, for integrals against the lobe normalised to 1.
 
     Parameters as for `points` and `weights`. `optimal`: optimal weights; else equal ones, or p/q where points do not
-    follow the lobe itself.
+    follow the lobe itself. A GGX lobe is the density of visible normals, whose mass below the horizon has weight 0 so
+    that the weights add up to less than 1; with `optimal` it is D G2 cos normalised to 1, as for `weights`.
 
     >>> xyz, w = rule("spherical-fibonacci", 64, lobe="cosine")
     >>> round(float(w @ xyz[:, 2]), 3)  # the mean of cos theta against cos theta/pi is 2/3

@@ -54,6 +54,13 @@ while IFS= read -r line; do
 done < sets.csv
 [ $seen -gt $((${#formats[@]} * 70)) ] || fail "only $seen combinations were run"
 
+# Directions of a GGX lobe below the horizon are counted; other lobes have none.
+"$aureole" points sobol -n 1024 --lobe ggx:0.4:30 -o glossy.csv 2>glossy.txt || fail "ggx: $(cat glossy.txt)"
+below=$(awk -F, 'NR > 1 && $3 < 0' glossy.csv | wc -l)
+{ [ "$below" -gt 100 ] && grep -q "warning: $below of 1024 points lie below the horizon" glossy.txt; } || fail "$below below: $(cat glossy.txt)"
+"$aureole" points sobol -n 1024 --lobe cosine -o glossy.csv 2>glossy.txt || fail "cosine"
+[ -s glossy.txt ] && fail "cosine: $(cat glossy.txt)"
+
 # Numbers as they are wanted: no header, fewer digits, 32-bit floats, which stay below 1 on the square.
 "$aureole" points sobol --size 64 --no-header --digits 3 -o bare.csv || fail "--no-header --digits"
 [ "$(sed -n 4p bare.csv)" = 0.75,0.25 ] && [ "$(wc -l <bare.csv)" = 64 ] && grep -q '^0.0156,' bare.csv || fail "bare.csv: $(head -4 bare.csv)"

@@ -169,6 +169,23 @@ static int write_points(const char *set, points_command *wanted, const aur_point
     return cli_status(result, &error);
 }
 
+/* A GGX lobe's visible normals reflect some directions below the horizon. */
+static void warn_below(const points_command *wanted, const aur_points_view *view) {
+    const aur_warnings warnings = wanted->from.options.warnings;
+    if (wanted->from.options.lobe.kind != AUR_LOBE_GGX || view->domain != AUR_DOMAIN_HEMISPHERE ||
+        warnings.function == NULL)
+        return;
+    size_t below = 0;
+    for (size_t i = 0; i < view->count; ++i)
+        below += view->coordinates[3 * i + 2] < 0.0;
+    char text[160];
+    snprintf(text, sizeof text,
+             "%zu of %zu points lie below the horizon, where reflection is 0: integrals count them as 0",
+             below, view->count);
+    if (below > 0)
+        warnings.function(warnings.user, text);
+}
+
 static int run(const cli_call *call) {
     points_command *const wanted = call->options;
     const char *const set = call->operands[0];
@@ -184,6 +201,7 @@ static int run(const cli_call *call) {
     if (aur_points_generate(set, &wanted->points, &points, &error) != AUR_OK)
         return cli_fail(&error);
     aur_points_view view = *aur_points_get_view(points);
+    warn_below(wanted, &view);
     double *warped = NULL;
     int status = wanted->warp != NULL ? warp(wanted->warp, &view, &warped) : CLI_SUCCESS;
     if (status == CLI_SUCCESS && wanted->warp == NULL)
