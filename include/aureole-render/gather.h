@@ -37,7 +37,12 @@ typedef enum aur_gather_direct { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_N
 /* What gather rays bring: light by photons and from emitters, or from emitters only. */
 typedef enum aur_gather_incident { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS } aur_gather_incident;
 /* Whether paths correct what the photon map is wrong by; or the image has that correction alone. */
-typedef enum aur_gather_debias { AUR_DEBIAS_NONE, AUR_DEBIAS_ALL, AUR_DEBIAS_ONLY } aur_gather_debias;
+typedef enum aur_gather_debias {
+    AUR_DEBIAS_NONE,
+    AUR_DEBIAS_ALL,
+    AUR_DEBIAS_ONLY,
+    AUR_DEBIAS_FOUND /* the correction alone, without light of the map that paths cannot find */
+} aur_gather_debias;
 /* How the rotations of neighbouring pixels differ: dithered over blocks of 4 x 4, at random, not at all. */
 typedef enum aur_gather_decorrelation {
     AUR_DECORRELATION_BLUE,

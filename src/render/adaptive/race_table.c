@@ -57,7 +57,7 @@ char *aur_race_integrator(size_t row, const char *path, size_t photons, uint64_t
 }
 
 char *aur_race_correction(size_t row, const char *path, size_t photons) {
-    return row == AUR_RACE_PATH ? NULL : compose(row, path, photons, ",debias=only,continued=1");
+    return row == AUR_RACE_PATH ? NULL : compose(row, path, photons, ",debias=found,continued=1");
 }
 
 double aur_photon_work(size_t photons) {

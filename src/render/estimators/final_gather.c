@@ -35,9 +35,11 @@ static const aur_key keys[] = {
                         "photons of a map of caustics alone; 0 leaves them in the one map")},
     {AUR_KEY_OF_REAL(aur_gather_settings, "photons_per_texel", photons_per_texel, 1.0, 1e6, "16",
                      "photons that a texel of irradiance is the mean of")},
-    {AUR_KEY_OF_CHOICE(aur_gather_settings, "debias", debias, "false",
-                       "paths correct the bias of the photon map; only: the image is that correction alone",
-                       "false", "true", "only")},
+    {AUR_KEY_OF_CHOICE(
+        aur_gather_settings, "debias", debias, "false",
+        "paths correct the bias of the photon map; only: the image is that correction alone; found: "
+        "without light that paths cannot find, of a point or a sun over mirrors",
+        "false", "true", "only", "found")},
     {AUR_KEY_OF_REAL(aur_gather_settings, "continued", continued, 0.0, 1.0, "0.25",
                      "of debias: the share of gather rays that go on as paths"),
      .minimum_open = true},

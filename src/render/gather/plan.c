@@ -109,12 +109,15 @@ static aur_result find_map(const aur_gather_settings *p, const aur_integrator_co
 static aur_result find_maps(const aur_gather_settings *p, const aur_integrator_context *context,
                             aur_gather_light *light, aur_error *error) {
     const bool apart = p->caustic_photons > 0;
+    const bool leaves_out = p->debias == AUR_DEBIAS_FOUND && aur_scene_has_hidden_light(context->scene);
     const uint64_t own_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
     aur_photon_options photons = {.count = p->photons,
                                   /* What the eye sees at one gather ray's end is two edges on; caustics are
                                    * seen without a gather ray. */
                                   .max_edges = p->max_depth == UINT32_MAX ? SIZE_MAX : p->max_depth - 2,
-                                  .kind = apart ? AUR_PHOTONS_OTHER : AUR_PHOTONS_ALL,
+                                  .kind = apart        ? AUR_PHOTONS_OTHER
+                                          : leaves_out ? AUR_PHOTONS_FOUND
+                                                       : AUR_PHOTONS_ALL,
                                   .seed = p->photon_seed > 0 ? own_seed : context->seed,
                                   .threads = context->threads,
                                   .progress = context->progress,
@@ -195,7 +198,7 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_settings *p,
                            .max_depth = policy->max_depth,
                            .share = p->debias != AUR_DEBIAS_NONE ? (float)p->continued : 0.0f,
                            .reach = (float)p->short_rays,
-                           .single = p->debias == AUR_DEBIAS_ONLY,
+                           .single = p->debias == AUR_DEBIAS_ONLY || p->debias == AUR_DEBIAS_FOUND,
                            .packets = policy->packets};
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));

@@ -69,7 +69,7 @@ aur_result aur_gather_settings_complete(aur_gather_settings *o, aur_error *error
         o->density = o->weights == AUR_WEIGHTS_EQUAL ? AUR_GATHER_DENSITY_SAME : AUR_GATHER_DENSITY_OPTIMAL;
     if (o->regularization < 0.0) /* as published for the published method */
         o->regularization = o->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
-    if (o->debias == AUR_DEBIAS_ONLY)
+    if (o->debias == AUR_DEBIAS_ONLY || o->debias == AUR_DEBIAS_FOUND)
         o->direct = AUR_DIRECT_NONE;
     const unsigned asked = asked_of(o);
     for (size_t i = 0; i < sizeof exclusions / sizeof exclusions[0]; ++i)

@@ -59,14 +59,14 @@ static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_samp
 
 enum { PAIR_LIGHT = 0, PAIR_POSITION = 1, PAIR_DIRECTION = 2, PAIR_BOUNCE = 3, PAIRS_A_BOUNCE = 2 };
 
-static bool emit(const batch *work, const aur_stream *stream, aur_ray *ray, aur_vector *power) {
+static bool emit(const batch *work, const aur_stream *stream, aur_ray *ray, aur_vector *power, bool *hidden) {
     float light[2], position[2], direction[2];
     aur_stream_pair(stream, PAIR_LIGHT, light);
     aur_stream_pair(stream, PAIR_POSITION, position);
     aur_stream_pair(stream, PAIR_DIRECTION, direction);
     return aur_light_emit(work->scene,
                           (const float[5]){light[0], position[0], position[1], direction[0], direction[1]},
-                          ray, power);
+                          ray, power, hidden);
 }
 
 /* A photon that arrives from `in`, seen by `parts` of the material; false: no memory. */
@@ -90,11 +90,13 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
                                (uint32_t)(path % work->paths_a_set)};
     aur_ray ray;
     aur_vector power;
-    if (!emit(work, &stream, &ray, &power))
+    bool hidden;
+    if (!emit(work, &stream, &ray, &power, &hidden))
         return true;
     const bool unlimited = work->options->max_edges > LONGEST_PATH;
     const size_t limit = unlimited ? LONGEST_PATH : work->options->max_edges;
     const aur_photon_kind kind = work->options->kind;
+    const bool is_whole = kind == AUR_PHOTONS_ALL || kind == AUR_PHOTONS_FOUND;
     bool specular_so_far = true;
     for (size_t edge = 1; edge <= limit && (specular_so_far || kind != AUR_PHOTONS_CAUSTIC); ++edge) {
         aur_hit hit;
@@ -108,7 +110,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         const unsigned parts = aur_bsdf_scatters(surface.bsdf, shading.view.z) &
                                (unsigned)(AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY);
         const bool is_caustic = specular_so_far && edge > 1;
-        if (parts != 0 && (kind == AUR_PHOTONS_ALL || is_caustic == (kind == AUR_PHOTONS_CAUSTIC)) &&
+        if (parts != 0 && (is_whole || is_caustic == (kind == AUR_PHOTONS_CAUSTIC)) &&
             !arrive(work, &hit, &surface, in, power, parts, chunk))
             return false;
         const uint32_t pair = PAIR_BOUNCE + PAIRS_A_BOUNCE * (uint32_t)(edge - 1);
@@ -119,6 +121,10 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         if (!aur_shading_sample(&shading, (const float[3]){lobe[0], towards[0], towards[1]}, &sample))
             return true;
         specular_so_far = specular_so_far && sample.specular;
+        /* Panes leave the direction as it is: shadow rays pass them. */
+        const bool bent = aur_vector_dot(sample.light, ray.direction) < 1.0f - 1e-6f;
+        if (kind == AUR_PHOTONS_FOUND && hidden && specular_so_far && bent)
+            return true;
         const aur_vector weight = adjoint_weight(&shading, &sample, in);
         const float survival =
             fminf(1.0f, aur_vector_max(aur_vector_multiply(power, weight)) / aur_vector_max(power));
@@ -208,7 +214,8 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
     const uint64_t before = aur_rays_traced;
     size_t capacity = 0;
     while (map->count < options->count) {
-        if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)
+        const bool may_be_none = options->kind == AUR_PHOTONS_CAUSTIC || options->kind == AUR_PHOTONS_FOUND;
+        if (map->paths >= most && may_be_none)
             break;
         if (map->paths >= most)
             return aur_fail(

@@ -24,8 +24,14 @@ typedef struct aur_photon_map {
     uint64_t cut; /* particles whose path was cut because it was too long to follow */
 } aur_photon_map;
 
-/* Caustic photons came from the light by specular bounces alone, one at least. */
-typedef enum aur_photon_kind { AUR_PHOTONS_ALL, AUR_PHOTONS_CAUSTIC, AUR_PHOTONS_OTHER } aur_photon_kind;
+/* Caustic photons came from the light by specular bounces alone, one at least. Found are those of light that
+ * path tracing finds too: without what a point or a single direction sends over mirrors or lenses first. */
+typedef enum aur_photon_kind {
+    AUR_PHOTONS_ALL,
+    AUR_PHOTONS_CAUSTIC,
+    AUR_PHOTONS_OTHER,
+    AUR_PHOTONS_FOUND
+} aur_photon_kind;
 
 typedef struct aur_photon_options {
     size_t count; /* photons to store, at least; whole batches of paths are traced until there are so many */
@@ -38,8 +44,8 @@ typedef struct aur_photon_options {
     aur_warnings warnings; /* particles whose path was cut */
 } aur_photon_options;
 
-/* Caustic photons may be none: then the map is empty. Errors: UNSUPPORTED when the scene has no light or
- * (nearly) no particle meets a surface. */
+/* Caustic photons, and those that are found, may be none: then the map is empty. Errors: UNSUPPORTED when the
+ * scene has no light or (nearly) no particle meets a surface. */
 aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
                                  const aur_photon_options *options, aur_photon_map *map, aur_error *error);
 /* Warns of particles whose path was cut, of all that left the lights, as the function above does. */

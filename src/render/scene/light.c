@@ -49,7 +49,19 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
     return aur_emitter_glows(emitter) ? aur_color_at(&emitter->radiance, surface->texture) : (aur_vector){0};
 }
 
-bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power) {
+/* No ray meets it: a point, or a single direction. */
+static bool is_hidden(const aur_emitter *emitter) {
+    return !aur_emitter_glows(emitter) && emitter->descriptor->radiance_from == NULL;
+}
+
+bool aur_scene_has_hidden_light(const aur_scene *scene) {
+    for (size_t i = 0; i < scene->emitter_count; ++i)
+        if (is_hidden(scene->emitters[i]))
+            return true;
+    return false;
+}
+
+bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power, bool *hidden) {
     float rest[5] = {u[0], u[1], u[2], u[3], u[4]};
     if (!(scene->lights.total > 0.0))
         return false;
@@ -59,6 +71,7 @@ bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_
         return false;
     const float probability = (float)aur_distribution_probability(&scene->lights, chosen);
     *power = aur_vector_scale(*power, 1.0f / probability);
+    *hidden = is_hidden(emitter);
     return true;
 }
 

@@ -186,8 +186,11 @@ aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, f
 
 /* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
  * distributed direction. *power is the light's power: each of n particles carries 1/n of it, in watts (RGB).
- * False when the scene has no light. */
-bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power);
+ * `hidden`: no ray meets the light, which is a point or a single direction. False when the scene has no
+ * light. */
+bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power, bool *hidden);
+/* Whether there is such a light. */
+bool aur_scene_has_hidden_light(const aur_scene *scene);
 
 AUR_INTERNAL size_t aur_scene_emitter_count(const aur_scene *scene);
 

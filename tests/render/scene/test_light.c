@@ -410,7 +410,7 @@ static void particles_of_every_light(void **state) {
             const float u[5] = {unit(1, k), unit(2, k), unit(3, k), unit(4, k), unit(5, k)};
             aur_ray ray;
             aur_vector power;
-            if (!aur_light_emit(scene, u, &ray, &power))
+            if (!aur_light_emit(scene, u, &ray, &power, &(bool){false}))
                 continue;
             assert_near(aur_vector_length(ray.direction), 1.0, 1e-5);
             sum += (double)power.x;
@@ -435,7 +435,7 @@ static void particles_carry_the_power(void **state) {
         const float u[5] = {((float)i + 0.5f) / COUNT, unit(1, i), unit(2, i), unit(3, i), unit(4, i)};
         aur_ray ray;
         aur_vector power;
-        assert_true(aur_light_emit(scene, u, &ray, &power));
+        assert_true(aur_light_emit(scene, u, &ray, &power, &(bool){false}));
         sum += (double)power.x;
         if (ray.origin.z > 3.5f)
             along += (double)-ray.direction.z; /* the rectangle faces down: mean cosine 2/3 */

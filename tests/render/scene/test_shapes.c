@@ -453,7 +453,7 @@ static void bears_degenerate_triangles(void **state) {
             assert_true(isfinite(sample.pdf) && sample.pdf > 0.0f && aur_vector_is_finite(sample.direction));
         aur_ray ray;
         aur_vector power;
-        assert_true(aur_light_emit(scene, u, &ray, &power));
+        assert_true(aur_light_emit(scene, u, &ray, &power, &(bool){false}));
         assert_true(aur_vector_is_finite(ray.direction) && aur_vector_is_finite(power));
     }
     aur_scene_destroy(scene);

@@ -179,6 +179,42 @@ static void correction_is_the_difference(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* A spot that shines at a mirror lights the ceiling, which paths do not find. */
+#define SPOT                                                                                                 \
+    "<shape type='rectangle'><transform name='to_world'><scale value='0.5'/><rotate x='1' angle='-90'/>"     \
+    "<translate y='-0.98'/></transform><bsdf type='conductor'/></shape><emitter type='spot'><rgb "           \
+    "name='intensity' value='40'/><float name='cutoff_angle' value='10'/><transform name='to_world'>"        \
+    "<lookat origin='0, 0.5, 0' target='0, -1, 0' up='1, 0, 0'/></transform></emitter>"
+
+static double mean_of_correction(const aur_scene *scene, const char *integrator) {
+    static double means[SEEDS][BLOCKS];
+    double sum = 0.0;
+    render_seeds(scene, integrator, 4, 1, means);
+    for (size_t s = 0; s < SEEDS; ++s)
+        for (size_t b = 0; b < BLOCKS; ++b)
+            sum += means[s][b] / (SEEDS * BLOCKS);
+    return sum;
+}
+
+/* A correction that counts such light as bias is negative, and many times as large as the bias of the map.
+ * Where there is no other light nothing is left to correct. */
+static void leaves_out_what_paths_cannot_find(void **state) {
+    (void)state;
+    aur_scene *scene = must_load_body(ROOM SPOT);
+    const double only =
+        mean_of_correction(scene, "finalgather:photons=4000,debias=only,continued=1,short_rays=0");
+    const double found =
+        mean_of_correction(scene, "finalgather:photons=4000,debias=found,continued=1,short_rays=0");
+    print_message("only %g, found %g\n", only, found);
+    assert_true(only < 0.0 && fabs(found) < 0.1 * fabs(only));
+    aur_scene_destroy(scene);
+    scene = must_load_body("<shape type='cube'>" MATTE("0.7") "</shape>" SPOT);
+    const double none =
+        mean_of_correction(scene, "finalgather:photons=4000,debias=found,continued=1,short_rays=0");
+    assert_true(none == 0.0);
+    aur_scene_destroy(scene);
+}
+
 static void refuses_other_bias(void **state) {
     (void)state;
     static const char *const keys[] = {"share=true", "adaptive=true", "caustic_photons=9"};
@@ -262,8 +298,11 @@ static void idle_keys_are_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(agrees_with_paths),  cmocka_unit_test(correction_is_the_difference),
-        cmocka_unit_test(refuses_other_bias), cmocka_unit_test(photons_may_have_a_seed_of_their_own),
+        cmocka_unit_test(agrees_with_paths),
+        cmocka_unit_test(correction_is_the_difference),
+        cmocka_unit_test(leaves_out_what_paths_cannot_find),
+        cmocka_unit_test(refuses_other_bias),
+        cmocka_unit_test(photons_may_have_a_seed_of_their_own),
         cmocka_unit_test(idle_keys_are_told),
     };
     return cmocka_run_group_tests_name("transport/debias", tests, enter_folder, leave_folder);
