@@ -15,6 +15,6 @@ run() {
 mkdir -p out
 mapfile -t meshes < <(grep -oh 'generated/[^"]*' scenes/room/*.xml | sort -u | sed 's|generated/||')
 run scripts/scenes.sh "${meshes[@]}"
-run build/release/aureole render scenes/room/room.xml --width 960 --error 10% -o out/room.exr
+run build/release/aureole render scenes/room/room.xml --width 960 --error 10% --error-measure mean -o out/room.exr
 run build/release/aureole convert out/room.exr out/room.png --exposure 0.9 --tone filmic
 echo "the picture is out/room.png, and out/room.exr in full range"

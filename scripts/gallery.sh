@@ -47,7 +47,7 @@ new_section() {
   local name=$1 scene=$2 options=$3 exposure=$4 tone=$5 title=$6 triangles size error
   triangles=$("$aureole" info "scenes/$scene" -q | awk '$1 == "triangles" { print $2 }')
   size=$("$aureole" info "$out/$name.exr" | awk '$1 == "EXR" { print $2 " x " $3; exit }')
-  error=$(sed -n 's/.* has an error of \(.*\) % of its mean, between \(.*\) and \(.*\) (95 %).*/\1 % (\2 to \3)/p' "$said")
+  error=$(sed -n 's/.* has an error of \(.*\) % of its mean (mean), between \(.*\) and \(.*\) (95 %).*/\1 % (\2 to \3)/p' "$said")
   printf '## %s\n\n[![%s](gallery/%s.jpg)](gallery/%s.jpg)\n\n' "$title" "$title" "$name" "$name"
   printf '    aureole render scenes/%s %s -o %s.exr\n' "$scene" "$options" "$name"
   printf '    aureole convert %s.exr %s.jpg --exposure %s --tone %s\n\n' "$name" "$name" "$exposure" "$tone"

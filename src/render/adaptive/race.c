@@ -178,6 +178,15 @@ static bool is_measured(const aur_race_entry *entry, size_t blocks) {
     return !entry->out && entry->blocks >= blocks && blocks > 0;
 }
 
+/* Of a whole pattern in each pixel and replica, and the smallest maps. */
+static double least_work(const aur_race *race, size_t row) {
+    static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0};
+    const aur_race_entry *const entry = &race->entries[row];
+    const double map = row != AUR_RACE_PATH ? aur_race_least_map(race->replica_count) : 0.0;
+    const double pixels = (double)(race->width * race->height * race->replica_count);
+    return entry->rays / entry->samples * patterns[row] * pixels + map;
+}
+
 /* The work to the target where samples are spent in proportion to roots of variances (Neyman 1934), and that
  * of the photons of gathers. Without a target the error does not matter, for candidates are compared alone.
  */
@@ -185,10 +194,10 @@ static double work_of(const aur_race *race, size_t row, double mean_root) {
     const double error = race->error > 0.0 ? race->error : 1.0;
     const double work = mean_root * mean_root / (3.0 * error * error) * price(&race->entries[row], row) *
                         (double)(race->width * race->height);
-    if (row == AUR_RACE_PATH)
+    if (!(race->error > 0.0))
         return work;
-    return work +
-           fmax(AUR_RACE_MAP_PART * work, race->error > 0.0 ? aur_race_least_map(race->replica_count) : 0.0);
+    const double map = fmax(AUR_RACE_MAP_PART * work, aur_race_least_map(race->replica_count));
+    return fmax(work + (row != AUR_RACE_PATH ? map : 0.0), least_work(race, row));
 }
 
 static aur_result allocate(race_scores *scores, size_t blocks, aur_error *error) {
@@ -298,9 +307,9 @@ static aur_result run_others(aur_race *race, const size_t *order, size_t blocks,
     double work = spent_work(race);
     for (size_t k = 0; k < 3; ++k)
         work += first_rung(race, others[k], blocks);
-    /* Where photons cost most, path tracing may need less than they do. */
+    /* Where a first pattern and its photons are most of the work, path tracing may need less than they do. */
     const bool races = work <= most;
-    const bool path = races || most < PART * 2.0 * aur_race_least_map(race->replica_count);
+    const bool path = races || 2.0 * least_work(race, AUR_RACE_MIDDLE) > race->entries[AUR_RACE_MIDDLE].need;
     aur_result result = AUR_OK;
     for (size_t k = 0; k < 3 && result == AUR_OK; ++k) {
         if (races || (path && others[k] == AUR_RACE_PATH))

@@ -52,12 +52,12 @@ for rounds in range(1, 15):
     printed = subprocess.run([aureole, "render", scene, "--width", "64", "-q", "-o", "round.exr", "--json", "--rounds", str(rounds)],
                              capture_output=True, check=True).stdout
     it = json.loads(printed)[0]
-    of_rounds["%.4g" % it["samples_per_pixel"]] = "%.3g" % (100 * it["error"])
-pairs = [re.match(r"after (\S+) samples a pixel the error was (\S+) %", state["known"]) for state in states if state["known"]]
+    of_rounds["%.4g" % it["samples_per_pixel"]] = tuple("%.3g" % (100 * it[name + "_error"]) for name in ("relative", "mean", "display"))
+pairs = [re.match(r"error after (\S+) samples per pixel .*: relative (\S+) % .*, mean (\S+) % .*, display (\S+) %", state["known"]) for state in states if state["known"]]
 assert states[0]["what"] in ("planning", "rendering"), states[0]
 assert pairs and all(pairs), [state["known"] for state in states]
 for pair in pairs:
-    assert of_rounds.get(pair[1]) == pair[2], (pair[0], of_rounds)
+    assert of_rounds.get(pair[1]) == pair.groups()[1:], (pair[0], of_rounds)
 shares = [state["share"] for state in states]
 assert shares == sorted(shares), shares
 PY

@@ -1,0 +1,189 @@
+/* The choice of the integrator for a target error in rooms made from seeds: what the chosen candidate and the
+ * whole request cost over the best candidate. */
+#include <aureole-render/adaptive.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "points/base/random.h"
+#include "render/adaptive/race.h"
+
+enum { TEXT = 16384, ROOMS = 12, QUICK_ROOMS = 2 };
+
+typedef struct room {
+    char text[TEXT];
+    size_t used;
+    uint64_t seed, drawn;
+} room;
+
+static double draw(room *self, double low, double high) {
+    const uint64_t hash = aur_hash2(self->seed, self->drawn++);
+    return low + (high - low) * (double)aur_unit_float((uint32_t)hash);
+}
+
+static void put(room *self, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    self->used += (size_t)vsnprintf(self->text + self->used, TEXT - self->used, format, arguments);
+    va_end(arguments);
+}
+
+static void put_matte(room *self) {
+    put(self,
+        "<bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' value='%.3f %.3f "
+        "%.3f'/></bsdf></bsdf>",
+        draw(self, 0.2, 0.8), draw(self, 0.2, 0.8), draw(self, 0.2, 0.8));
+}
+
+static void put_box(room *self) {
+    const double x = draw(self, -0.8, 0.8), y = draw(self, -0.3, 0.8), side = draw(self, 0.08, 0.25);
+    put(self,
+        "<shape type='cube'><transform name='to_world'><scale value='%.3f'/><rotate z='1' angle='%.1f'/>"
+        "<translate x='%.3f' y='%.3f' z='%.3f'/></transform>",
+        side, draw(self, 0.0, 90.0), x, y, side - 0.98);
+    if (draw(self, 0.0, 1.0) < 0.2)
+        put(self, "<bsdf type='conductor'/>");
+    else
+        put_matte(self);
+    put(self, "</shape>");
+}
+
+/* One to sixteen lamps on the ceiling or lying about, or a window to a bright sky. */
+static void make_room(uint64_t seed, room *self) {
+    *self = (room){.seed = seed};
+    const bool window = seed % 3 == 0;
+    put(self,
+        "<scene version='3.0.0'><integrator type='path'/><sensor type='perspective'><float name='fov' "
+        "value='75'/>"
+        "<transform name='to_world'><lookat origin='0,-.95,0' target='0,1,-.3' up='0,0,1'/></transform><film "
+        "type='hdrfilm'><rfilter type='box'/></film></sensor>");
+    for (int wall = 0; wall < 6; ++wall) {
+        static const char *const turns[] = {"",
+                                            "<rotate x='1' angle='180'/>",
+                                            "<rotate x='1' angle='90'/>",
+                                            "<rotate x='1' angle='-90'/>",
+                                            "<rotate y='1' angle='90'/>",
+                                            "<rotate y='1' angle='-90'/>"};
+        const double size = window && wall == 5 ? 0.6 : 1.0; /* leaves a gap about it */
+        put(self,
+            "<shape type='rectangle'><transform name='to_world'><scale value='%.2f'/><translate z='-1'/>%s"
+            "</transform>",
+            size, turns[wall]);
+        put_matte(self);
+        put(self, "</shape>");
+    }
+    for (int i = 0; i < 6; ++i)
+        put_box(self);
+    if (window)
+        put(self, "<emitter type='constant'><rgb name='radiance' value='10'/></emitter>");
+    const int lamps = window ? 0 : 1 << (int)draw(self, 0.0, 4.99);
+    for (int i = 0; i < lamps; ++i)
+        put(self,
+            "<shape type='rectangle'><transform name='to_world'><scale value='%.3f'/><rotate x='1' "
+            "angle='180'/>"
+            "<translate x='%.3f' y='%.3f' z='%.3f'/></transform><emitter type='area'><rgb name='radiance' "
+            "value='%.1f'/></emitter></shape>",
+            draw(self, 0.02, 0.2), draw(self, -0.8, 0.8), draw(self, -0.8, 0.8), draw(self, -0.2, 0.98),
+            draw(self, 5.0, 50.0));
+    put(self, "</scene>");
+}
+
+/* CPU seconds to the target by an integrator, or by the race (NULL); scaled to the target from where the
+ * render came out. Infinite where it fails. */
+static double cost(aur_renderer *renderer, const char *integrator, aur_error_measure measure, double error,
+                   char chosen[256]) {
+    aur_render_options render = {.size = sizeof render};
+    aur_render_options_init(&render, NULL);
+    render.width = 128;
+    render.height = 96;
+    render.threads = 1;
+    render.use_cache = 0;
+    render.integrator = integrator;
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = error;
+    target.measure = measure;
+    if (integrator != NULL && strncmp(integrator, "finalgather", 11) == 0)
+        target.bias = 0.5 * error;
+    aur_adaptive *adaptive = NULL;
+    aur_adaptive_report report = {.size = sizeof report};
+    double seconds = INFINITY;
+    if (aur_adaptive_create(renderer, &render, &target, &adaptive, NULL) == AUR_OK &&
+        aur_adaptive_run(adaptive, NULL) == AUR_OK &&
+        aur_adaptive_get_report(adaptive, &report, NULL) == AUR_OK)
+        seconds = report.statistics.cpu_seconds;
+    if (chosen != NULL)
+        snprintf(chosen, 256, "%s", adaptive != NULL ? aur_adaptive_integrator(adaptive) : "");
+    aur_adaptive_destroy(adaptive);
+    return seconds;
+}
+
+typedef struct ratios {
+    double choice, whole, worst_choice, worst_whole; /* logarithms of the first two are summed */
+    size_t count;
+} ratios;
+
+static bool run_room(uint64_t seed, aur_error_measure measure, double error, ratios *sum) {
+    static room made;
+    make_room(seed, &made);
+    aur_scene *scene = NULL;
+    if (aur_scene_load_memory("room.xml", made.used, made.text, NULL, &scene, NULL) != AUR_OK)
+        return false;
+    double best = INFINITY, own = INFINITY;
+    char chosen[256], best_name[32] = "";
+    aur_renderer *renderer = NULL;
+    const bool created = aur_renderer_create(scene, &renderer, NULL) == AUR_OK;
+    const double whole = created ? cost(renderer, NULL, measure, error, chosen) : INFINITY;
+    aur_renderer_destroy(renderer);
+    for (size_t row = 0; row < AUR_RACE_ROWS && created; ++row) {
+        char *const text = aur_race_integrator(row, "path", 100000, 0);
+        renderer = NULL;
+        if (text != NULL && aur_renderer_create(scene, &renderer, NULL) == AUR_OK) {
+            const double seconds = cost(renderer, text, measure, error, NULL);
+            const char *const keys = strstr(text, "photons=");
+            const size_t same = keys != NULL ? (size_t)(keys - text) : strlen(text);
+            if (strncmp(text, chosen, same) == 0)
+                own = seconds;
+            if (seconds < best) {
+                best = seconds;
+                snprintf(best_name, sizeof best_name, "%s", aur_race_name(row));
+            }
+        }
+        aur_renderer_destroy(renderer);
+        free(text);
+    }
+    aur_scene_destroy(scene);
+    if (!(best > 0.0 && best < INFINITY && own < INFINITY && whole < INFINITY))
+        return false;
+    printf("  %4llu  %-8s %4.0f %%  %-18s %8.2f s  choice %5.2f  whole %5.2f\n", (unsigned long long)seed,
+           aur_error_measure_name(measure), 100.0 * error, best_name, best, own / best, whole / best);
+    fflush(stdout);
+    sum->choice += log(own / best);
+    sum->whole += log(whole / best);
+    sum->worst_choice = fmax(sum->worst_choice, own / best);
+    sum->worst_whole = fmax(sum->worst_whole, whole / best);
+    ++sum->count;
+    return true;
+}
+
+static bool run(const bench_options *options) {
+    ratios sum = {.count = 0};
+    printf("  room  measure   error  best candidate       CPU s, over it the chosen one and the whole "
+           "request\n");
+    for (uint64_t k = 0; k < (options->quick ? QUICK_ROOMS : ROOMS); ++k)
+        for (int m = 0; m < (options->quick ? 1 : 2); ++m)
+            if (!run_room(101 + k, (aur_error_measure)m, options->quick ? 0.1 : 0.05, &sum))
+                printf("  %4llu  failed\n", (unsigned long long)(101 + k));
+    if (sum.count == 0)
+        return false;
+    printf("  geometric mean: choice %.2f, whole %.2f; worst %.2f, %.2f\n",
+           exp(sum.choice / (double)sum.count), exp(sum.whole / (double)sum.count), sum.worst_choice,
+           sum.worst_whole);
+    return true;
+}
+
+const bench bench_race = {"adaptive", "the choice of the integrator for a target error, over the best one",
+                          run};
