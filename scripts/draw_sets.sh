@@ -55,6 +55,7 @@ HEAD
     [ "$set" = healpix ] && n=192 # 12 k^2
     [ "$set" = t-design ] && n=122
     [ "$set" = lebedev ] && n=110
+    [ "$set" = icosahedral ] && n=162
     case $set in
       matrices | file) square="your own" sphere="your own" ;;
       *)

@@ -22,7 +22,7 @@ class Engines(unittest.TestCase):
         for name, row in aureole.sets().items():
             if name in ("file", "matrices") or row.domains == ("rotations",):
                 continue
-            size = {"healpix": 12, "t-design": 18, "lebedev": 26, "gauss": 32}.get(name, 64)
+            size = {"healpix": 12, "t-design": 18, "lebedev": 26, "gauss": 32, "icosahedral": 42}.get(name, 64)
             d = min(2, row.dimensions[1])
             engine = aureole.qmc.engines()[name](d, n=size, scramble=False, seed=3)
             self.assertIsInstance(engine, qmc.QMCEngine)
@@ -113,7 +113,7 @@ class Engines(unittest.TestCase):
             row = aureole.sets()[name]
             if os.environ.get("AUREOLE_SHORT_TESTS") and not row.extensible:
                 continue
-            size = {"healpix": 12, "t-design": 18, "lebedev": 26, "gauss": 32}.get(name, 16)
+            size = {"healpix": 12, "t-design": 18, "lebedev": 26, "gauss": 32, "icosahedral": 42}.get(name, 16)
             d = min(2, row.dimensions[1])
             endless = row.extensible and (row.maximum_size or 2**48) > 2**20
             made = engine(d, n=None if endless else size, scramble=True, seed=5)

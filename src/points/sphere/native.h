@@ -39,6 +39,7 @@ typedef struct aur_native_set {
     ROW(lebedev)                                                                                             \
     ROW(gauss)                                                                                               \
     ROW(eqsp)                                                                                                \
+    ROW(icosahedral)                                                                                         \
     ROW(electrostatic)                                                                                       \
     ROW(greedy)                                                                                              \
     ROW(super_fibonacci)                                                                                     \

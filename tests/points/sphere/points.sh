@@ -34,6 +34,7 @@ while IFS= read -r line; do
   [ "$set" = t-design ] && n=8
   [ "$set" = lebedev ] && n=14
   [ "$set" = gauss ] && n=8
+  [ "$set" = icosahedral ] && n=12
   for domain in $domains; do
     where=(--domain "$domain")
     [ "$domain" = own ] && where=()

@@ -177,6 +177,33 @@ static void partitions_are_leopardis(void **state) {
     }
 }
 
+/* The corners are a design of degree 5; all points have five turns about the axis and their opposites, and
+ * lie as far apart as neighbours of a hexagonal pattern do within a fifth. */
+static void geodesic_grids_have_the_icosahedrons_symmetry(void **state) {
+    (void)state;
+    static const size_t parts[] = {1, 2, 3, 7};
+    for (size_t k = 0; k < 4; ++k) {
+        const size_t f = parts[k], count = 10 * f * f + 2;
+        bool said = false;
+        double *const xyz = points_of("icosahedral", count, &said);
+        if (f == 1)
+            assert_true(worst_harmonic(5, 1, count, xyz, xyz + 3 * count).exact < 3e-15);
+        for (size_t i = 0; i < count; ++i) {
+            const double *const x = xyz + 3 * i, c = cos(0.4 * AUR_PI), s = sin(0.4 * AUR_PI);
+            const double images[2][3] = {{-x[0], -x[1], -x[2]},
+                                         {c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]}};
+            double nearest[2] = {INFINITY, INFINITY};
+            for (size_t j = 0; j < count; ++j)
+                for (size_t m = 0; m < 2; ++m)
+                    nearest[m] = fmin(nearest[m], check_distance(images[m], xyz + 3 * j));
+            assert_true(nearest[0] < 1e-14 && nearest[1] < 1e-14);
+        }
+        const double hexagonal = sqrt(8.0 * AUR_PI / (sqrt(3.0) * (double)count));
+        assert_true(check_smallest_distance(count, xyz) > 0.8 * hexagonal);
+        free(xyz);
+    }
+}
+
 /* Weights of the rule with 14 points: 1/15 on the axes and 3/40 on the diagonals of the cube. */
 static void fourteen_points_have_known_weights(void **state) {
     (void)state;
@@ -201,7 +228,8 @@ static void other_sizes_are_refused(void **state) {
         const char *nearest;
     } wrong[] = {{"lebedev", 100, "86 or 110"}, {"lebedev", 5, "from 6"},
                  {"gauss", 9, "8 or 18"},       {"gauss:pruned=true", 5000, "4924 or 5098"},
-                 {"t-design", 17, "8 or 18"},   {"t-design", 1, "from 4"}};
+                 {"icosahedral", 40, "42, 92"}, {"t-design", 17, "8 or 18"},
+                 {"t-design", 1, "from 4"}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
         aur_directions_options options = {.size = sizeof options};
         aur_directions_options_init(wrong[k].count, AUR_DOMAIN_SPHERE, &options, NULL);
@@ -219,6 +247,7 @@ int main(void) {
         cmocka_unit_test(lebedev_rules_are_exact),
         cmocka_unit_test(products_are_exact),
         cmocka_unit_test(partitions_are_leopardis),
+        cmocka_unit_test(geodesic_grids_have_the_icosahedrons_symmetry),
         cmocka_unit_test(fourteen_points_have_known_weights),
         cmocka_unit_test(other_sizes_are_refused),
     };
