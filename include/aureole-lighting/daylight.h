@@ -49,11 +49,12 @@ typedef struct aur_weather_view {
 
 typedef struct aur_weather aur_weather;
 
-/* Reads an EPW file (EnergyPlus weather): records that follow each other, as many an hour as its header says,
- * from any day on, for whole days up to a year. Fields may be quoted (RFC 4180) or empty; 9999 stands for
- * irradiances that are not known; those from -20 to 0 are 0. Errors: OPEN, MEMORY, and FORMAT with the line:
- * another kind of file, a place that is none on earth, a record with too few fields or with something that is
- * no number, values below -20 or above 2000 W/m^2, hours that do not follow each other, more than a year. */
+/* Reads an EPW file (EnergyPlus weather), or a year of Radiance's .wea (units 1) or of TMY3 as CSV, told by
+ * the first line. An EPW has records that follow each other, as many an hour as its header says, from any day
+ * on, for whole days up to a year. Fields may be quoted (RFC 4180) or empty; 9999 stands for irradiances that
+ * are not known; those from -20 to 0 are 0. Errors: OPEN, MEMORY, and FORMAT with the line: another kind of
+ * file, a place that is none on earth, a record with too few fields or with something that is no number,
+ * values below -20 or above 2000 W/m^2, hours that do not follow each other, more than a year. */
 AUR_EXPERIMENTAL aur_result aur_weather_read(const char *path, aur_weather **weather, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL void aur_weather_destroy(aur_weather *weather); /* NULL is allowed */

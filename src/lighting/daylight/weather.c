@@ -1,7 +1,9 @@
-/* Weather files: EnergyPlus's EPW, eight lines of header and then a record an hour. */
+/* Weather files: EnergyPlus's EPW, eight lines of header and then a record an hour; Radiance's .wea; and TMY3
+ * as CSV. The first line tells which it is. */
 #include "lighting/daylight/hours.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,14 +20,17 @@ struct aur_weather {
 };
 
 /* Where a file is being read: the fields of a line, each with its zero byte. */
-typedef struct reader {
+typedef struct reader reader;
+struct reader {
     const char *path;
     char *next; /* the next line, or NULL */
     size_t number, field_count;
     char *fields[FIELDS]; /* those beyond are of no use */
+    bool blanks;          /* they split fields, and not commas */
+    aur_result (*record)(const reader *r, aur_weather_hour *hour);
     aur_weather_view *view;
     aur_error *error;
-} reader;
+};
 
 /* Takes the field that begins at `at` out of its quotes and blanks (RFC 4180), and returns what is behind its
  * comma, or NULL. */
@@ -58,7 +63,13 @@ static bool next_line(reader *r) {
     static const char mark[] = "\xEF\xBB\xBF"; /* which some editors put before UTF-8 */
     if (r->number == 1 && strncmp(at, mark, 3) == 0)
         at += 3;
-    for (r->field_count = 0; at != NULL && r->field_count < FIELDS; ++r->field_count)
+    /* Radiance's .wea begins with `place`. */
+    r->blanks = r->blanks || (r->number == 1 && strncmp(at, "place", 5) == 0);
+    r->field_count = 0;
+    for (char *rest = at, *piece; r->blanks && r->field_count < FIELDS; r->fields[r->field_count++] = piece)
+        if ((piece = strtok_r(rest, " \t\r", &rest)) == NULL)
+            return true;
+    for (; at != NULL && r->field_count < FIELDS; ++r->field_count)
         at = cut_field(at, &r->fields[r->field_count]);
     return true;
 }
@@ -104,10 +115,10 @@ static bool begins(const reader *r, const char *word) {
 }
 
 static aur_result read_location(reader *r, aur_weather_view *view) {
-    if (!next_line(r) || !begins(r, "LOCATION"))
+    if (!begins(r, "LOCATION"))
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
                            "an EPW file begins with LOCATION,CITY,... and not with '%.*s'", SHOWN,
-                           r->number > 0 ? r->fields[0] : "");
+                           r->field_count > 0 ? r->fields[0] : "");
     aur_result result = read_number(r, 6, "the latitude", -90.0, 90.0, &view->latitude);
     if (result == AUR_OK)
         result = read_number(r, 7, "the longitude", -180.0, 180.0, &view->longitude);
@@ -237,10 +248,10 @@ static aur_result refuse_hour(const reader *r, const aur_weather_hour *before, c
 static aur_result read_hour(reader *r, aur_weather_hour *hour, bool *ended) {
     int records = 0;
     while (records < r->view->records && next_line(r)) {
-        if (r->field_count == 1 && r->fields[0][0] == '\0')
+        if (r->field_count == 0 || (r->field_count == 1 && r->fields[0][0] == '\0'))
             continue;
         aur_weather_hour record;
-        const aur_result result = read_record(r, &record);
+        const aur_result result = r->record(r, &record);
         if (result != AUR_OK)
             return result;
         if (records++ == 0) {
@@ -292,6 +303,123 @@ static aur_result read_hours(reader *r, aur_weather *weather) {
     return AUR_OK;
 }
 
+/* --- other files */
+
+/* Month, day and hour as read become those of a year that has such days. */
+static void set_year(aur_weather_hour *hour) {
+    hour->year = hour->month == 2 && hour->day == 29 ? 2004 : 2001;
+}
+
+/* month day hour direct-normal diffuse-horizontal; the hour is the middle of the interval. */
+static aur_result read_wea_record(const reader *r, aur_weather_hour *hour) {
+    double middle = 0.0;
+    *hour = (aur_weather_hour){.line = r->number, .dew_point = NAN, .global_horizontal = NAN};
+    aur_result result = read_whole(r, 0, "the month", 1.0, 12.0, &hour->month);
+    if (result == AUR_OK)
+        result = read_whole(r, 1, "the day", 1.0, 31.0, &hour->day);
+    if (result == AUR_OK)
+        result = read_number(r, 2, "the hour", 0.0, 23.999, &middle);
+    if (result == AUR_OK)
+        result = read_irradiance(r, 3, "the direct normal irradiance", &hour->direct_normal);
+    if (result == AUR_OK)
+        result = read_irradiance(r, 4, "the diffuse horizontal irradiance", &hour->diffuse_horizontal);
+    hour->hour = (int)middle + 1;
+    set_year(hour);
+    return result;
+}
+
+/* The six lines of a .wea, whose longitude and time zone are degrees to the west. */
+static aur_result read_wea_header(reader *r, aur_weather_view *view) {
+    double west = 0.0, zone = 0.0, units = 0.0;
+    const struct {
+        const char *name;
+        double least, most, *value;
+    } rows[] = {{"latitude", -90.0, 90.0, &view->latitude},
+                {"longitude", -180.0, 180.0, &west},
+                {"time_zone", -210.0, 210.0, &zone},
+                {"site_elevation", -1000.0, 9999.9, &view->elevation},
+                {"weather_data_file_units", 1.0, 1.0, &units}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        if (!next_line(r) || !begins(r, rows[i].name))
+            return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                               "a .wea file has a line '%s NUMBER' here", rows[i].name);
+        const aur_result result = read_number(r, 1, rows[i].name, rows[i].least, rows[i].most, rows[i].value);
+        if (result != AUR_OK)
+            return result;
+    }
+    view->longitude = -west;
+    view->timezone = -zone / 15.0;
+    view->first_weekday = -1;
+    view->records = 1;
+    return AUR_OK;
+}
+
+/* "MM/DD/YYYY","HH:MM", then as Wilcox and Marion (2008) have it: the hour that ends then. */
+static aur_result read_tmy3_record(const reader *r, aur_weather_hour *hour) {
+    *hour = (aur_weather_hour){.line = r->number};
+    int parts[4] = {0};
+    const char *const texts[2] = {field(r, 0), field(r, 1)};
+    const bool read = texts[1] != NULL && strlen(texts[0]) == 10 && strlen(texts[1]) == 5 &&
+                      sscanf(texts[0], "%2d/%2d/%4d", &parts[0], &parts[1], &parts[2]) == 3 &&
+                      sscanf(texts[1], "%2d:00", &parts[3]) == 1;
+    if (!read || parts[0] < 1 || parts[0] > 12 || parts[1] < 1 || parts[1] > 31 || parts[3] < 0 ||
+        parts[3] > DAY)
+        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                           "a record must begin with a date and an hour, MM/DD/YYYY,HH:00, not '%.*s'", SHOWN,
+                           texts[0] != NULL ? texts[0] : "");
+    hour->month = parts[0];
+    hour->day = parts[1];
+    hour->year = parts[2];
+    hour->hour = parts[3];
+    aur_result result = read_irradiance(r, 4, "the global horizontal irradiance", &hour->global_horizontal);
+    if (result == AUR_OK)
+        result = read_irradiance(r, 7, "the direct normal irradiance", &hour->direct_normal);
+    if (result == AUR_OK)
+        result = read_irradiance(r, 10, "the diffuse horizontal irradiance", &hour->diffuse_horizontal);
+    if (result == AUR_OK)
+        result = read_optional(r, 34, "the dew point", -1e5, 1e5, &hour->dew_point);
+    if (!(hour->dew_point > -90.0 && hour->dew_point < 70.0))
+        hour->dew_point = NAN;
+    return result;
+}
+
+/* code,name,state,time zone,latitude,longitude,elevation, and a line of names. */
+static aur_result read_tmy3_header(reader *r, aur_weather_view *view) {
+    aur_result result = read_number(r, 3, "the time zone", -14.0, 14.0, &view->timezone);
+    if (result == AUR_OK)
+        result = read_number(r, 4, "the latitude", -90.0, 90.0, &view->latitude);
+    if (result == AUR_OK)
+        result = read_number(r, 5, "the longitude", -180.0, 180.0, &view->longitude);
+    if (result == AUR_OK)
+        result = read_number(r, 6, "the elevation", -1000.0, 9999.9, &view->elevation);
+    if (result == AUR_OK && (!next_line(r) || strncmp(r->fields[0], "Date", 4) != 0))
+        result = aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                             "the second line of a TMY3 file begins with Date (MM/DD/YYYY),Time (HH:MM)");
+    view->first_weekday = -1;
+    view->records = 1;
+    return result;
+}
+
+/* The first line says which file it is: a TMY3's has seven fields that begin with a station's number. */
+static aur_result read_header(reader *r, aur_weather_view *view) {
+    double station = 0.0;
+    const bool any = next_line(r);
+    const char *const code = any ? field(r, 0) : NULL;
+    const char *const after =
+        code != NULL && r->field_count == 7 ? aur_read_double(code, AUR_NUMBER_FINITE, &station) : NULL;
+    if (r->blanks) {
+        r->record = read_wea_record;
+        return read_wea_header(r, view);
+    }
+    if (after != NULL && *after == '\0') {
+        r->record = read_tmy3_record;
+        return read_tmy3_header(r, view);
+    }
+    r->record = read_record;
+    const aur_result result = read_location(r, view);
+    return result == AUR_OK ? read_periods(r, view) : result;
+}
+
 static aur_result read_year(const char *path, char *data, size_t size, aur_weather *weather,
                             aur_error *error) {
     reader r = {.path = path, .next = data, .view = &weather->view, .error = error};
@@ -302,9 +430,7 @@ static aur_result read_year(const char *path, char *data, size_t size, aur_weath
         ++r.number;
         return aur_fail_at(error, place_of(&r), AUR_ERROR_FORMAT, "a zero byte: this is no text");
     }
-    aur_result result = read_location(&r, &weather->view);
-    if (result == AUR_OK)
-        result = read_periods(&r, &weather->view);
+    const aur_result result = read_header(&r, &weather->view);
     return result == AUR_OK ? read_hours(&r, weather) : result;
 }
 

@@ -70,7 +70,8 @@ static aur_result parse_albedo(const char *text, void *field, aur_error *error) 
 
 const cli_option cli_daylight_options[] = {
     {CLI_TEXT(cli_daylight, weather, "weather", "FILE", NULL,
-              "an EPW file: a year of daylight in the place of the scene's lights; the options to the end "
+              "an EPW, .wea or TMY3 file: a year of daylight in the place of the scene's lights; the options "
+              "to the end "
               "of these are for it"),
      .content = "file"},
     {CLI_TEXT(cli_daylight, options.subdivision, "patches", "PATCHES", "tregenza",
