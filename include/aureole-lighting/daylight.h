@@ -64,8 +64,13 @@ AUR_EXPERIMENTAL const aur_weather_view *aur_weather_get_view(const aur_weather 
 /* --- estimates */
 
 /* How lumens are made of watts: by the models of Perez, Ineichen, Seals, Michalsky and Stewart (1990), from
- * the clearness and brightness of the sky and the water in it, or 179 lm/W. */
-typedef enum aur_luminous_efficacy { AUR_EFFICACY_PEREZ, AUR_EFFICACY_CONSTANT } aur_luminous_efficacy;
+ * the clearness and brightness of the sky and the water in it, or 179 lm/W; or not at all: then irradiances
+ * in W/m^2 stand wherever illuminances are spoken of. */
+typedef enum aur_luminous_efficacy {
+    AUR_EFFICACY_PEREZ,
+    AUR_EFFICACY_CONSTANT,
+    AUR_EFFICACY_NONE
+} aur_luminous_efficacy;
 
 /* All zero but `size`, as aur_daylight_options_init fills it, takes the defaults. */
 typedef struct aur_daylight_options {

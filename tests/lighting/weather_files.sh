@@ -32,6 +32,29 @@ for file in epw wea csv; do
 done
 awk -F, 'NR == 2 && !($(NF - 1) > 100) { exit 1 }' epw.out || fail "no light in the days"
 
+# Watts are lux over 179.
+"$aureole" irradiance -q open.rad --sensors points.pts --weather days.epw --efficacy none -n 512 -o watts.out || fail "W/m2"
+paste -d, epw.out watts.out | awk -F, 'NR > 1 { n = NF / 2; r = $(n - 1) / $(2 * n - 1) / 179 - 1; if (r > 1e-9 || r < -1e-9) { print r; exit 1 } }' || fail "lux are not 179 times W/m2"
+
+# Metrics are the columns of the sensors, with intervals; standards are judged where the options are theirs.
+metrics() {
+  "$aureole" irradiance -q open.rad --sensors points.pts --weather days.epw -n 512 --metrics m.csv -o sensors.csv "$@" || fail "--metrics $*"
+}
+value() { awk -F, -v name="$1" '{ gsub(/"/, "") } index($0, name ",") == 1 { sub(/.*, [0-9] points?/, ""); n = split($0, f, ","); print f[n - 4] }' m.csv; }
+metrics
+[ "$(value 'spatial daylight autonomy')" = 100 ] || fail "spatial autonomy: $(cat m.csv)"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "autonomy") c = i } NR > 1 { s += $c / 2 } END { printf "%.9g\n", s }' sensors.csv >mean
+[ "$(awk -v x="$(value 'mean daylight autonomy')" 'BEGIN { printf "%.9g", x }')" = "$(cat mean)" ] || fail "mean autonomy"
+[ "$(grep -c 'LEED.*,yes' m.csv)" = 3 ] && ! grep -q EN m.csv || fail "LEED: $(cat m.csv)"
+metrics --schedule 9-17
+grep -q 'LEED\|EN 17037' m.csv && fail "LEED counts from 8 to 18"
+# Of 24 hours 13 have light: the autonomy of 100 lux is above half of them, that of 10^6 lux is not.
+metrics --schedule 0-24 --threshold 300
+grep -q 'EN 17037, target illuminance of the level minimum.*,50,' m.csv && grep -q 'minimum illuminance of the level medium.*,95,' m.csv || fail "EN 17037: $(cat m.csv)"
+metrics --threshold 1e6 && [ "$(value 'spatial daylight autonomy')" = 0 ] || fail "nothing reaches 10^6 lux"
+"$aureole" irradiance -q open.rad --sensors points.pts --weather days.epw -n 512 --metrics m.json -o sensors.csv && grep -q '"metric": "annual sunlight exposure", "value": 0' m.json || fail "JSON"
+"$aureole" irradiance -q open.rad --sensors points.pts --metrics m.json 2>/dev/null && fail "--metrics without weather"
+
 sed 4d days.wea >bad.wea && refused "bad.wea:4: a .wea file has a line 'time_zone NUMBER' here" bad.wea
 sed '6s/1/2/' days.wea >bad.wea && refused "bad.wea:6: weather_data_file_units (field 2) must be a number from 1 to 1" bad.wea
 sed '2s/37.5/137/' days.wea >bad.wea && refused "bad.wea:2: latitude (field 2) must be a number from -90 to 90" bad.wea

@@ -112,19 +112,20 @@ static bool find_irradiances(const aur_weather_hour *hour, double height, hour_s
 
 /* The model of the sky, and irradiances as illuminances. */
 static void find_sky(const work *w, const aur_weather_hour *hour, const double sun[3], hour_sky *sky) {
+    const bool constant = w->options->efficacy != AUR_EFFICACY_PEREZ;
+    const double lumens = w->options->efficacy == AUR_EFFICACY_NONE ? 1.0 : 179.0;
     sky->model = aur_sky_model_uniform();
     if (!sky->up || !(sky->diffuse > 0.0)) {
-        sky->direct *= 179.0;
-        sky->diffuse *= 179.0;
+        sky->direct *= lumens;
+        sky->diffuse *= lumens;
         return;
     }
     const double outside = 1367.0 / (sky->distance * sky->distance);
     const aur_perez_conditions found = aur_perez_conditions_of(sky->direct, sky->diffuse, outside, sun);
-    const bool constant = w->options->efficacy == AUR_EFFICACY_CONSTANT;
     const double water = aur_precipitable_water(hour->dew_point);
     sky->model = aur_sky_model_perez(sky->direct, sky->diffuse, outside, sun);
-    sky->direct *= constant ? 179.0 : aur_efficacy_of_sun(&found, water);
-    sky->diffuse *= constant ? 179.0 : aur_efficacy_of_sky(&found, water);
+    sky->direct *= constant ? lumens : aur_efficacy_of_sun(&found, water);
+    sky->diffuse *= constant ? lumens : aur_efficacy_of_sky(&found, water);
 }
 
 /* --- all hours */

@@ -224,7 +224,8 @@ typedef struct getopt_options {
 static getopt_options list_options(const cli_command *command) {
     getopt_options list = {.letters = ":"};
     size_t letters = 1, names = 0;
-    for (const cli_option *option; (option = cli_option_at(command, list.count, NULL)) != NULL;
+    for (const cli_option *option;
+         list.count < CLI_OPTION_LIMIT && (option = cli_option_at(command, list.count, NULL)) != NULL;
          ++list.count) {
         const bool is_long = option->key.name[1] != '\0';
         const char letter = is_long ? option->letter : option->key.name[0];

@@ -10,7 +10,7 @@
 
 #include "program/cli/cli.h"
 
-enum { CLI_OPTION_LIMIT = 48, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
+enum { CLI_OPTION_LIMIT = 64, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
 
 /* One option. The key has its long name without the dashes (one letter alone stands for an option that has
  * no long name), type, range, default and line of help. */

@@ -74,12 +74,17 @@ const cli_option cli_daylight_options[] = {
               "to the end "
               "of these are for it"),
      .content = "file"},
+    {CLI_TEXT(cli_daylight, metrics, "metrics", "FILE", NULL,
+              "spatial autonomy, sunlight exposure, means, LEED v4.1 and EN 17037, each with its interval: "
+              ".csv or "
+              ".json"),
+     .content = "file", .writes = true},
     {CLI_TEXT(cli_daylight, options.subdivision, "patches", "PATCHES", "tregenza",
               "of the sky: tregenza, or reinhart:M with M x M for each of its own"),
      .parse = parse_patches},
     {CLI_CHOICE(cli_daylight, options.efficacy, "efficacy", "MODEL", "perez",
-                "lumens a watt: by the weather (Perez et al. 1990), or 179"),
-     .key.words = (const char *const[]){"perez", "179", NULL}},
+                "lumens a watt: by the weather (Perez et al. 1990), or 179; none: W/m2 in the place of lux"),
+     .key.words = (const char *const[]){"perez", "179", "none", NULL}},
     {CLI_TEXT(cli_daylight, options.ground_albedo, "ground-albedo", "A", "0.2",
               "what the ground beyond the scene reflects"),
      .parse = parse_albedo},
@@ -149,6 +154,8 @@ aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const a
     cli_progress_clear();
     if (result == AUR_OK)
         result = aur_daylight_write(output, format, sensors, sizeof *results, results, error);
+    if (result == AUR_OK && given->metrics != NULL)
+        result = cli_daylight_metrics(given, &summary, sensors->count, results, error);
     if (result == AUR_OK && !quiet)
         print_summary(&summary);
     aur_weather_destroy(weather);

@@ -16,6 +16,7 @@ aur_result cli_irradiance_plot(const char *path, const char *unit, const aur_sen
 
 typedef struct cli_daylight {
     const char *weather; /* NULL: none is asked for */
+    const char *metrics; /* a file for figures of all sensors together; NULL: none */
     aur_daylight_options options;
 } cli_daylight;
 extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
@@ -35,6 +36,11 @@ bool cli_sky_check(const cli_call *call);
 
 /* False, with a message, where one of these options was given without --weather. */
 bool cli_daylight_check(const cli_call *call);
+
+/* Writes what is told of all sensors together, a row a metric with its interval: CSV, or JSON where the name
+ * ends so. Errors: MEMORY, WRITE. */
+aur_result cli_daylight_metrics(const cli_daylight *given, const aur_daylight_summary *summary, size_t count,
+                                const aur_daylight *results, aur_error *error);
 
 /* The year at the sensors, written to `output`; `given->options` holds what other options said too. */
 aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,

@@ -1,0 +1,125 @@
+/* Figures of a year over all sensors, as LM-83, LEED and EN 17037 ask for them. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/cli/lighting/irradiance.h"
+#include "program/report/report.h"
+
+/* Student's quantile of 97.5 % for 15 degrees of freedom: sensors have 16 randomisations. */
+static const double WIDTH = 2.131449545559323;
+
+/* A value in percent with the ends of its 95 % interval. */
+typedef struct share {
+    double value, least, most;
+} share;
+
+static void put(report_table *table, const char *name, share found, double target) {
+    enum { DIGITS = 6 };
+    report_text(table, name);
+    report_number(table, found.value, DIGITS);
+    report_number(table, found.least, DIGITS);
+    report_number(table, found.most, DIGITS);
+    if (isnan(target)) {
+        report_text(table, "");
+        report_text(table, "");
+        return;
+    }
+    report_number(table, target, DIGITS);
+    report_text(table, found.least >= target ? "yes" : found.most < target ? "no" : "undecided");
+}
+
+/* Of the sensors that reach `least` (or exceed it, where `beyond`) in a measure. */
+static share count(size_t sensors, const aur_daylight *results, aur_daylight_measure measure, double least,
+                   bool beyond) {
+    share found = {0.0, 0.0, 0.0};
+    const double one = 100.0 / (double)sensors;
+    for (size_t i = 0; i < sensors; ++i) {
+        const double value = results[i].value[measure], half = WIDTH * results[i].error[measure];
+        const double values[3] = {value, value - half, value + half};
+        double *const sums[3] = {&found.value, &found.least, &found.most};
+        for (size_t k = 0; k < 3; ++k)
+            *sums[k] += (beyond ? values[k] > least : values[k] >= least) ? one : 0.0;
+    }
+    return found;
+}
+
+/* The mean over sensors. Their errors have the same directions: the interval takes them as wholly dependent.
+ */
+static share mean(size_t sensors, const aur_daylight *results, aur_daylight_measure measure) {
+    double sum = 0.0, half = 0.0;
+    for (size_t i = 0; i < sensors; ++i) {
+        sum += results[i].value[measure] / (double)sensors;
+        half += WIDTH * results[i].error[measure] / (double)sensors;
+    }
+    return (share){sum, sum - half, sum + half};
+}
+
+/* LEED v4.1, option 1, and LM-83 before blinds: 300 lux for half of the hours from 8 to 18. */
+static void put_leed(report_table *table, const aur_daylight_options *o, share autonomy) {
+    static const double targets[] = {40.0, 55.0, 75.0};
+    static const char *const names[] = {"LEED v4.1, 1 point", "LEED v4.1, 2 points", "LEED v4.1, 3 points"};
+    if ((o->threshold != 300.0 && o->threshold != 0.0) || o->from != 8 || o->to != 18 || o->weekdays)
+        return;
+    for (size_t i = 0; i < 3; ++i)
+        put(table, names[i], autonomy, targets[i]);
+}
+
+/* EN 17037, method 2: an illuminance for half of the hours of daylight, 4380 of the year, over half of the
+ * space, and a lower one over 95 % of it. Over all 8760 hours that is an autonomy of 50 %. */
+static void put_en17037(report_table *table, const aur_daylight_options *o, share autonomy) {
+    static const struct {
+        double threshold;
+        const char *target, *minimum;
+    } rows[] = {{100.0, NULL, "EN 17037, minimum illuminance of the level minimum"},
+                {300.0, "EN 17037, target illuminance of the level minimum",
+                 "EN 17037, minimum illuminance of the level medium"},
+                {500.0, "EN 17037, target illuminance of the level medium",
+                 "EN 17037, minimum illuminance of the level high"},
+                {750.0, "EN 17037, target illuminance of the level high", NULL}};
+    for (size_t i = 0; i < 4; ++i) {
+        if (o->threshold != rows[i].threshold || o->from != 0 || o->to != 24 || o->weekdays)
+            continue;
+        if (rows[i].target != NULL)
+            put(table, rows[i].target, autonomy, 50.0);
+        if (rows[i].minimum != NULL)
+            put(table, rows[i].minimum, autonomy, 95.0);
+    }
+}
+
+static aur_result save(const report_table *table, const char *path, aur_error *error) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const stream = open_memstream(&text, &size);
+    if (stream == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the metrics");
+    const size_t length = strlen(path);
+    const bool json = length > 5 && strcmp(path + length - 5, ".json") == 0;
+    aur_result result = report_write(table, json ? REPORT_JSON : REPORT_CSV, stream, error);
+    if (fclose(stream) != 0 && result == AUR_OK)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the metrics");
+    if (result == AUR_OK)
+        result = aur_file_write(path, size, text, error);
+    free(text);
+    return result;
+}
+
+aur_result cli_daylight_metrics(const cli_daylight *given, const aur_daylight_summary *summary,
+                                size_t sensors, const aur_daylight *results, aur_error *error) {
+    static const char *const columns[] = {"metric", "value", "least", "most", "target", "met"};
+    const share autonomy = {summary->spatial_autonomy, summary->spatial_autonomy_least,
+                            summary->spatial_autonomy_most};
+    report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
+    put(table, "spatial daylight autonomy", autonomy, NAN);
+    put(table, "annual sunlight exposure", count(sensors, results, AUR_DAYLIGHT_SUN_HOURS, 250.0, true), NAN);
+    put(table, "mean daylight autonomy", mean(sensors, results, AUR_DAYLIGHT_AUTONOMY), NAN);
+    put(table, "mean continuous autonomy", mean(sensors, results, AUR_DAYLIGHT_CONTINUOUS), NAN);
+    put(table, "mean useful daylight", mean(sensors, results, AUR_DAYLIGHT_USEFUL), NAN);
+    put(table, "mean daylight factor", mean(sensors, results, AUR_DAYLIGHT_FACTOR), NAN);
+    put_leed(table, &given->options, autonomy);
+    put_en17037(table, &given->options, autonomy);
+    const aur_result result = save(table, given->metrics, error);
+    report_destroy(table);
+    return result;
+}
