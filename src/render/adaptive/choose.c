@@ -108,7 +108,7 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
     char *const text = aur_race_integrator(row, adaptive->path, photons, 0);
     adaptive->row = row;
     adaptive->photons = photons;
-    adaptive->open = false;
+    adaptive->open = true; /* nothing is saved while replicas and their maps are made */
     aur_corrections_release(&adaptive->corrections);
     memset(adaptive->bias, 0, sizeof adaptive->bias);
     if (text == NULL)
@@ -116,6 +116,7 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
     aur_result result = aur_adaptive_begin(adaptive, text, error);
     if (result == AUR_OK && row != AUR_RACE_PATH)
         result = begin_corrections(adaptive, error);
+    adaptive->open = result != AUR_OK;
     if (result == AUR_ERROR_MEMORY)
         result =
             aur_fail(error, result, "out of memory: '%s' was chosen; '--integrator %s' takes less memory",
