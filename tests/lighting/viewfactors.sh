@@ -165,7 +165,7 @@ printf 'v 0 0 nan\n' >nan.obj
 refused 2 "nan.obj:1" nan.obj
 : >empty.obj
 refused 2 "no face" empty.obj
-refused 2 "end in .obj, .ply, .stl, .off, .xml or .rad" "$0"
+refused 2 "unknown kind of file" "$0"
 printf '<scene version="3.0.0"><sensor type="perspective"/>\n<shape type="sphere"/></scene>\n' >round.xml
 refused 2 "round.xml:2" round.xml
 refused 2 "tells no format" room.obj -o room.what
