@@ -173,10 +173,10 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
     cli_progress_clear();
     if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
         cli_checkpoint_end(beside->checkpoint, false);
-    if (result == AUR_OK || (result == AUR_ERROR_CANCELLED && adaptive != NULL)) {
-        const aur_result developed = aur_adaptive_develop(adaptive, target->error_map, image, error);
-        result = developed != AUR_OK ? developed : result;
-    }
+    if (result == AUR_OK)
+        result = aur_adaptive_develop(adaptive, target->error_map, image, error);
+    else if (result == AUR_ERROR_CANCELLED && adaptive != NULL) /* there may be no image yet */
+        aur_adaptive_develop(adaptive, target->error_map, image, NULL);
     if (result == AUR_OK && !beside->quiet)
         say(adaptive, target, beside->output, beside->verbose);
     if (result == AUR_OK && beside->json && aur_ranks_rank() == 0)
