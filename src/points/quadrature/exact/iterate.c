@@ -9,7 +9,7 @@
 #include "points/quadrature/exact/system.h"
 
 /* From so many points and degrees on the steps are taken by fast transforms. */
-enum { FAST_POINTS = 4096, FAST_DEGREE = 24 };
+enum { FAST_POINTS = 2048, FAST_DEGREE = 24 };
 
 /* How often the steps begin anew with what is missing in truth; and that they are within rounding where what
  * is missing is small and so many of them do not halve it. */
