@@ -1,4 +1,4 @@
-/* An asking in a file: what the next round follows from, and the replicas' films. */
+/* An image to a target in a file: the state that the next round depends on, and the replicas' films. */
 #include <stdlib.h>
 
 #include "points/base/error.h"
@@ -23,8 +23,9 @@ static size_t word_count(const aur_adaptive *adaptive) {
 
 aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur_error *error) {
     if (adaptive->identity == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "an asking is saved whose options say 'resumable'");
-    if (adaptive->open) /* trials of integrators are short, and begin anew */
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "only an image whose options say 'resumable' can be saved");
+    if (adaptive->open) /* races are short, and begin again */
         return AUR_OK;
     uint64_t *const words = malloc(word_count(adaptive) * sizeof *words);
     if (words == NULL)
@@ -103,7 +104,11 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
         numbers[i] = aur_double_of_word(*word++);
     const uint64_t *const choice = kept->words + CHOICE;
     aur_result result = AUR_OK;
-    if (choice[0] >= AUR_RACE_ROWS || choice[RACE - CHOICE] > AUR_RACE_ROWS)
+    bool damaged = choice[0] >= AUR_RACE_ROWS || choice[2] >= AUR_RACE_ROWS;
+    const uint64_t *const race = kept->words + RACE;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        damaged = damaged || race[0] > AUR_RACE_ROWS || race[1 + 2 * i] >= AUR_RACE_ROWS;
+    if (damaged)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "a damaged checkpoint");
     if (adaptive->path != NULL && choice[0] != AUR_RACE_PATH)
         result = aur_adaptive_take(adaptive, choice[0], choice[1], error);
@@ -154,7 +159,7 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
 
 aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error) {
     if (adaptive->identity == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "an asking goes on whose options say 'resumable'");
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "only an image whose options say 'resumable' can go on");
     aur_checkpoint kept;
     aur_result result = aur_checkpoint_load(path, false, &kept, error);
     if (result == AUR_OK && kept.film_count < 2)

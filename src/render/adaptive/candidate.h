@@ -36,15 +36,15 @@ typedef struct aur_candidate {
     double whole;           /* and in the end, as aur_candidate_look_ahead thought last; 0: nobody knows */
     uint64_t rounds;
     uint64_t traced; /* rays that prepared it */
-    uint64_t shared; /* what it shares with other trials took so many, for whichever was first */
+    uint64_t shared; /* what it shares with other candidates took so many, for whichever was first */
     uint64_t alone;  /* and what it does not share */
     bool begun;      /* a round is planned and not all rendered */
     bool looked_at;  /* the round planned last was to end where it leads, and may be the last of all */
     size_t replica;  /* replicas done of this round */
 } aur_candidate;
 
-/* `options` as for aur_render_create; the trial's integrator takes the place of theirs, and their samples a
- * pixel are without meaning. The trial is to be released in every case. Errors as there. */
+/* `options` as for aur_render_create; the candidate's integrator takes the place of theirs, and their samples
+ * a pixel are without meaning. The candidate is to be released in every case. Errors as there. */
 aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
                                 size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
                                 aur_error *error);
@@ -60,11 +60,11 @@ void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
 
 typedef struct aur_spent {
     uint64_t rays;   /* traced */
-    uint64_t budget; /* of them, those that count whatever was there before: without what trials share */
+    uint64_t budget; /* of them, those that count whatever was there before: without what candidates share */
     double prepare_seconds, render_seconds, cpu_seconds;
 } aur_spent;
 
-/* Adds what a trial has cost that may not have been made. */
+/* Adds what a candidate has cost, which may not have been created. */
 void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
 /* Stopping target; all zero: none. */
@@ -77,8 +77,8 @@ typedef struct aur_goal {
  * end comes to six times that, then to what the bias leaves of it, and below it by what the error
  * seen varies, so that the last round is seldom followed by another. One that follows lowers the error by
  * more than that: repeated tests on nearly the same samples bias the stopping time. Without an error half as
- * many samples again are taken, or fewer where the rays are spent then. It depends on the trial and its goal
- * alone, so that a trial that was chosen can be made again by itself. */
+ * many samples again are taken, or fewer where the rays are spent then. It depends on the candidate and its
+ * goal alone, so that a chosen candidate can be rendered again by itself. */
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal);
 /* How many times as many samples, in all, a round that leads to an error is thought to leave. */
 double aur_candidate_growth(const aur_candidate *candidate, double error);
@@ -87,9 +87,9 @@ double aur_goal_noise(const aur_goal *goal);
 /* Of its samples alone. */
 double aur_candidate_rays(const aur_candidate *candidate);
 
-/* Finds for progress what the trial will have come to in the end, from what it has before a round is planned.
- * Of final gathering nobody knows: rounds that were each thought to be the last took three to six times the
- * samples in the public Cornell box. */
+/* Finds for progress what the candidate will have come to in the end, from what it has before a round is
+ * planned. Of final gathering nobody knows: rounds that were each thought to be the last took three to six
+ * times the samples in the public Cornell box. */
 void aur_candidate_look_ahead(aur_candidate *candidate, const aur_goal *goal);
 
 /* No sample has met light, and none that the camera sees is known of. */

@@ -8,7 +8,7 @@
 #include "render/image/error_measure.h"
 
 typedef struct aur_replicas {
-    size_t count; /* of renders that were made: fewer than asked for after a failure */
+    size_t count; /* of renders that were made: fewer than requested after a failure */
     aur_render *renders[AUR_REPLICAS_MAX];
     size_t pixel_count;
 } aur_replicas;
