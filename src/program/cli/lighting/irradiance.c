@@ -217,29 +217,26 @@ static void find_format(const cli_call *call, irradiance_command *given) {
             given->format = formats[i];
 }
 
-static int run(const cli_call *call) {
-    irradiance_command *const given = call->options;
-    find_format(call, given);
-    if ((given->sensors == NULL) == (given->grid.target == NULL))
-        return cli_bad_usage(
-            given->sensors == NULL
-                ? "irradiance: the points are missing: --sensors POINTS or --grid SURFACE:SPACING"
-                : "irradiance: --sensors does not go with --grid");
-    if (cli_given(call, "margin") != NULL && given->grid.target == NULL)
-        return cli_bad_usage("irradiance: --margin is for --grid");
-    if (!cli_daylight_check(call) || !cli_sky_check(call))
-        return 2;
-    if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
-        return cli_bad_usage("irradiance: --particles is for --reflected map or radiosity");
-    given->estimate.size = sizeof given->estimate;
-    given->estimate.threads = given->common.threads;
-    given->estimate.progress = cli_progress(given->common.quiet);
-    given->estimate.warnings = cli_warnings(given->common.quiet);
-    given->columns.size = sizeof given->columns;
-    if (cli_given(call, "illuminance") != NULL || given->sky.daylight_factor)
-        set_illuminance(given);
-    if (given->sky.daylight_factor)
-        set_daylight_factor(given);
+/* False, with a message, where options do not go together. */
+static bool check(const cli_call *call) {
+    const irradiance_command *const given = call->options;
+    const char *wrong = NULL;
+    if (given->sensors == NULL && given->grid.target == NULL)
+        wrong = "irradiance: the points are missing: --sensors POINTS or --grid SURFACE:SPACING";
+    else if (given->sensors != NULL && given->grid.target != NULL)
+        wrong = "irradiance: --sensors does not go with --grid";
+    else if (cli_given(call, "margin") != NULL && given->grid.target == NULL)
+        wrong = "irradiance: --margin is for --grid";
+    else if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
+        wrong = "irradiance: --particles is for --reflected map or radiosity";
+    if (wrong != NULL)
+        cli_bad_usage("%s", wrong);
+    return wrong == NULL && cli_daylight_check(call) && cli_sky_check(call);
+}
+
+/* How the scene is to be read. */
+static aur_scene_options loading(const cli_call *call) {
+    const irradiance_command *const given = call->options;
     aur_scene_options load = {.size = sizeof load};
     aur_scene_options_init(&load, NULL);
     load.definition_count = given->definitions.count;
@@ -253,27 +250,51 @@ static int run(const cli_call *call) {
     load.warnings = cli_warnings(given->common.quiet);
     load.threads = given->common.threads;
     load.sky = given->sky.sky;
-    load.lamp_count = given->sky.lamp_count;
-    load.lamps = given->sky.lamps;
     load.sky.ground_albedo = given->daylight.options.ground_albedo;
     memcpy(load.sky.up, given->daylight.options.up, sizeof load.sky.up);
     memcpy(load.sky.north, given->daylight.options.north, sizeof load.sky.north);
-    aur_error error;
-    aur_scene *scene = NULL;
-    aur_sensors *sensors = NULL;
-    given->stand.size = sizeof given->stand;
-    given->stand.warnings = cli_warnings(given->common.quiet);
+    load.lamp_count = given->sky.lamp_count;
+    load.lamps = given->sky.lamps;
+    return load;
+}
+
+/* Sensors of a grid, whose surfaces are the scene's. */
+static aur_result place_grid(irradiance_command *given, const aur_scene *scene, aur_sensors **sensors,
+                             aur_error *error) {
     aur_grid_options grid = {.size = sizeof grid};
     aur_grid_options_init(&grid, NULL);
     given->grid.size = grid.size;
     given->grid.warnings = given->stand.warnings;
     memcpy(given->grid.up, given->daylight.options.up, sizeof given->grid.up);
+    return aur_sensors_grid(scene, &given->grid, sensors, error);
+}
+
+static int run(const cli_call *call) {
+    irradiance_command *const given = call->options;
+    find_format(call, given);
+    if (!check(call))
+        return 2;
+    given->estimate.size = sizeof given->estimate;
+    given->estimate.threads = given->common.threads;
+    given->estimate.progress = cli_progress(given->common.quiet);
+    given->estimate.warnings = cli_warnings(given->common.quiet);
+    given->columns.size = sizeof given->columns;
+    if (cli_given(call, "illuminance") != NULL || given->sky.daylight_factor)
+        set_illuminance(given);
+    if (given->sky.daylight_factor)
+        set_daylight_factor(given);
+    const aur_scene_options load = loading(call);
+    aur_error error;
+    aur_scene *scene = NULL;
+    aur_sensors *sensors = NULL;
+    given->stand.size = sizeof given->stand;
+    given->stand.warnings = cli_warnings(given->common.quiet);
     aur_result result =
         given->sensors != NULL ? aur_sensors_read(given->sensors, &given->stand, &sensors, &error) : AUR_OK;
     if (result == AUR_OK)
         result = aur_scene_load(call->operands[0], &load, &scene, &error);
     if (result == AUR_OK && given->sensors == NULL)
-        result = aur_sensors_grid(scene, &given->grid, &sensors, &error);
+        result = place_grid(given, scene, &sensors, &error);
     if (result == AUR_OK)
         result = given->daylight.weather != NULL
                      ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)
