@@ -45,6 +45,10 @@ class Render(unittest.TestCase):
         self.assertAlmostEqual(aureole.compare(picture, other, "flip"), aureole.flip(picture, other).mean(), delta=1e-6)
         asked = aureole.render(scene, width=16, error=0.5)
         self.assertGreater(asked.mean(), 0)
+        shown = aureole.render(scene, width=16, error=0.1, error_measure="display")
+        self.assertFalse(np.array_equal(asked, shown))
+        with self.assertRaises(Exception):
+            aureole.render(scene, width=16, error=0.1, error_measure="pixel")
 
         with self.assertRaisesRegex(aureole.UnknownNameError, "did you mean 'path'"):
             aureole.render(scene, integrator="pth")
