@@ -18,6 +18,7 @@ extern const bench bench_adaptive_calibration_alone;
 extern const bench bench_adaptive_speed_alone;
 extern const bench bench_defaults;
 extern const bench bench_domains;
+extern const bench bench_film;
 extern const bench bench_gather;
 extern const bench bench_gather_rays_alone;
 extern const bench bench_gather_weights;
@@ -45,6 +46,7 @@ static const bench *const benches[] = {
     &bench_adaptive_speed_alone,
     &bench_defaults,
     &bench_domains,
+    &bench_film,
     &bench_gather,
     &bench_gather_rays_alone,
     &bench_gather_weights,

@@ -365,6 +365,19 @@ static void plan_samples(aur_candidate *candidate) {
     candidate->samples = sum / (double)candidate->replicas.pixel_count;
 }
 
+/* Lets variances of pixels be those of what gets samples as a whole. */
+static void smooth(aur_candidate *candidate) {
+    const aur_replicas *const replicas = &candidate->replicas;
+    const size_t cell = aur_render_film(replicas->renders[0])->layout.cell;
+    if (aur_render_integrator(replicas->renders[0])->whole_tiles) {
+        aur_replicas_average(replicas, AUR_TILE_SIZE, candidate->targets, candidate->measured);
+        return;
+    }
+    aur_replicas_smooth(replicas, candidate->targets, candidate->measured, candidate->scratch);
+    if (cell > 0)
+        aur_replicas_average(replicas, cell, NULL, candidate->measured);
+}
+
 aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
                                 aur_error *error) {
     const double earlier_error = candidate->interval.estimate;
@@ -387,10 +400,7 @@ aur_result aur_candidate_render(aur_candidate *candidate, double confidence, con
     aur_candidate_spent(candidate, &spent);
     candidate->samples = (double)spent.samples / (double)replicas->pixel_count;
     measure(candidate, confidence);
-    if (aur_render_integrator(replicas->renders[0])->whole_tiles)
-        aur_replicas_average_tiles(replicas, candidate->targets, candidate->measured);
-    else
-        aur_replicas_smooth(replicas, candidate->targets, candidate->measured, candidate->scratch);
+    smooth(candidate);
     const variance_sums sums = pool_variances(candidate);
     candidate->bound = bound_of(candidate, &sums);
     learn_rate(candidate, earlier_error);

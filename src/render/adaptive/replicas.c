@@ -32,9 +32,7 @@ void aur_replicas_release(aur_replicas *replicas) {
 }
 
 double aur_replicas_value(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
-    const aur_film *const film = aur_render_film(replicas->renders[r]);
-    const double sum = film->sums[pixel * film->layout.channel_count + channel];
-    return film->counts[pixel] > 0 ? sum / (double)film->counts[pixel] : 0.0;
+    return aur_film_mean(aur_render_film(replicas->renders[r]), pixel, channel);
 }
 
 /* The deviations of the replicas' values of channel R, G or B of a pixel from their mean, which is returned.
@@ -83,17 +81,17 @@ void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const
 /* Correlation between pixels is seen within blocks of so many pixels a side. */
 enum { BLOCK = 8 };
 
-/* The pixels of a film that lie in cell `index` of a grid over the whole picture. */
+/* The pixels of a film that lie in a cell of a grid over the whole picture. */
 typedef struct pixel_range {
     size_t x0, x1, y0, y1; /* from the film's corner on */
 } pixel_range;
 
-static pixel_range cell_of(const aur_film_layout *layout, size_t column, size_t row) {
-    const size_t x = column * BLOCK, y = row * BLOCK;
+static pixel_range cell_of(const aur_film_layout *layout, size_t side, size_t column, size_t row) {
+    const size_t x = column * side, y = row * side;
     return (pixel_range){.x0 = (x > layout->x0 ? x : layout->x0) - layout->x0,
-                         .x1 = (x + BLOCK < layout->x1 ? x + BLOCK : layout->x1) - layout->x0,
+                         .x1 = (x + side < layout->x1 ? x + side : layout->x1) - layout->x0,
                          .y0 = (y > layout->y0 ? y : layout->y0) - layout->y0,
-                         .y1 = (y + BLOCK < layout->y1 ? y + BLOCK : layout->y1) - layout->y0};
+                         .y1 = (y + side < layout->y1 ? y + side : layout->y1) - layout->y0};
 }
 
 /* One over the samples that each replica has of a pixel, and their sum. */
@@ -214,8 +212,8 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
         pixels->variances[i] = 0.0;
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            const aur_gram gram =
-                measure_block(replicas, weighing, cell_of(layout, column, row), &measure->mean, pixels);
+            const aur_gram gram = measure_block(replicas, weighing, cell_of(layout, BLOCK, column, row),
+                                                &measure->mean, pixels);
             aur_deviations_add(&measure->deviations, &gram);
         }
     measure->mean /= 3.0 * (double)replicas->pixel_count;
@@ -270,24 +268,26 @@ void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, 
     }
 }
 
-void aur_replicas_average_tiles(const aur_replicas *replicas, const uint32_t *samples, double *variances) {
-    const aur_film *const film = aur_render_film(replicas->renders[0]);
-    const size_t width = film->layout.x1 - film->layout.x0, pixels = replicas->pixel_count;
-    for (size_t index = 0; index < film->tile_count; ++index) {
-        aur_tile tile;
-        aur_film_place_tile(film, index, &tile);
-        const size_t first = (tile.y0 - film->layout.y0) * width + (tile.x0 - film->layout.x0);
-        const size_t count = tile.stride * (tile.y1 - tile.y0);
-        for (size_t r = 0; r < replicas->count; ++r) {
-            double sum = 0.0;
-            for (size_t k = 0; k < count; ++k)
-                sum += variances[r * pixels + first + k / tile.stride * width + k % tile.stride];
-            for (size_t k = 0; k < count; ++k) {
-                const size_t value = r * pixels + first + k / tile.stride * width + k % tile.stride;
-                variances[value] = sum / (double)count / samples[value];
+void aur_replicas_average(const aur_replicas *replicas, size_t side, const uint32_t *samples,
+                          double *variances) {
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const size_t width = layout->x1 - layout->x0, pixels = replicas->pixel_count;
+    for (size_t row = layout->y0 / side; row * side < layout->y1; ++row)
+        for (size_t column = layout->x0 / side; column * side < layout->x1; ++column) {
+            const pixel_range cell = cell_of(layout, side, column, row);
+            const size_t across = cell.x1 - cell.x0, count = across * (cell.y1 - cell.y0);
+            for (size_t r = 0; r < replicas->count; ++r) {
+                double *const own = variances + r * pixels + cell.y0 * width + cell.x0;
+                double sum = 0.0;
+                for (size_t k = 0; k < count; ++k)
+                    sum += own[k / across * width + k % across];
+                for (size_t k = 0; k < count; ++k) {
+                    const size_t at = k / across * width + k % across;
+                    const double share = samples != NULL ? samples[(size_t)(own - variances) + at] : 1.0;
+                    own[at] = sum / (double)count / share;
+                }
             }
         }
-    }
 }
 
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,

@@ -59,9 +59,11 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
 void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
                          double *scratch);
 
-/* The same where the pixels of a tile have as many samples: each becomes the mean of its tile, by which most
- * is gained for what the whole tile costs. */
-void aur_replicas_average_tiles(const aur_replicas *replicas, const uint32_t *samples, double *variances);
+/* Where the pixels of cells of `side` x `side` have as many samples: each variance becomes the mean of its
+ * cell, by which most is gained for what the whole cell costs; and that of the replica's value, of which
+ * `samples` are made (NULL: it is already). */
+void aur_replicas_average(const aur_replicas *replicas, size_t side, const uint32_t *samples,
+                          double *variances);
 
 /* The mean of the replicas, and with `errors` three more channels with its standard error. May be called
  * while a replica is in a step. Errors: UNSUPPORTED before the replicas are made, MEMORY. */

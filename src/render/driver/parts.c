@@ -35,8 +35,8 @@ static bool read_number(const char *identity, const char *key, size_t *numbers, 
 
 /* Whether the part has all its samples, and none of tiles that are not its own. */
 static bool is_finished(const aur_film *film, size_t part, size_t count, size_t samples) {
-    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
-        if (film->given[i] != (aur_film_tile_of(film, i) % count == part ? samples : 0))
+    for (size_t i = 0; i < aur_film_unit_count(film); ++i)
+        if (aur_film_unit_given(film, i) != (aur_film_unit_tile(film, i) % count == part ? samples : 0))
             return false;
     return true;
 }

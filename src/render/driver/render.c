@@ -18,6 +18,7 @@
 #include "render/film/film.h"
 #include "render/film/integrator.h"
 #include "render/image/format.h"
+#include "render/scene/sensor.h"
 
 struct aur_renderer {
     const aur_scene *scene;
@@ -119,7 +120,16 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
     return result;
 }
 
-static aur_result make_film(aur_render *render, aur_error *error) {
+/* The side of the cells by which pixels share samples; 0 where they share none. */
+static size_t cell_of(const aur_render *render, const aur_filter *filter) {
+    if (render->integrator->pixel_centre || !aur_filter_shares_samples(filter))
+        return 0;
+    return render->integrator->whole_tiles || render->settings.samples_per_pixel < AUR_SAMPLES_PER_PIXEL_MAX
+               ? AUR_TILE_SIZE
+               : AUR_FILM_CELL;
+}
+
+static aur_result make_film(aur_render *render, const aur_filter *filter, aur_error *error) {
     const aur_render_options *const s = &render->settings;
     const aur_integrator *const integrator = render->integrator;
     const aur_film_layout layout = {.width = s->width,
@@ -128,7 +138,9 @@ static aur_result make_film(aur_render *render, aur_error *error) {
                                     .x1 = s->crop_x1,
                                     .y0 = s->crop_y0,
                                     .y1 = s->crop_y1,
-                                    .channel_count = 3 + integrator->extra_count};
+                                    .channel_count = 3 + integrator->extra_count,
+                                    .cell = cell_of(render, filter),
+                                    .filter = *filter};
     const aur_result result = aur_film_create(&layout, &render->film, error);
     for (size_t c = 0; result == AUR_OK && c < integrator->extra_count; ++c) {
         aur_film_channel *const channel = &render->film->channels[3 + c];
@@ -153,12 +165,13 @@ static aur_result prepare(aur_render *render, aur_error *error) {
     if (result == AUR_OK)
         result = make_integrator(render, error);
     if (result == AUR_OK)
-        result = make_film(render, error);
+        result = make_film(render, filter, error);
     if (result != AUR_OK)
         return result;
     render->view = (aur_view){.scene = scene,
                               .sampler = render->sampler,
-                              .filter = filter,
+                              .filter = render->film->spread != NULL ? aur_filter_find("box") : filter,
+                              .reach = render->film->spread != NULL ? render->film->spread->reach : 0,
                               .width = s->width,
                               .height = s->height,
                               .seed = s->seed,
@@ -246,9 +259,13 @@ static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) 
 static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *counted) {
     enum { RAYS_A_PIECE = 1 << 16 };
     const uint32_t end = tile->first + tile->count;
-    uint32_t piece = aur_integrator_cuts(render->integrator) ? 1 : end;
+    const bool cuts = aur_integrator_cuts(render->integrator), holds = cuts && tile->spread != NULL;
+    const uint32_t most = holds ? AUR_SPREAD_PIECE : end;
+    uint32_t piece = cuts ? 1 : end;
     while (tile->first < end) {
         tile->count = piece < end - tile->first ? piece : end - tile->first;
+        if (holds && !aur_tile_hold(tile))
+            return AUR_ERROR_MEMORY;
         for (size_t y = tile->y0; y < tile->y1; ++y)
             for (size_t x = tile->x0; x < tile->x1; ++x)
                 tile->counters.samples += aur_tile_wanted(tile, x, y);
@@ -258,11 +275,15 @@ static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *c
             return result;
         if (tile->counters.stopped)
             return AUR_ERROR_CANCELLED;
+        if (holds)
+            aur_tile_release(tile);
+        if (tile->slots.failed)
+            return AUR_ERROR_MEMORY;
         const uint64_t rays = tile->counters.rays = aur_rays_traced - before;
         if (counted != NULL)
             aur_counters_add(counted, &tile->counters);
         aur_film_take_tile(render->film, tile);
-        if (rays < RAYS_A_PIECE && piece < end)
+        if (rays < RAYS_A_PIECE && piece < most)
             piece *= 2;
         if (tile->first < end && aur_tile_stops(tile))
             return AUR_ERROR_CANCELLED;
@@ -397,9 +418,11 @@ void aur_render_cancel(aur_render *render) {
 
 size_t aur_render_samples(const aur_render *render) {
     uint32_t least = (uint32_t)render->settings.samples_per_pixel;
-    for (size_t i = 0; i < aur_film_pixel_count(render->film); ++i)
-        if (render->film->given[i] < least && is_own(render, aur_film_tile_of(render->film, i)))
-            least = render->film->given[i];
+    for (size_t i = 0; i < aur_film_unit_count(render->film); ++i) {
+        const uint32_t given = aur_film_unit_given(render->film, i);
+        if (given < least && is_own(render, aur_film_unit_tile(render->film, i)))
+            least = given;
+    }
     return least;
 }
 

@@ -96,7 +96,8 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
                 !aur_tile_wants(tile, px, py, i))
                 continue;
             const float open = 1.0f - (float)sums.stopped[surface_point] / (float)directions;
-            aur_tile_add(tile, px, py, surface_points.weight[surface_point], (aur_vector){open, open, open});
+            aur_tile_add(tile, px, py, i, surface_points.offset[surface_point],
+                         (aur_vector){open, open, open});
         }
     }
     return AUR_OK;

@@ -12,7 +12,6 @@ enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
 /* One sample as the channels see it. */
 typedef struct aov_sample {
     aur_vector radiance;
-    float weight;
     const aur_ray *ray;
     const aur_hit *hit; /* NULL: the ray meets nothing, and the rest is 0 */
     const aur_surface *surface;
@@ -77,7 +76,7 @@ static void sample_count(const aov_sample *sample, float *values) {
 }
 
 static void variance(const aov_sample *sample, float *values) {
-    put(aur_vector_scale(aur_vector_multiply(sample->radiance, sample->radiance), sample->weight), values);
+    put(aur_vector_multiply(sample->radiance, sample->radiance), values);
 }
 
 static const aov_type types[] = {
@@ -219,7 +218,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t x, size_t y, uint32_t index) {
     const aov_data *const data = integrator->data;
     aur_camera_sample sample;
-    const float weight = aur_view_sample(tile->view, x, y, index, &sample);
+    aur_view_sample(tile->view, x, y, index, &sample);
     aur_hit hit;
     aur_surface surface;
     const bool seen = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
@@ -227,7 +226,6 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
         aur_scene_surface(integrator->scene, &sample.ray, &hit, &surface);
     const aov_sample at = {.radiance =
                                data->nested->descriptor->radiance(data->nested, &sample, &tile->counters),
-                           .weight = weight,
                            .ray = &sample.ray,
                            .hit = seen ? &hit : NULL,
                            .surface = &surface,
@@ -239,7 +237,7 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
             data->aovs[i]->evaluate(&at, &values[channel]);
         channel += strlen(data->aovs[i]->letters);
     }
-    aur_tile_add_channels(tile, x, y, weight, values);
+    aur_tile_add_channels(tile, x, y, index, sample.offset, values);
 }
 
 static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {

@@ -42,11 +42,11 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     return result == AUR_OK ? aur_path_prepare(data, context->scene, error) : result;
 }
 
-/* A filter with negative parts weighs a sample's rays differently; hidden lamps are not looked at. */
+/* Hidden lamps are not looked at. */
 static aur_result look(const aur_view *view, const aur_integrator_context *context,
                        aur_integrator *integrator, aur_error *error) {
     aur_path *const data = integrator->data;
-    if (data->lamp_rays == 0.0 || data->hide_emitters || aur_filter_weight(view->filter, 0.0f) != 1.0f)
+    if (data->lamp_rays == 0.0 || data->hide_emitters)
         return AUR_OK;
     const aur_result result = aur_edge_probes_find(view, data->lamp_rays, context, &data->probes, error);
     integrator->lamp_looks = data->probes != NULL ? data->probes->counts : NULL;

@@ -39,10 +39,10 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
                 aur_vector straight;
                 if (!aur_tile_wants(tile, x, y, i))
                     continue;
-                const float weight = aur_view_sample(tile->view, x, y, i, &sample);
+                aur_view_sample(tile->view, x, y, i, &sample);
                 const aur_vector all =
                     aur_volume_path_radiance(data, integrator->scene, &sample, &straight, &tile->counters);
-                aur_tile_add_clamped(tile, x, y, weight, all, straight, data->clamp);
+                aur_tile_add_clamped(tile, x, y, i, sample.offset, all, straight, data->clamp);
             }
     return AUR_OK;
 }

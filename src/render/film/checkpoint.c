@@ -9,8 +9,8 @@
 #include "points/base/file.h"
 #include "points/base/words.h"
 
-/* "AURCHKP1" */
-static const uint64_t magic = UINT64_C(0x31504b4843525541);
+/* "AURCHKP2" */
+static const uint64_t magic = UINT64_C(0x32504b4843525541);
 static const char any_version[] = "AURCHKP";
 
 enum { MOST_FILMS = 64 };
@@ -91,7 +91,13 @@ aur_result aur_checkpoint_load_memory(const char *name, size_t size, const void 
     aur_word_reader reader = {.at = data, .end = (const unsigned char *)data + size};
     uint64_t sizes[MOST_FILMS];
     if (aur_word_get(&reader) != magic)
-        return damaged(name, "no checkpoint, or one of another version of the program", error);
+        return damaged(
+            name,
+            size >= sizeof magic && memcmp(data, any_version, sizeof any_version - 1) == 0
+                ? "a checkpoint of another version of the program, which stores samples otherwise: "
+                  "render again without --resume, or go on with that version"
+                : "not a checkpoint",
+            error);
     aur_result result = get_identity(&reader, &checkpoint->identity, error);
     if (result == AUR_OK)
         result = get_words(&reader, checkpoint, error);

@@ -39,14 +39,15 @@ static inline aur_vector aur_clamped(aur_vector radiance, aur_vector straight, f
 }
 
 /* Adds such a sample to a pixel. */
-static inline void aur_tile_add_clamped(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance,
-                                        aur_vector straight, float clamp) {
+static inline void aur_tile_add_clamped(aur_tile *tile, size_t x, size_t y, uint32_t index,
+                                        const float offset[2], aur_vector radiance, aur_vector straight,
+                                        float clamp) {
     if (!(clamp > 0.0f) || !aur_is_radiance(radiance)) {
-        aur_tile_add(tile, x, y, weight, radiance);
+        aur_tile_add(tile, x, y, index, offset, radiance);
         return;
     }
     const aur_vector left = aur_clamped(radiance, straight, clamp);
     const aur_vector taken = aur_vector_subtract(radiance, left);
     const float values[] = {left.x, left.y, left.z, taken.x, taken.y, taken.z};
-    aur_tile_add_channels(tile, x, y, weight, values);
+    aur_tile_add_channels(tile, x, y, index, offset, values);
 }

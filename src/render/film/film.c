@@ -12,7 +12,17 @@ static bool is_good(const aur_film_layout *layout) {
     enum { LARGEST_SIDE = 1 << 24, MOST_CHANNELS = 1 << 16 };
     return layout->x0 < layout->x1 && layout->x1 <= layout->width && layout->width <= LARGEST_SIDE &&
            layout->y0 < layout->y1 && layout->y1 <= layout->height && layout->height <= LARGEST_SIDE &&
-           layout->channel_count >= 3 && layout->channel_count <= MOST_CHANNELS;
+           layout->channel_count >= 3 && layout->channel_count <= MOST_CHANNELS &&
+           (layout->cell == 0 || layout->cell == AUR_FILM_CELL || layout->cell == AUR_TILE_SIZE) &&
+           (layout->cell == 0 || aur_spread_reach(&layout->filter) <= AUR_FILTER_REACH_MAX);
+}
+
+void aur_film_place(aur_film *film) {
+    const aur_film_area area = aur_film_area_of(&film->layout);
+    film->column0 = area.x0 / AUR_TILE_SIZE;
+    film->row0 = area.y0 / AUR_TILE_SIZE;
+    film->columns = (area.x1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->column0;
+    film->tile_count = film->columns * ((area.y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->row0);
 }
 
 aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_error *error) {
@@ -24,24 +34,24 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
     if (film == NULL)
         return aur_fail_memory(error);
     film->layout = *layout;
-    film->column0 = layout->x0 / AUR_TILE_SIZE;
-    film->row0 = layout->y0 / AUR_TILE_SIZE;
-    film->columns = (layout->x1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->column0;
-    film->tile_count = film->columns * ((layout->y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->row0);
-    const size_t pixels = aur_film_pixel_count(film);
+    aur_film_place(film);
+    const size_t pixels = aur_film_pixel_count(film), own = layout->cell == 0 ? pixels : 0;
     film->channels = calloc(layout->channel_count, sizeof *film->channels);
     film->given = calloc(pixels, sizeof *film->given);
-    film->sums = calloc(pixels, layout->channel_count * sizeof *film->sums);
+    film->sums = calloc(own + 1, layout->channel_count * sizeof *film->sums);
     film->counts = calloc(pixels, sizeof *film->counts);
     film->steps = calloc(pixels, sizeof *film->steps);
-    film->squares = calloc(pixels, 3 * sizeof *film->squares);
+    film->squares = calloc(own + 1, 3 * sizeof *film->squares);
+    const bool spread =
+        layout->cell == 0 || aur_spread_create(&layout->filter, layout->cell, layout->channel_count,
+                                               film->tile_count, &film->spread);
     film->lock = malloc(sizeof *film->lock);
     if (film->lock != NULL && pthread_mutex_init(film->lock, NULL) != 0) {
         free(film->lock);
         film->lock = NULL;
     }
     if (film->channels == NULL || film->given == NULL || film->sums == NULL || film->counts == NULL ||
-        film->steps == NULL || film->squares == NULL || film->lock == NULL) {
+        film->steps == NULL || film->squares == NULL || film->lock == NULL || !spread) {
         aur_film_destroy(film);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a picture of %zu x %zu", layout->width,
                         layout->height);
@@ -61,6 +71,7 @@ void aur_film_destroy(aur_film *film) {
     free(film->counts);
     free(film->steps);
     free(film->squares);
+    aur_spread_destroy(film->spread);
     if (film->lock != NULL)
         pthread_mutex_destroy(film->lock);
     free(film->lock);
@@ -82,18 +93,21 @@ static size_t first_pixel(const aur_film *film, const aur_tile *tile) {
 }
 
 /* Which samples the pixels of a tile lack. */
-static void set_wanted(const aur_film *film, const aur_film_targets *targets, aur_tile *tile,
+static void set_wanted(const aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
                        aur_film_before *before) {
     const size_t width = film->layout.x1 - film->layout.x0;
     const size_t count = tile->stride * (tile->y1 - tile->y0);
     uint32_t begin = UINT32_MAX, end = 0, most = targets->all;
     bool even = true;
-    for (size_t k = 0; k < count; ++k) {
+    if (film->spread != NULL)
+        aur_spread_set_wanted(film, index, targets, tile, before);
+    for (size_t k = 0; k < count && film->spread == NULL; ++k) {
         const size_t at = first_pixel(film, tile) + k / tile->stride * width + k % tile->stride;
         before->given[k] = film->given[at];
         before->targets[k] = targets->pixels != NULL ? targets->pixels[at] : targets->all;
-        most = before->targets[k] > most ? before->targets[k] : most;
     }
+    for (size_t k = 0; k < count; ++k)
+        most = before->targets[k] > most ? before->targets[k] : most;
     for (size_t k = 0; k < count; ++k) {
         if (targets->whole_tiles)
             before->targets[k] = most;
@@ -110,13 +124,13 @@ static void set_wanted(const aur_film *film, const aur_film_targets *targets, au
 }
 
 void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile) {
-    const aur_film_layout *const layout = &film->layout;
+    const aur_film_area area = aur_film_area_of(&film->layout);
     const size_t x = (film->column0 + index % film->columns) * AUR_TILE_SIZE;
     const size_t y = (film->row0 + index / film->columns) * AUR_TILE_SIZE;
-    tile->x0 = larger(x, layout->x0);
-    tile->x1 = smaller(x + AUR_TILE_SIZE, layout->x1);
-    tile->y0 = larger(y, layout->y0);
-    tile->y1 = smaller(y + AUR_TILE_SIZE, layout->y1);
+    tile->x0 = larger(x, area.x0);
+    tile->x1 = smaller(x + AUR_TILE_SIZE, area.x1);
+    tile->y0 = larger(y, area.y0);
+    tile->y1 = smaller(y + AUR_TILE_SIZE, area.y1);
     tile->stride = tile->x1 - tile->x0;
 }
 
@@ -124,10 +138,13 @@ aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targe
                               aur_film_before *before) {
     const size_t channels = film->layout.channel_count, width = film->layout.x1 - film->layout.x0;
     aur_film_place_tile(film, index, tile);
-    set_wanted(film, targets, tile, before);
+    before->cells = NULL;
+    set_wanted(film, index, targets, tile, before);
     if (tile->count == 0)
         return AUR_OK;
     tile->channel_count = channels;
+    if (film->spread != NULL)
+        return aur_spread_open_tile(film, tile, before);
     const size_t rows = tile->y1 - tile->y0;
     tile->sums = malloc(tile->stride * rows * channels * sizeof *tile->sums);
     tile->counts = malloc(tile->stride * rows * sizeof *tile->counts);
@@ -149,7 +166,9 @@ aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targe
 void aur_film_take_tile(aur_film *film, aur_tile *tile) {
     const size_t channels = tile->channel_count, width = film->layout.x1 - film->layout.x0;
     pthread_mutex_lock(film->lock);
-    for (size_t row = 0; row < tile->y1 - tile->y0; ++row) {
+    if (film->spread != NULL)
+        aur_spread_take_tile(film, tile);
+    for (size_t row = 0; row < tile->y1 - tile->y0 && film->spread == NULL; ++row) {
         const size_t to = first_pixel(film, tile) + row * width, from = row * tile->stride;
         memcpy(&film->sums[to * channels], &tile->sums[from * channels],
                tile->stride * channels * sizeof *tile->sums);
@@ -168,11 +187,13 @@ void aur_film_take_tile(aur_film *film, aur_tile *tile) {
     tile->count = 0;
 }
 
-void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before) {
+void aur_film_close_tile(aur_film *film, aur_tile *tile, aur_film_before *before) {
     const size_t width = film->layout.x1 - film->layout.x0;
+    const bool open = tile->sums != NULL && tile->counts != NULL;
     pthread_mutex_lock(film->lock);
-    for (size_t k = 0; tile->sums != NULL && tile->counts != NULL && k < (tile->y1 - tile->y0) * tile->stride;
-         ++k) {
+    if (film->spread != NULL && open && (film->spread->moments == NULL || before->cells != NULL))
+        aur_spread_close_tile(film, tile, before);
+    for (size_t k = 0; film->spread == NULL && open && k < (tile->y1 - tile->y0) * tile->stride; ++k) {
         const size_t at = first_pixel(film, tile) + k / tile->stride * width + k % tile->stride;
         const uint32_t count = film->counts[at] - before->counts[k];
         if (count == 0)
@@ -186,12 +207,14 @@ void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *
     pthread_mutex_unlock(film->lock);
     free(tile->sums);
     free(tile->counts);
+    free(before->cells);
+    aur_tile_free_slots(tile);
 }
 
 uint32_t aur_film_samples(const aur_film *film) {
     uint32_t least = UINT32_MAX;
-    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
-        least = film->given[i] < least ? film->given[i] : least;
+    for (size_t i = 0; i < aur_film_unit_count(film); ++i)
+        least = aur_film_unit_given(film, i) < least ? aur_film_unit_given(film, i) : least;
     return least;
 }
 
@@ -219,6 +242,11 @@ static aur_result check_part(const aur_film *film, const aur_film *part, aur_err
                film->channels[c].kind == part->channels[c].kind;
     if (!same)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the part has other channels than the film");
+    const bool alike = b->x0 == a->x0 && b->x1 == a->x1 && b->y0 == a->y0 && b->y1 == a->y1;
+    if (a->cell != b->cell ||
+        (a->cell > 0 && (!alike || memcmp(&a->filter, &b->filter, sizeof a->filter) != 0)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "pixels share samples by the filter, so a part must have the film's filter and crop");
     if (b->x0 < a->x0 || b->x1 > a->x1 || b->y0 < a->y0 || b->y1 > a->y1 || !fits(b->x0, a->x0) ||
         !fits(b->x1, a->x1) || !fits(b->y0, a->y0) || !fits(b->y1, a->y1))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -233,14 +261,16 @@ aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error
     if (result != AUR_OK)
         return result;
     const aur_film_layout *const a = &film->layout, *const b = &part->layout;
-    const size_t channels = a->channel_count;
+    const size_t channels = a->channel_count, own = film->spread == NULL;
+    if (film->spread != NULL)
+        aur_spread_merge(film, part);
     for (size_t y = b->y0; y < b->y1; ++y)
         for (size_t x = b->x0; x < b->x1; ++x) {
             const size_t to = (y - a->y0) * (a->x1 - a->x0) + (x - a->x0);
             const size_t from = (y - b->y0) * (b->x1 - b->x0) + (x - b->x0);
-            for (size_t c = 0; c < channels; ++c)
+            for (size_t c = 0; c < own * channels; ++c)
                 film->sums[to * channels + c] += part->sums[from * channels + c];
-            for (size_t c = 0; c < 3; ++c)
+            for (size_t c = 0; c < own * 3; ++c)
                 film->squares[3 * to + c] += part->squares[3 * from + c];
             film->given[to] += part->given[from];
             film->counts[to] += part->counts[from];
@@ -256,18 +286,22 @@ static double variance_of(uint32_t count, double mean, double mean_square) {
     return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;
 }
 
-static double channel_value(const aur_film *film, size_t pixel, size_t channel) {
-    const double *const sums = &film->sums[pixel * film->layout.channel_count];
+double aur_film_mean(const aur_film *film, size_t pixel, size_t channel) {
+    if (film->spread != NULL)
+        return aur_spread_value(film, pixel, channel);
     const uint32_t count = film->counts[pixel];
-    if (count == 0)
-        return 0.0;
+    return count > 0 ? film->sums[pixel * film->layout.channel_count + channel] / (double)count : 0.0;
+}
+
+static double channel_value(const aur_film *film, size_t pixel, size_t channel) {
     const aur_channel_kind kind = film->channels[channel].kind;
+    const uint32_t count = film->counts[pixel];
     if (kind == AUR_CHANNEL_COUNT)
         return count;
-    const double mean = sums[channel] / (double)count;
+    const double mean = aur_film_mean(film, pixel, channel);
     return kind == AUR_CHANNEL_MEAN
                ? mean
-               : variance_of(count, sums[kind - AUR_CHANNEL_VARIANCE_R] / (double)count, mean);
+               : variance_of(count, aur_film_mean(film, pixel, kind - AUR_CHANNEL_VARIANCE_R), mean);
 }
 
 aur_result aur_film_develop(const aur_film *film, aur_image **out, aur_error *error) {
@@ -290,23 +324,31 @@ aur_result aur_film_develop(const aur_film *film, aur_image **out, aur_error *er
     return AUR_OK;
 }
 
-/* The squared standard error of a pixel's mean (aur_film_error). */
-static double squared_error(const aur_film *film, size_t pixel, size_t channel) {
+/* The squared standard errors of a pixel's R, G and B (aur_film_error); false before two steps. */
+static bool squared_errors(const aur_film *film, size_t pixel, double squares[3]) {
+    if (film->spread != NULL)
+        return aur_spread_error(film, pixel, squares);
+    if (film->steps[pixel] < 2)
+        return false;
     const double count = film->counts[pixel];
-    const double sum = film->sums[pixel * film->layout.channel_count + channel];
-    const double spread = film->squares[3 * pixel + channel] - sum * sum / count;
-    return spread > 0.0 ? spread / ((double)(film->steps[pixel] - 1) * count) : 0.0;
+    for (size_t c = 0; c < 3; ++c) {
+        const double sum = film->sums[pixel * film->layout.channel_count + c];
+        const double spread = film->squares[3 * pixel + c] - sum * sum / count;
+        squares[c] = spread > 0.0 ? spread / ((double)(film->steps[pixel] - 1) * count) : 0.0;
+    }
+    return true;
 }
 
 aur_result aur_film_error(const aur_film *film, double rmse[4], aur_image **out, aur_error *error) {
     const size_t pixels = aur_film_pixel_count(film);
+    double squares[3];
     if (out != NULL)
         *out = NULL;
     for (size_t i = 0; i < pixels; ++i)
-        if (film->steps[i] < 2)
-            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                            "a pixel has %u steps of samples; an error is seen from two steps on",
-                            film->steps[i]);
+        if (!squared_errors(film, i, squares))
+            return aur_fail(
+                error, AUR_ERROR_UNSUPPORTED,
+                "a pixel has fewer than two steps of samples; an error is seen from two steps on");
     aur_image *image = NULL;
     if (out != NULL) {
         const aur_result result = aur_image_create(film->layout.x1 - film->layout.x0,
@@ -315,14 +357,15 @@ aur_result aur_film_error(const aur_film *film, double rmse[4], aur_image **out,
             return result;
     }
     double total[4] = {0};
-    for (size_t i = 0; i < pixels; ++i)
+    for (size_t i = 0; i < pixels; ++i) {
+        squared_errors(film, i, squares);
         for (size_t c = 0; c < 3; ++c) {
-            const double squared = squared_error(film, i, c);
-            total[c] += squared / (double)pixels;
-            total[3] += squared / (3.0 * (double)pixels);
+            total[c] += squares[c] / (double)pixels;
+            total[3] += squares[c] / (3.0 * (double)pixels);
             if (image != NULL)
-                image->data[3 * i + c] = (float)sqrt(squared);
+                image->data[3 * i + c] = (float)sqrt(squares[c]);
         }
+    }
     for (size_t c = 0; rmse != NULL && c < 4; ++c)
         rmse[c] = sqrt(total[c]);
     if (out != NULL)

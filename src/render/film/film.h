@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <stdio.h>
 
+#include "render/film/spread.h"
 #include "render/film/tile.h"
 
 /* What a channel shows of its sums. */
@@ -31,15 +32,33 @@ typedef struct aur_film_layout {
     /* The film's pixels: x0 <= x < x1, y0 <= y < y1. */
     size_t x0, x1, y0, y1;
     size_t channel_count;
+    /* Pixels share samples by this filter, in cells of so many pixels along a side; 0: they share none. */
+    size_t cell;
+    aur_filter filter;
 } aur_film_layout;
+
+/* The pixels whose samples count in those of a film. */
+typedef struct aur_film_area {
+    size_t x0, x1, y0, y1;
+} aur_film_area;
+
+static inline aur_film_area aur_film_area_of(const aur_film_layout *layout) {
+    const size_t reach = layout->cell > 0 ? aur_spread_reach(&layout->filter) : 0;
+    return (aur_film_area){layout->x0 > reach ? layout->x0 - reach : 0,
+                           layout->x1 + reach < layout->width ? layout->x1 + reach : layout->width,
+                           layout->y0 > reach ? layout->y0 - reach : 0,
+                           layout->y1 + reach < layout->height ? layout->y1 + reach : layout->height};
+}
 
 struct aur_film {
     aur_film_layout layout;
     aur_film_channel *channels;
-    /* The first tile on the grid over the whole picture, and how many tiles there are. */
+    /* The first tile on the grid over the whole picture, and how many tiles there are: those of all pixels
+     * whose samples count. */
     size_t column0, row0, columns, tile_count;
     /* For each pixel, row by row: samples that it was given, sums of each channel, and the number of samples
-     * in them, which is less where some were no radiance. */
+     * in them, which is less where some were no radiance. Where pixels share samples, `spread` has the sums,
+     * and neither `sums` nor `squares` has any. */
     uint32_t *given;
     double *sums;
     uint32_t *counts;
@@ -47,6 +66,7 @@ struct aur_film {
      */
     uint32_t *steps;
     double *squares;
+    aur_spread *spread;    /* NULL: pixels share no samples */
     aur_counters counters; /* of all samples */
     /* Held while a tile's sums are written or the film is read whole, so that it can be read while it is
      * rendered. */
@@ -57,6 +77,26 @@ static inline size_t aur_film_pixel_count(const aur_film *film) {
     return (film->layout.x1 - film->layout.x0) * (film->layout.y1 - film->layout.y0);
 }
 
+/* Whether the film has pixel (x, y) of the picture, and where. */
+static inline bool aur_film_has(const aur_film *film, size_t x, size_t y, size_t *at) {
+    const aur_film_layout *const layout = &film->layout;
+    if (x < layout->x0 || x >= layout->x1 || y < layout->y0 || y >= layout->y1)
+        return false;
+    *at = (y - layout->y0) * (layout->x1 - layout->x0) + (x - layout->x0);
+    return true;
+}
+
+/* The tile of pixel (x, y) of the picture. */
+static inline size_t aur_film_tile_at(const aur_film *film, size_t x, size_t y) {
+    return (y / AUR_TILE_SIZE - film->row0) * film->columns + x / AUR_TILE_SIZE - film->column0;
+}
+
+/* Cells of films whose pixels may get different numbers of samples; others have one cell a tile. */
+enum { AUR_FILM_CELL = 4 };
+
+/* Sets what follows from the film's layout alone. */
+void aur_film_place(aur_film *film);
+
 /* An empty film; its channels after the first three are still to be named. Errors: ARGUMENT, MEMORY. */
 aur_result aur_film_create(const aur_film_layout *layout, aur_film **film, aur_error *error);
 
@@ -65,15 +105,27 @@ typedef struct aur_film_before {
     double sums[AUR_TILE_SIZE * AUR_TILE_SIZE][3];
     uint32_t counts[AUR_TILE_SIZE * AUR_TILE_SIZE];
     uint32_t given[AUR_TILE_SIZE * AUR_TILE_SIZE], targets[AUR_TILE_SIZE * AUR_TILE_SIZE];
+    double *cells; /* where pixels share samples: the cells' sums; NULL: not needed */
 } aur_film_before;
 
 /* The tile that a pixel lies in. */
 static inline size_t aur_film_tile_of(const aur_film *film, size_t pixel) {
     const aur_film_layout *const layout = &film->layout;
     const size_t width = layout->x1 - layout->x0;
-    const size_t column = (layout->x0 + pixel % width) / AUR_TILE_SIZE - film->column0;
-    const size_t row = (layout->y0 + pixel / width) / AUR_TILE_SIZE - film->row0;
-    return row * film->columns + column;
+    return aur_film_tile_at(film, layout->x0 + pixel % width, layout->y0 + pixel / width);
+}
+
+/* What is given samples as a whole: pixels, or cells where pixels share samples. */
+static inline size_t aur_film_unit_count(const aur_film *film) {
+    return film->spread != NULL ? film->tile_count * film->spread->tile_cells : aur_film_pixel_count(film);
+}
+
+static inline uint32_t aur_film_unit_given(const aur_film *film, size_t unit) {
+    return film->spread != NULL ? film->spread->given[unit] : film->given[unit];
+}
+
+static inline size_t aur_film_unit_tile(const aur_film *film, size_t unit) {
+    return film->spread != NULL ? unit / film->spread->tile_cells : aur_film_tile_of(film, unit);
 }
 
 /* How many samples each pixel is to have. */
@@ -92,7 +144,7 @@ aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targe
  * for them, and moves on to the next ones. */
 void aur_film_take_tile(aur_film *film, aur_tile *tile);
 /* Notes what the step brought, and gives up what has not been taken over. */
-void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before);
+void aur_film_close_tile(aur_film *film, aur_tile *tile, aur_film_before *before);
 
 /* Where the tile lies in the film: x0 .. y1 and the stride. */
 void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile);
@@ -106,6 +158,9 @@ void aur_film_get_tile(aur_film *film, size_t index, const aur_counters *counted
 /* What aur_film_save writes, to a stream that remembers its failures; and its bytes. */
 void aur_film_write(const aur_film *film, FILE *stream);
 size_t aur_film_file_size(const aur_film *film);
+
+/* A pixel's value in a channel of means; 0 where it has no samples. */
+double aur_film_mean(const aur_film *film, size_t pixel, size_t channel);
 
 /* Samples that every pixel was given. */
 uint32_t aur_film_samples(const aur_film *film);
@@ -143,9 +198,9 @@ const char *aur_identity_find(const char *identity, const char *key, size_t *len
 
 /* Adds the samples of `part`, whose picture has the same size and channels and whose pixels are the film's
  * own or whole tiles of them (16 x 16 pixels on a grid over the whole picture). Pixels that have samples from
- * only one of the two keep every bit; where both have some, the sums are added in double precision. The
- * parts' samples must be different ones: nothing can tell. Errors: ARGUMENT for another size, other channels,
- * or pixels that do not fit. */
+ * only one of the two keep every bit; where both have some, the sums are added in double precision. Where
+ * pixels share samples the part has the film's own pixels. The parts' samples must be different ones: nothing
+ * can tell. Errors: ARGUMENT for another size, filter or channels, or pixels that do not fit. */
 aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error);
 
 /* Writes all that the film holds, little-endian, with a checksum; the file is replaced whole or not at all.

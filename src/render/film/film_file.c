@@ -1,22 +1,95 @@
 /* A film in a file: 64-bit little-endian words, the last one a hash of all others. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "points/base/error.h"
 #include "points/base/file.h"
 #include "points/base/words.h"
 #include "render/film/film.h"
 
-enum { NAME_WORDS = AUR_CHANNEL_NAME_CAPACITY / 8, HEADER_WORDS = 9, COUNTER_WORDS = 5 + AUR_RENDER_LEVELS };
+enum { LONGEST_SIDE = 1 << 24 };
+enum { NAME_WORDS = AUR_CHANNEL_NAME_CAPACITY / 8, HEADER_WORDS = 13, COUNTER_WORDS = 5 + AUR_RENDER_LEVELS };
 
-/* "AURFILM3" */
-static const uint64_t magic = UINT64_C(0x334d4c4946525541);
+/* "AURFILM4" */
+static const uint64_t magic = UINT64_C(0x344d4c4946525541);
+
+static uint64_t word_of_floats(float a, float b) {
+    uint32_t bits[2];
+    memcpy(&bits[0], &a, sizeof a);
+    memcpy(&bits[1], &b, sizeof b);
+    return (uint64_t)bits[1] << 32 | bits[0];
+}
+
+static void floats_of_word(uint64_t word, float *a, float *b) {
+    const uint32_t bits[2] = {(uint32_t)word, (uint32_t)(word >> 32)};
+    memcpy(a, &bits[0], sizeof *a);
+    memcpy(b, &bits[1], sizeof *b);
+}
+
+/* Doubles of a film's pixels, and of its cells where pixels share samples. */
+typedef struct film_values {
+    size_t own_sums, own_squares, cells, cell_sums, cell_moments;
+} film_values;
+
+static film_values values_of(const aur_film *film) {
+    const aur_film_layout *const layout = &film->layout;
+    const size_t pixels = aur_film_pixel_count(film);
+    if (layout->cell == 0)
+        return (film_values){.own_sums = pixels * layout->channel_count, .own_squares = 3 * pixels};
+    aur_spread spread;
+    aur_spread_measure(&layout->filter, layout->cell, layout->channel_count, &spread);
+    const size_t cells = film->tile_count * spread.tile_cells;
+    return (film_values){.cells = cells,
+                         .cell_sums = cells * spread.cell_values,
+                         .cell_moments = layout->cell == AUR_TILE_SIZE
+                                             ? cells * spread.side * spread.side * AUR_SPREAD_MOMENTS
+                                             : 0};
+}
+
+static void put_doubles(aur_word_writer *writer, size_t count, const double *values) {
+    for (size_t i = 0; i < count; ++i)
+        aur_word_put(writer, aur_word_of_double(values[i]));
+}
+
+static void get_doubles(aur_word_reader *reader, size_t count, double *values) {
+    for (size_t i = 0; i < count; ++i)
+        values[i] = aur_word_get_double(reader);
+}
+
+static void put_pixels(aur_word_writer *writer, const aur_film *film) {
+    const aur_spread *const spread = film->spread;
+    const film_values values = values_of(film);
+    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
+        aur_word_put(writer, film->given[i]);
+    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
+        aur_word_put(writer, (uint64_t)film->steps[i] << 32 | film->counts[i]);
+    put_doubles(writer, values.own_squares, film->squares);
+    put_doubles(writer, values.own_sums, film->sums);
+    for (size_t i = 0; i < values.cells; ++i)
+        aur_word_put(writer, (uint64_t)spread->steps[i] << 32 | spread->given[i]);
+    if (spread != NULL)
+        put_doubles(writer, values.cell_sums, spread->sums);
+    if (spread != NULL)
+        put_doubles(writer, values.cell_moments, spread->moments);
+}
 
 static void put_film(aur_word_writer *writer, const aur_film *film) {
     const aur_film_layout *const layout = &film->layout;
-    const size_t pixels = aur_film_pixel_count(film), channels = layout->channel_count;
-    const uint64_t header[HEADER_WORDS] = {magic,      layout->width, layout->height,
-                                           layout->x0, layout->x1,    layout->y0,
-                                           layout->y1, channels,      AUR_TILE_SIZE};
+    const aur_filter *const filter = &layout->filter;
+    const size_t channels = layout->channel_count;
+    const uint64_t header[HEADER_WORDS] = {magic,
+                                           layout->width,
+                                           layout->height,
+                                           layout->x0,
+                                           layout->x1,
+                                           layout->y0,
+                                           layout->y1,
+                                           channels,
+                                           AUR_TILE_SIZE,
+                                           layout->cell,
+                                           (uint64_t)filter->lobes << 32 | (uint64_t)filter->kind,
+                                           word_of_floats(filter->scale, 0.0f),
+                                           word_of_floats(filter->b, filter->c)};
     for (size_t i = 0; i < HEADER_WORDS; ++i)
         aur_word_put(writer, header[i]);
     const aur_counters *const counted = &film->counters;
@@ -35,14 +108,7 @@ static void put_film(aur_word_writer *writer, const aur_film *film) {
             aur_word_put(writer, word);
         }
     }
-    for (size_t i = 0; i < pixels; ++i)
-        aur_word_put(writer, film->given[i]);
-    for (size_t i = 0; i < pixels; ++i)
-        aur_word_put(writer, (uint64_t)film->steps[i] << 32 | film->counts[i]);
-    for (size_t i = 0; i < 3 * pixels; ++i)
-        aur_word_put(writer, aur_word_of_double(film->squares[i]));
-    for (size_t i = 0; i < channels * pixels; ++i)
-        aur_word_put(writer, aur_word_of_double(film->sums[i]));
+    put_pixels(writer, film);
     aur_word_put(writer, writer->hash);
 }
 
@@ -54,8 +120,10 @@ void aur_film_write(const aur_film *film, FILE *stream) {
 }
 
 size_t aur_film_file_size(const aur_film *film) {
-    const size_t channels = film->layout.channel_count, pixels = aur_film_pixel_count(film);
-    return 8 * (HEADER_WORDS + COUNTER_WORDS + channels * (1 + NAME_WORDS + pixels) + 5 * pixels + 1);
+    const film_values values = values_of(film);
+    return 8 * (HEADER_WORDS + COUNTER_WORDS + film->layout.channel_count * (1 + NAME_WORDS) +
+                2 * aur_film_pixel_count(film) + values.own_sums + values.own_squares + values.cells +
+                values.cell_sums + values.cell_moments + 1);
 }
 
 aur_result aur_film_save(const aur_film *film, const char *path, aur_error *error) {
@@ -98,7 +166,9 @@ static bool get_channels(aur_word_reader *reader, aur_film *film) {
 }
 
 static void get_pixels(aur_word_reader *reader, aur_film *film) {
-    const size_t pixels = aur_film_pixel_count(film), channels = film->layout.channel_count;
+    const size_t pixels = aur_film_pixel_count(film);
+    const film_values values = values_of(film);
+    aur_spread *const spread = film->spread;
     for (size_t i = 0; i < pixels; ++i)
         film->given[i] = (uint32_t)aur_word_get(reader);
     for (size_t i = 0; i < pixels; ++i) {
@@ -106,22 +176,46 @@ static void get_pixels(aur_word_reader *reader, aur_film *film) {
         film->steps[i] = (uint32_t)(word >> 32);
         film->counts[i] = (uint32_t)word;
     }
-    for (size_t i = 0; i < 3 * pixels; ++i)
-        film->squares[i] = aur_word_get_double(reader);
-    for (size_t i = 0; i < channels * pixels; ++i)
-        film->sums[i] = aur_word_get_double(reader);
+    get_doubles(reader, values.own_squares, film->squares);
+    get_doubles(reader, values.own_sums, film->sums);
+    for (size_t i = 0; i < values.cells; ++i) {
+        const uint64_t word = aur_word_get(reader);
+        spread->steps[i] = (uint32_t)(word >> 32);
+        spread->given[i] = (uint32_t)word;
+    }
+    if (spread != NULL)
+        get_doubles(reader, values.cell_sums, spread->sums);
+    if (spread != NULL)
+        get_doubles(reader, values.cell_moments, spread->moments);
+}
+
+/* False where no film has such a filter and cells. */
+static bool get_filter(const uint64_t words[4], aur_film_layout *layout) {
+    aur_filter *const filter = &layout->filter;
+    const uint64_t kind = words[1] & UINT32_MAX;
+    *filter = (aur_filter){.kind = (aur_filter_kind)kind, .lobes = (int64_t)(words[1] >> 32)};
+    float unused;
+    floats_of_word(words[2], &filter->scale, &unused);
+    floats_of_word(words[3], &filter->b, &filter->c);
+    layout->cell = words[0];
+    if (kind > AUR_FILTER_LANCZOS || words[0] > AUR_TILE_SIZE)
+        return false;
+    const double radius = aur_filter_radius(filter);
+    return layout->cell == 0 || (radius > 0.5 && radius <= AUR_FILTER_REACH_MAX + 0.5);
 }
 
 /* The words of a film after the header, or 0 when a file of `left` words cannot hold so many. Nothing is
  * allocated before this is known. */
 static size_t words_of(const aur_film_layout *layout, size_t left) {
     if (layout->x0 >= layout->x1 || layout->y0 >= layout->y1 || layout->x1 > left || layout->y1 > left ||
-        layout->channel_count > left)
+        layout->x1 > layout->width || layout->y1 > layout->height || layout->width > LONGEST_SIDE ||
+        layout->height > LONGEST_SIDE || layout->channel_count > left ||
+        (double)(layout->x1 - layout->x0) * (double)(layout->y1 - layout->y0) > (double)left)
         return 0;
-    const double pixels = (double)(layout->x1 - layout->x0) * (double)(layout->y1 - layout->y0);
-    const double words =
-        (double)layout->channel_count * (1 + NAME_WORDS + pixels) + 5.0 * pixels + COUNTER_WORDS + 1.0;
-    return words <= (double)left ? (size_t)words : 0;
+    aur_film film = {.layout = *layout};
+    aur_film_place(&film);
+    const size_t bytes = aur_film_file_size(&film), words = bytes / 8 - HEADER_WORDS;
+    return words <= left ? words : 0;
 }
 
 aur_result aur_film_load_memory(const char *name, size_t size, const void *data, aur_film **out,
@@ -133,9 +227,14 @@ aur_result aur_film_load_memory(const char *name, size_t size, const void *data,
     uint64_t header[HEADER_WORDS - 1];
     for (size_t i = 0; i < HEADER_WORDS - 1; ++i)
         header[i] = aur_word_get(&reader);
-    const aur_film_layout layout = {header[0], header[1], header[2], header[3],
-                                    header[4], header[5], header[6]};
-    if (header[7] != AUR_TILE_SIZE || size % 8 != 0 ||
+    aur_film_layout layout = {.width = header[0],
+                              .height = header[1],
+                              .x0 = header[2],
+                              .x1 = header[3],
+                              .y0 = header[4],
+                              .y1 = header[5],
+                              .channel_count = header[6]};
+    if (header[7] != AUR_TILE_SIZE || size % 8 != 0 || !get_filter(&header[8], &layout) ||
         words_of(&layout, aur_words_left(&reader)) != aur_words_left(&reader))
         return not_a_film(name, "a film that is cut short or damaged", error);
     aur_film *film;

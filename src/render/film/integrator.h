@@ -69,8 +69,6 @@ typedef struct aur_integrator_descriptor {
     bool shows_lamps;
 } aur_integrator_descriptor;
 
-enum { AUR_EXTRA_CHANNELS_MAX = 64 };
-
 /* False where samples_per_pixel is AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. */
 static inline bool aur_integrator_knows_samples(const aur_integrator_context *context) {
     return context->samples_per_pixel < AUR_SAMPLES_PER_PIXEL_MAX;
@@ -110,8 +108,8 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
                 if (!aur_tile_wants(tile, x, y, tile->first + i))
                     continue;
                 aur_camera_sample sample;
-                const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
-                aur_tile_add(tile, x, y, weight,
+                aur_view_sample(tile->view, x, y, tile->first + i, &sample);
+                aur_tile_add(tile, x, y, tile->first + i, sample.offset,
                              integrator->descriptor->radiance(integrator, &sample, &tile->counters));
             }
 }

@@ -30,6 +30,7 @@ void aur_counters_add(aur_counters *sum, const aur_counters *added);
 typedef struct aur_camera_sample {
     aur_ray ray;
     aur_stream stream;
+    float offset[2]; /* of the film point from the pixel's centre, in pixels */
     float first_pairs[AUR_STREAM_BLOCK]
                      [2]; /* of the stream: those of the camera, and the first of an integrator */
 } aur_camera_sample;
@@ -41,23 +42,40 @@ enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
 typedef struct aur_view {
     const aur_scene *scene;
     const aur_sampler *sampler;
-    const aur_filter *filter;
-    size_t width, height; /* of the whole picture */
+    const aur_filter *filter; /* that samples are drawn by: box where pixels share samples */
+    size_t reach;             /* pixels around one whose samples count in it */
+    size_t width, height;     /* of the whole picture */
     uint64_t seed;
     bool pixel_centre; /* every camera ray goes through the centre of its pixel */
     bool has_lens;     /* the camera's rays depend on a point of its lens */
 } aur_view;
 
-/* Sample `index` of pixel (x, y), a function of these alone. Returns its weight in the pixel's mean: 1, or -1
- * where the filter is negative. */
-float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample);
+/* Sample `index` of pixel (x, y), a function of these alone. */
+void aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample);
 
 /* The same for `count` pixels (at most AUR_TILE_SIZE) at columns x[k] and rows y[k]; first_pairs are not set.
  */
 void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
-                      aur_camera_sample *samples, float *weights);
+                      aur_camera_sample *samples);
 
-enum { AUR_TILE_SIZE = 16 };
+enum { AUR_TILE_SIZE = 16, AUR_EXTRA_CHANNELS_MAX = 64 };
+
+struct aur_spread;
+
+/* Part of a sample that is held back, seen at a place of its own. */
+typedef struct aur_tile_light {
+    size_t slot, number; /* of the sample, and of the light */
+    float offset[2], part, radiance[3];
+} aur_tile_light;
+
+/* Samples that are held back, to be added in the order of their numbers and pixels: of each sample and pixel
+ * its offset from the pixel's centre, 1 where there is one, and its channels. */
+typedef struct aur_tile_slots {
+    float *values;
+    size_t light_count, light_capacity;
+    aur_tile_light *lights;
+    bool failed; /* out of memory */
+} aur_tile_slots;
 
 /* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole picture, so that a crop changes no neighbours.
  */
@@ -69,7 +87,10 @@ typedef struct aur_tile {
     /* Of each pixel, like `counts`: of those samples it wants from begins up to ends - 1. NULL: all. */
     const uint32_t *begins, *ends;
     size_t channel_count;
-    double *sums;     /* of pixel (x0, y0): channel_count values a pixel */
+    /* Of pixel (x0, y0), channel_count values a pixel; where pixels share samples, of its cells. */
+    double *sums;
+    const struct aur_spread *spread; /* NULL: pixels share no samples */
+    aur_tile_slots slots;
     uint32_t *counts; /* samples added to each pixel */
     aur_counters counters;
     const atomic_bool *stop; /* true: the samples are no longer wanted; NULL: they are in any case */
@@ -107,11 +128,32 @@ static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y)
 /* Whether finite and not negative. */
 bool aur_is_radiance(aur_vector radiance);
 
-/* Adds one sample to a pixel of the tile. Samples that are no radiance are counted and left out. */
-void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance);
-/* Adds the mean of `count` samples. */
-void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
-/* Adds to a channel after the first three, counting no sample. */
-void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
+/* Adds sample `index` of a pixel of the tile, at `offset` from its centre. Samples that are no radiance are
+ * counted and left out. */
+void aur_tile_add(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2],
+                  aur_vector radiance);
 /* One sample with all channels, the first three the radiance. */
-void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values);
+void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2],
+                           const float *values);
+/* Where pixels share samples: what another ray of a sample met, one of 1 / `part` of them. They say where the
+ * sample counts; its other light counts at its own offset. So a light's radiance and weights, which vary
+ * together, are of the same rays. */
+void aur_tile_add_light(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2], float part,
+                        aur_vector radiance);
+/* Adds a sample that is one of `made` in a step that gives each pixel `tile->count`, at once: for integrators
+ * that do not cut. */
+void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t made, const float offset[2],
+                     aur_vector radiance);
+/* Adds the mean of `count` samples, where pixels share none. */
+void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
+/* Adds to a channel after the first three, counting no sample, where pixels share none. */
+void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
+/* Where pixels share samples: adds sums that stand for `count` samples of a pixel, (2 reach + 1)^2 pixels
+ * around it row by row, each with all channels and the weight. */
+void aur_tile_add_sums(aur_tile *tile, size_t x, size_t y, uint32_t count, const double *sums);
+
+/* Holds samples first .. first + count - 1 back from now on. False: out of memory. */
+bool aur_tile_hold(aur_tile *tile);
+/* Adds what was held back. */
+void aur_tile_release(aur_tile *tile);
+void aur_tile_free_slots(aur_tile *tile);

@@ -7,7 +7,7 @@ typedef struct piece {
     size_t size; /* of one pixel */
 } piece;
 
-enum { PIECES = 5 };
+enum { PIECES = 5, OWN_PIECES = 2 }; /* the first two only where pixels share no samples */
 
 /* Goes over the tile's rows, `move` by piece: each is a stretch of one of the film's arrays. */
 static void each_row(const aur_film *film, size_t index, void (*move)(void *bytes, size_t size, void *data),
@@ -20,11 +20,27 @@ static void each_row(const aur_film *film, size_t index, void (*move)(void *byte
                                   {film->steps, sizeof *film->steps}};
     aur_tile tile = {0};
     aur_film_place_tile(film, index, &tile);
+    const size_t x0 = tile.x0 > layout->x0 ? tile.x0 : layout->x0;
+    const size_t x1 = tile.x1 < layout->x1 ? tile.x1 : layout->x1;
     for (size_t y = tile.y0; y < tile.y1; ++y) {
-        const size_t pixel = (y - layout->y0) * (layout->x1 - layout->x0) + (tile.x0 - layout->x0);
-        for (size_t p = 0; p < PIECES; ++p)
-            move(bytes, tile.stride * pieces[p].size, (char *)pieces[p].data + pixel * pieces[p].size);
+        size_t pixel;
+        if (x0 >= x1 || !aur_film_has(film, x0, y, &pixel))
+            continue;
+        for (size_t p = film->spread != NULL ? OWN_PIECES : 0; p < PIECES; ++p)
+            move(bytes, (x1 - x0) * pieces[p].size, (char *)pieces[p].data + pixel * pieces[p].size);
     }
+    const aur_spread *const spread = film->spread;
+    if (spread == NULL)
+        return;
+    const piece cells[] = {
+        {spread->sums, spread->cell_values * sizeof *spread->sums},
+        {spread->given, sizeof *spread->given},
+        {spread->steps, sizeof *spread->steps},
+        {spread->moments, spread->side * spread->side * AUR_SPREAD_MOMENTS * sizeof *spread->moments}};
+    for (size_t p = 0; p < sizeof cells / sizeof cells[0]; ++p)
+        if (cells[p].data != NULL)
+            move(bytes, spread->tile_cells * cells[p].size,
+                 (char *)cells[p].data + index * spread->tile_cells * cells[p].size);
 }
 
 static void put(void *bytes, size_t size, void *data) {

@@ -28,37 +28,37 @@ aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *
     return added;
 }
 
-static void add_pooled(aur_gather_pooled *sum, float weight, const aur_gather_pooled *found) {
-    sum->irradiance = aur_vector_add_scaled(sum->irradiance, weight, found->irradiance);
-    sum->coefficient = aur_vector_add_scaled(sum->coefficient, weight, found->coefficient);
-    sum->position = aur_vector_add_scaled(sum->position, weight, found->position);
-    sum->normal = aur_vector_add_scaled(sum->normal, weight, found->normal);
+static void add_pooled(aur_gather_pooled *sum, const aur_gather_pooled *found) {
+    sum->irradiance = aur_vector_add(sum->irradiance, found->irradiance);
+    sum->coefficient = aur_vector_add(sum->coefficient, found->coefficient);
+    sum->position = aur_vector_add(sum->position, found->position);
+    sum->normal = aur_vector_add(sum->normal, found->normal);
 }
 
-void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const aur_gather_sums *sums,
-                          size_t lane, float sample_weight) {
+bool aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const aur_gather_sums *sums,
+                          size_t lane) {
     const aur_vector radiance = sums->radiance[lane];
-    const double weight = (double)sample_weight;
     if (!(sums->corrected ? aur_vector_is_finite(radiance) : aur_is_radiance(radiance))) {
         ++sums->counters->invalid;
-        stratum->seen -= weight;
-        return;
+        stratum->seen -= 1.0;
+        return false;
     }
     pixel->directions += sums->directions[lane];
     ++pixel->samples;
-    stratum->shaded += weight;
-    stratum->sum[0] += weight * (double)radiance.x;
-    stratum->sum[1] += weight * (double)radiance.y;
-    stratum->sum[2] += weight * (double)radiance.z;
+    stratum->shaded += 1.0;
+    stratum->sum[0] += (double)radiance.x;
+    stratum->sum[1] += (double)radiance.y;
+    stratum->sum[2] += (double)radiance.z;
     if (aur_has_lane(sums->pooled_lanes, lane)) {
-        stratum->gathers += sample_weight;
-        add_pooled(&stratum->pooled, sample_weight, &sums->pooled[lane]);
+        stratum->gathers += 1.0f;
+        add_pooled(&stratum->pooled, &sums->pooled[lane]);
         const aur_gather_pooled *const own = &sums->pooled[lane];
         const aur_vector light = aur_vector_multiply(own->coefficient, own->irradiance);
-        stratum->pool_adds[0] -= weight * (double)light.x;
-        stratum->pool_adds[1] -= weight * (double)light.y;
-        stratum->pool_adds[2] -= weight * (double)light.z;
+        stratum->pool_adds[0] -= (double)light.x;
+        stratum->pool_adds[1] -= (double)light.y;
+        stratum->pool_adds[2] -= (double)light.z;
     }
+    return true;
 }
 
 /* The mean of the strata's sums, or of what pools add to them. */
@@ -118,9 +118,8 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
                     const size_t *y, glance *const *seen) {
     aur_packet packet;
     aur_camera_sample samples[AUR_PACKET_SIZE];
-    float weights[AUR_PACKET_SIZE];
     aur_packet_clear(&packet);
-    aur_view_samples(view, count, x, y, 0, samples, weights);
+    aur_view_samples(view, count, x, y, 0, samples);
     for (size_t k = 0; k < count; ++k)
         aur_packet_set(&packet, k, &samples[k].ray);
     const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet);

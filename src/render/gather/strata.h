@@ -9,7 +9,7 @@
 uint64_t aur_gather_surface_key(const aur_shape_class *classes, const aur_packet *packet, size_t lane);
 #define AUR_SURFACE_KEY_EMITS (UINT64_C(1) << 63)
 
-/* One stratum of a pixel: all samples whose first hit has the same key. Samples count by their weight. */
+/* One stratum of a pixel: all samples whose first hit has the same key. */
 typedef struct aur_stratum {
     uint64_t key;
     double seen;   /* samples that met it */
@@ -34,9 +34,9 @@ typedef struct aur_pixel_strata {
 aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *known);
 
 /* Adds what was found for one lane of the sums, a sample of the pixel in that stratum. A sample that is no
- * radiance is counted as invalid, and is as if it had not been drawn. */
-void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const aur_gather_sums *sums,
-                          size_t lane, float weight);
+ * radiance is counted as invalid, and is as if it had not been drawn: false. */
+bool aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const aur_gather_sums *sums,
+                          size_t lane);
 
 /* The pixel's radiance, RGB: the mean of every stratum by its part of what the pixel sees. */
 void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]);

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "points/base/random.h"
+#include "render/film/spread.h"
 #include "render/gather/estimators.h"
 #include "render/gather/strata.h"
 #include "render/trace/interleave.h"
@@ -16,7 +17,8 @@ typedef struct gather_tile {
     aur_gather_points surface_points;
     aur_gather_sums sums;
     aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
-    float weights[AUR_PACKET_SIZE];
+    float *grids; /* where pixels share samples: the filter's weights of each stratum; else NULL */
+    const aur_spread *spread;
     aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples go to; NULL: none */
     aur_pixel_strata strata[AUR_TILE_PIXELS];
 } gather_tile;
@@ -42,8 +44,15 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     work->y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
     work->surface_points.tile = aur_hash2(work->y, work->x);
     work->surface_points.sampler = tile->view->sampler;
-    if (work->sums.numbers != NULL)
+    work->spread = tile->spread;
+    if (work->spread != NULL) {
+        const size_t width = 2 * work->spread->reach + 1;
+        work->grids = calloc(AUR_TILE_PIXELS * AUR_STRATUM_COUNT, width * width * sizeof *work->grids);
+    }
+    if (work->sums.numbers != NULL && (work->spread == NULL || work->grids != NULL))
         return work;
+    free(work->sums.numbers);
+    free(work->grids);
     free(work);
     return NULL;
 }
@@ -72,7 +81,7 @@ static void begin(gather_tile *work, uint32_t lanes) {
     aur_gather_points *const surface_points = &work->surface_points;
     aur_gather_sums *const sums = &work->sums;
     aur_view_samples(work->view, AUR_PACKET_SIZE, work->columns, work->rows, surface_points->index,
-                     work->samples, work->weights);
+                     work->samples);
     surface_points->lanes = lanes;
     sums->pooled_lanes = 0;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
@@ -97,6 +106,24 @@ static uint32_t trace(gather_tile *work) {
     return aur_gather_intersect(work->surface_points.plan, order, packet);
 }
 
+/* Where pixels share samples: adds `sign` times what a lane's sample weighs in the pixels around its own. */
+static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, float sign) {
+    const aur_spread *const spread = work->spread;
+    if (spread == NULL)
+        return;
+    const size_t width = 2 * spread->reach + 1;
+    const aur_pixel_strata *const pixel = pixel_of(work, lane);
+    const size_t number =
+        (size_t)(pixel - work->strata) * AUR_STRATUM_COUNT + (size_t)(stratum - pixel->strata);
+    float *const grid = work->grids + number * width * width;
+    float across[AUR_SPREAD_WIDTH_MAX], down[AUR_SPREAD_WIDTH_MAX];
+    aur_spread_weights(spread, work->samples[lane].offset[0], across);
+    aur_spread_weights(spread, work->samples[lane].offset[1], down);
+    for (size_t j = 0; j < width; ++j)
+        for (size_t i = 0; i < width; ++i)
+            grid[j * width + i] += sign * down[j] * across[i];
+}
+
 /* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
 static void count_seen(gather_tile *work, uint32_t found) {
     const aur_packet *const packet = &work->sums.rays.packet;
@@ -107,7 +134,8 @@ static void count_seen(gather_tile *work, uint32_t found) {
                                  : 0;
         bool known;
         aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
-        stratum->seen += (double)work->weights[lane];
+        stratum->seen += 1.0;
+        weigh(work, lane, stratum, 1.0f);
         if (work->only_new && known && stratum->shaded > 0.0)
             work->surface_points.lanes &= ~(1u << lane);
         else
@@ -204,9 +232,9 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
     work->sums.counters->cut += aur_lane_count(surface_points->lanes);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        if (work->stratum[lane] != NULL)
-            aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane,
-                                 work->weights[lane]);
+        if (work->stratum[lane] != NULL &&
+            !aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane))
+            weigh(work, lane, work->stratum[lane], -1.0f);
     }
 }
 
@@ -252,6 +280,54 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 
+/* Where pixels share samples, what a pixel's camera rays met counts where they met it, and each stratum by
+ * its mean over the pixel: gather rays are shared out among the samples of a pixel so that together they are
+ * a good pattern, which samples weighed singly would not be. */
+static void spread_mean(const gather_tile *work, aur_tile *tile, size_t x, size_t y,
+                        const aur_pixel_strata *pixel, double *sums) {
+    const aur_spread *const spread = work->spread;
+    const bool near = work->surface_points.plan->policy.share == AUR_SHARE_NEAR;
+    const size_t width = 2 * spread->reach + 1, channels = spread->channels;
+    const uint32_t count = aur_tile_wanted(tile, x, y);
+    double seen = 0.0;
+    memset(sums, 0, width * width * channels * sizeof *sums);
+    for (uint32_t i = 0; i < pixel->count; ++i)
+        seen += pixel->strata[i].shaded != 0.0 ? pixel->strata[i].seen : 0.0;
+    if (!(seen > 0.0))
+        return;
+    for (uint32_t i = 0; i < pixel->count; ++i) {
+        const aur_stratum *const stratum = &pixel->strata[i];
+        const float *const grid =
+            work->grids + ((size_t)(pixel - work->strata) * AUR_STRATUM_COUNT + i) * width * width;
+        double values[3 + 3 + 1] = {0};
+        if (stratum->shaded == 0.0)
+            continue;
+        for (size_t c = 0; c < 3; ++c) {
+            values[c] = stratum->sum[c] / stratum->shaded;
+            values[3 + c] = near ? stratum->pool_adds[c] / stratum->shaded : 0.0;
+        }
+        if (work->surface_points.plan->rules.method != NULL)
+            values[3] = (double)pixel->directions;
+        values[channels - 1] = 1.0;
+        for (size_t k = 0; k < width * width; ++k)
+            for (size_t c = 0; c < channels; ++c)
+                sums[k * channels + c] += (double)count / seen * (double)grid[k] * values[c];
+    }
+    aur_tile_add_sums(tile, x, y, count, sums);
+}
+
+static aur_result spread_means(const gather_tile *work, aur_tile *tile) {
+    const size_t width = 2 * work->spread->reach + 1;
+    double *const sums = malloc(width * width * work->spread->channels * sizeof *sums);
+    if (sums == NULL)
+        return AUR_ERROR_MEMORY;
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            spread_mean(work, tile, x, y, &work->strata[(y - work->y) * AUR_TILE_SIZE + (x - work->x)], sums);
+    free(sums);
+    return AUR_OK;
+}
+
 static void add_means(const gather_tile *work, aur_tile *tile) {
     const aur_gather_settings *const policy = &work->surface_points.plan->policy;
     for (size_t y = tile->y0; y < tile->y1; ++y)
@@ -285,8 +361,11 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
     if (result == AUR_OK && plan->policy.share != AUR_SHARE_NONE &&
         !aur_gather_pool_irradiance(plan->policy.share == AUR_SHARE_NEAR, work->strata))
         result = AUR_ERROR_MEMORY;
-    if (result == AUR_OK)
+    if (result == AUR_OK && work->spread != NULL)
+        result = spread_means(work, tile);
+    else if (result == AUR_OK)
         add_means(work, tile);
+    free(work->grids);
     free(work->sums.numbers);
     free(work);
     return result;

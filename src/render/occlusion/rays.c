@@ -36,8 +36,9 @@ void aur_occlusion_find_points(const aur_view *view, size_t x, size_t y, uint32_
             const size_t surface_point = within * AUR_PACKET_SIZE + block;
             const size_t pixel = aur_group_pixel(surface_points->arrangement, (uint32_t)within, block);
             aur_camera_sample sample;
-            surface_points->weight[surface_point] =
-                aur_view_sample(view, x + pixel % AUR_TILE_SIZE, y + pixel / AUR_TILE_SIZE, index, &sample);
+            aur_view_sample(view, x + pixel % AUR_TILE_SIZE, y + pixel / AUR_TILE_SIZE, index, &sample);
+            surface_points->offset[surface_point][0] = sample.offset[0];
+            surface_points->offset[surface_point][1] = sample.offset[1];
             surface_points->pixel[surface_point] = sample.stream.pixel;
             surface_points->seen[surface_point] = false;
             rays[within] = sample.ray;

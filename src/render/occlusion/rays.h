@@ -25,7 +25,7 @@ typedef struct aur_occlusion_points {
     uint64_t arrangement; /* of the tile's pixels in groups */
     _Alignas(64) float origin[3][AUR_OCCLUSION_POINTS];
     _Alignas(64) float axis[3][3][AUR_OCCLUSION_POINTS]; /* x, y and z of the frame about the normal */
-    float weight[AUR_OCCLUSION_POINTS];                  /* of the camera sample */
+    float offset[AUR_OCCLUSION_POINTS][2];               /* of the camera sample from its pixel's centre */
     uint64_t pixel[AUR_OCCLUSION_POINTS];                /* a hash of the pixel */
     bool seen[AUR_OCCLUSION_POINTS];                     /* else the eye sees no surface there */
 } aur_occlusion_points;

@@ -90,9 +90,9 @@ void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x,
                          aur_tile *tile) {
     aur_camera_sample sample;
     aur_vector seen, straight;
-    const float weight = aur_view_sample(tile->view, x, y, index, &sample);
-    const bool told = aur_edge_probe(data->probes, tile->view, x, y, index, &seen);
+    aur_view_sample(tile->view, x, y, index, &sample);
+    const bool told = aur_edge_probe(data->probes, tile, x, y, index, &seen);
     const aur_vector radiance =
         aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &straight, &tile->counters);
-    aur_tile_add_clamped(tile, x, y, weight, radiance, straight, data->clamp);
+    aur_tile_add_clamped(tile, x, y, index, sample.offset, radiance, straight, data->clamp);
 }

@@ -8,30 +8,29 @@
 #include "render/trace/interleave.h"
 
 /* Looks for lamps in those of `lanes` that have rays for them alone. */
-static void look(aur_path_group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes) {
+static void look(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes) {
     g->told = 0;
     for (uint32_t rest = g->data->probes != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_vector seen;
-        if (!aur_edge_probe(g->data->probes, view, x[k], y[k], g->index, &seen))
+        if (!aur_edge_probe(g->data->probes, tile, x[k], y[k], g->index, &seen))
             continue;
         g->told |= 1u << k;
         aur_lane_set(&g->lanes.sum, k, seen);
     }
 }
 
-/* Begins sample g->index of the pixels of `lanes`; `weights` are those of the samples. */
-static void begin(aur_path_group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes,
-                  float *weights) {
-    aur_camera_sample samples[AUR_PACKET_SIZE];
-    aur_view_samples(view, AUR_PACKET_SIZE, x, y, g->index, samples, weights);
+/* Begins sample g->index of the pixels of `lanes`, of which the tile looks for lamps in those of `wanted`. */
+static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
+                  uint32_t wanted, aur_camera_sample *samples) {
+    aur_view_samples(tile->view, AUR_PACKET_SIZE, x, y, g->index, samples);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         g->pixels[k] = samples[k].stream.pixel;
         aur_packet_set(&g->packet, k, &samples[k].ray);
         aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
         aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
     }
-    look(g, view, x, y, lanes);
+    look(g, tile, x, y, wanted);
     g->alive = lanes;
     g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
 }
@@ -39,8 +38,8 @@ static void begin(aur_path_group *g, const aur_view *view, const size_t *x, cons
 /* Traces sample g->index of the pixels of `lanes` and adds those of `wanted`. */
 static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
                       uint32_t wanted) {
-    float weights[AUR_PACKET_SIZE];
-    begin(g, tile->view, x, y, lanes, weights);
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    begin(g, tile, x, y, lanes, wanted, samples);
     aur_path_group_meet(g, 1);
     const aur_lane_vectors straight = g->lanes.sum;
     if (g->data->max_depth > 1 && g->alive != 0) {
@@ -50,7 +49,7 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
     tile->counters.stopped |= g->stopped;
     for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        aur_tile_add_clamped(tile, x[k], y[k], weights[k], aur_lane_vector(&g->lanes.sum, k),
+        aur_tile_add_clamped(tile, x[k], y[k], g->index, samples[k].offset, aur_lane_vector(&g->lanes.sum, k),
                              aur_lane_vector(&straight, k), g->data->clamp);
     }
 }

@@ -15,7 +15,7 @@ typedef struct hit_point {
     aur_vector throughput; /* path to the eye, times albedo */
     aur_vector irradiance; /* over pi */
     uint32_t triangle; /* that the eye's ray met first, with its side in the lowest bit; or AUR_NO_PATCH */
-    float weight;      /* of the filter */
+    float offset[2];   /* from the pixel's centre */
 } hit_point;
 
 typedef struct pixel_points {
@@ -43,20 +43,22 @@ static uint64_t pixel_hash(const workspace *work, size_t x, size_t y) {
     return aur_hash3(aur_hash2(work->image->seed, 0x706978656c), y, x);
 }
 
-static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t index, aur_ray *ray) {
+static void camera_ray(const workspace *work, size_t x, size_t y, uint32_t index, float offset[2],
+                       aur_ray *ray) {
     const aur_view *const view = work->view;
     if (work->image->oversampling == AUR_RADIOSITY_SAMPLER) {
         aur_camera_sample sample;
-        const float weight = aur_view_sample(view, x, y, index, &sample);
+        aur_view_sample(view, x, y, index, &sample);
         *ray = sample.ray;
-        return weight;
+        memcpy(offset, sample.offset, sizeof sample.offset);
+        return;
     }
     float u[HALTON_DIMENSIONS];
     shift_point(work->halton[index - work->first], pixel_hash(work, x, y), u);
-    const float offset[2] = {aur_filter_sample(view->filter, u[0]), aur_filter_sample(view->filter, u[1])};
+    offset[0] = aur_filter_sample(view->filter, u[0]);
+    offset[1] = aur_filter_sample(view->filter, u[1]);
     aur_camera_ray(view->scene, view->width, view->height, (float)x + 0.5f + offset[0],
                    (float)y + 0.5f + offset[1], &u[2], ray);
-    return aur_filter_weight(view->filter, offset[0]) * aur_filter_weight(view->filter, offset[1]);
 }
 
 /* --- light at a hit point */
@@ -97,7 +99,8 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
     const uint64_t pixel = pixel_hash(work, x, y), hash = aur_hash2(pixel, index);
     const aur_radiosity_scene *const scene = &work->image->solution->scene;
     aur_ray ray;
-    hit_point made = {.triangle = AUR_NO_PATCH, .weight = camera_ray(work, x, y, index, &ray)};
+    hit_point made = {.triangle = AUR_NO_PATCH};
+    camera_ray(work, x, y, index, made.offset, &ray);
     aur_hit hit;
     aur_radiosity_surface_point surface_point;
     aur_vector path;
@@ -199,7 +202,7 @@ static void add_pixel(aur_tile *tile, size_t x, size_t y, const area *a, bool sh
             irradiance = point->irradiance;
         else if (point->triangle != AUR_NO_PATCH && point->triangle != last)
             irradiance = pooled(a, column, row, last = point->triangle);
-        aur_tile_add(tile, x, y, point->weight, radiance_of(point, irradiance));
+        aur_tile_add_of(tile, x, y, pixel->count, point->offset, radiance_of(point, irradiance));
     }
 }
 

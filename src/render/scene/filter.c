@@ -8,10 +8,12 @@
 #include "render/scene/materials/sampling.h"
 
 static const aur_filter filters[] = {
-    {AUR_FILTER_BOX, 0.5f},
-    {AUR_FILTER_TENT, 1.0f},
-    {AUR_FILTER_GAUSSIAN, 0.5f},
-    {AUR_FILTER_MITCHELL, 1.0f},
+    {.kind = AUR_FILTER_BOX, .scale = 0.5f},
+    {.kind = AUR_FILTER_TENT, .scale = 1.0f},
+    {.kind = AUR_FILTER_GAUSSIAN, .scale = 0.5f},
+    {.kind = AUR_FILTER_MITCHELL, .scale = 2.0f, .b = 1.0f / 3.0f, .c = 1.0f / 3.0f},
+    {.kind = AUR_FILTER_CATMULLROM, .scale = 2.0f},
+    {.kind = AUR_FILTER_LANCZOS, .scale = 3.0f, .lobes = 3},
 };
 
 enum { FILTER_COUNT = sizeof filters / sizeof filters[0] };
@@ -58,45 +60,72 @@ static float sample_gaussian(float u) {
     return u < 0.5f ? -x : x;
 }
 
-/* Mitchell and Netravali's filter (1988) with B = C = 1/3 falls below 0 at 8/7 and ends at 2. This is the
- * integral of its absolute value from 0 to x. */
-static const float mitchell_turn = 8.0f / 7.0f;
-
-static float mitchell_inner(float x) {
-    return (((7.0f / 4.0f * x - 4.0f) * x) * x + 16.0f / 3.0f) * x / 6.0f;
+/* The family of Mitchell and Netravali (1988), at a distance x >= 0. */
+static double cubic(double b, double c, double x) {
+    if (x < 1.0)
+        return (((12.0 - 9.0 * b - 6.0 * c) * x - 18.0 + 12.0 * b + 6.0 * c) * x * x + 6.0 - 2.0 * b) / 6.0;
+    return (((-b - 6.0 * c) * x + 6.0 * b + 30.0 * c) * x * x - (12.0 * b + 48.0 * c) * x + 8.0 * b +
+            24.0 * c) /
+           6.0;
 }
 
-static float mitchell_outer(float x) {
-    return (((-7.0f / 12.0f * x + 4.0f) * x - 10.0f) * x + 32.0f / 3.0f) * x / 6.0f;
+static double sinc(double x) {
+    return x < 1e-5 ? 1.0 : sin(AUR_PI * x) / (AUR_PI * x);
 }
 
-static float mitchell_mass(float x) {
-    if (x <= 1.0f)
-        return mitchell_inner(x);
-    const float mass = mitchell_inner(1.0f) + mitchell_outer(fminf(x, mitchell_turn)) - mitchell_outer(1.0f);
-    return x <= mitchell_turn ? mass : mass - (mitchell_outer(x) - mitchell_outer(mitchell_turn));
-}
-
-/* By bisection: the density vanishes at the turn, where Newton's method fails. */
-static float sample_mitchell(float u) {
-    const float side = u < 0.5f ? -1.0f : 1.0f;
-    const float target = fabsf(2.0f * u - 1.0f) * mitchell_mass(2.0f);
-    float low = 0.0f, high = 2.0f;
-    for (size_t i = 0; i < 22; ++i) {
-        const float middle = 0.5f * (low + high);
-        if (mitchell_mass(middle) <= target)
-            low = middle;
-        else
-            high = middle;
+double aur_filter_radius(const aur_filter *filter) {
+    switch (filter->kind) {
+    case AUR_FILTER_GAUSSIAN:
+        return (double)cut * (double)filter->scale;
+    case AUR_FILTER_MITCHELL:
+    case AUR_FILTER_CATMULLROM:
+        return 2.0;
+    case AUR_FILTER_LANCZOS:
+        return (double)filter->lobes;
+    case AUR_FILTER_BOX:
+    case AUR_FILTER_TENT:
+        break;
     }
-    return side * low;
+    return (double)filter->scale;
 }
 
-float aur_filter_weight(const aur_filter *filter, float offset) {
-    if (filter->kind != AUR_FILTER_MITCHELL)
-        return 1.0f;
-    const float size = 2.0f * mitchell_mass(2.0f);
-    return fabsf(offset) > mitchell_turn * filter->scale ? -size : size;
+double aur_filter_value(const aur_filter *filter, double offset) {
+    const double x = fabs(offset), radius = aur_filter_radius(filter);
+    if (x > radius)
+        return 0.0;
+    switch (filter->kind) {
+    case AUR_FILTER_TENT:
+        return 1.0 - x / radius;
+    case AUR_FILTER_GAUSSIAN: {
+        const double t = x / (double)filter->scale;
+        return fmax(exp(-0.5 * t * t) - exp(-8.0), 0.0);
+    }
+    case AUR_FILTER_MITCHELL:
+        return cubic((double)filter->b, (double)filter->c, x);
+    case AUR_FILTER_CATMULLROM:
+        return cubic(0.0, 0.5, x);
+    case AUR_FILTER_LANCZOS:
+        return sinc(x) * sinc(x / radius);
+    case AUR_FILTER_BOX:
+        break;
+    }
+    return 1.0;
+}
+
+bool aur_filter_shares_samples(const aur_filter *filter) {
+    enum { STEPS = 4096 };
+    const double radius = aur_filter_radius(filter);
+    if (filter->kind >= AUR_FILTER_MITCHELL) /* no sample can be drawn by them: they are negative */
+        return true;
+    if (!(radius > 0.5) || ceil(radius - 0.5) > AUR_FILTER_REACH_MAX)
+        return false;
+    double size = 0.0, square = 0.0;
+    for (size_t i = 0; i < STEPS; ++i) {
+        const double value = aur_filter_value(filter, radius * ((double)i + 0.5) / STEPS);
+        size += fabs(value) * 2.0 * radius / STEPS;
+        square += value * value * 2.0 * radius / STEPS;
+    }
+    return size * size > square;
 }
 
 float aur_filter_sample(const aur_filter *filter, float u) {
@@ -108,13 +137,18 @@ float aur_filter_sample(const aur_filter *filter, float u) {
     }
     case AUR_FILTER_GAUSSIAN:
         return filter->scale * sample_gaussian(u);
-    case AUR_FILTER_MITCHELL:
-        return filter->scale * sample_mitchell(u);
     case AUR_FILTER_BOX:
+    case AUR_FILTER_MITCHELL:
+    case AUR_FILTER_CATMULLROM:
+    case AUR_FILTER_LANCZOS:
         break;
     }
     return 2.0f * filter->scale * (u - 0.5f);
 }
+
+static const aur_key box_keys[] = {
+    {AUR_KEY_OF_REAL(aur_filter, "radius", scale, 1e-3, 100.0, "0.5", "in pixels")},
+};
 
 static const aur_key tent_keys[] = {
     {AUR_KEY_OF_REAL(aur_filter, "radius", scale, 1e-3, 100.0, "1", "in pixels")},
@@ -125,15 +159,31 @@ static const aur_key gaussian_keys[] = {
                      "standard deviation in pixels; it ends at 4 of them")},
 };
 
-static const aur_row box = {.name = "box", .summary = "the mean over the pixel"};
+static const aur_key mitchell_keys[] = {
+    {AUR_KEY_OF_REAL(aur_filter, "A", b, 0.0, 1.0, "1/3", "B of the paper: blurs"), .computed = true},
+    {AUR_KEY_OF_REAL(aur_filter, "B", c, 0.0, 1.0, "1/3", "C of the paper: sharpens"), .computed = true},
+};
+
+static const aur_key lanczos_keys[] = {
+    {AUR_KEY_OF_INTEGER(aur_filter, "lobes", lobes, 1, AUR_FILTER_REACH_MAX, "3", "its radius in pixels")},
+};
+
+static const aur_row box = {.name = "box", .summary = "the mean over the pixel", AUR_ROW_KEYS(box_keys)};
 static const aur_row tent = {.name = "tent", .summary = "falls linearly to 0", AUR_ROW_KEYS(tent_keys)};
 static const aur_row gaussian = {.name = "gaussian", .summary = "a bell", AUR_ROW_KEYS(gaussian_keys)};
 static const aur_row mitchell = {.name = "mitchell",
                                  .summary = "sharpens a little: it has negative parts",
-                                 .source = "Mitchell, Netravali 1988"};
+                                 .source = "Mitchell, Netravali 1988",
+                                 AUR_ROW_KEYS(mitchell_keys)};
+static const aur_row catmullrom = {
+    .name = "catmullrom", .summary = "sharpens: it has negative parts", .source = "Catmull, Rom 1974"};
+static const aur_row lanczos = {.name = "lanczos",
+                                .summary = "a sinc with a window: sharp, with several negative parts",
+                                .source = "Duchon 1979",
+                                AUR_ROW_KEYS(lanczos_keys)};
 
 /* In the order of aur_filter_kind. */
-static const aur_row *const rows[] = {&box, &tent, &gaussian, &mitchell};
+static const aur_row *const rows[] = {&box, &tent, &gaussian, &mitchell, &catmullrom, &lanczos};
 
 const aur_table aur_filter_table = {
     .kind = "rfilter", .summary = "how samples are weighed around a pixel", AUR_TABLE_ROWS(rows)};

@@ -250,16 +250,22 @@ void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const 
 /* Whether the camera's rays depend on `lens`. */
 bool aur_camera_has_lens(const aur_scene *scene);
 
-/* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3),
- * mitchell (B = C = 1/3, radius 2). Samples are drawn in proportion to the filter's absolute value, so a
- * pixel is the plain mean of its samples times their aur_filter_weight in x and in y: 1 but for mitchell,
- * which falls below 0. */
+/* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2), mitchell (B =
+ * C = 1/3, radius 2), catmullrom (2), lanczos (3), as Mitsuba 3 defines them. */
 typedef struct aur_filter aur_filter;
 const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
 const char *aur_filter_name(const aur_filter *filter);
-/* The offset from the pixel's centre, in pixels, that u in [0,1) stands for. */
+double aur_filter_radius(const aur_filter *filter); /* in pixels */
+/* The filter along one axis, so many pixels from its centre; not normalised. */
+double aur_filter_value(const aur_filter *filter, double offset);
+/* Whether a pixel gains by weighing the samples of its neighbours, too: samples spread evenly, each weighed
+ * by w, are worth (int w)^2 / int w^2 of one pixel's along an axis, and samples drawn by |w|
+ * (int w)^2 / (int |w|)^2. Filters of a radius up to 0.5 reach no neighbour; those that reach farther than
+ * AUR_FILTER_REACH_MAX would need too much memory. */
+bool aur_filter_shares_samples(const aur_filter *filter);
+/* For filters that are not negative, box, tent and gaussian: the offset from the pixel's centre, in pixels,
+ * that u in [0,1) stands for where samples are drawn by the filter. */
 float aur_filter_sample(const aur_filter *filter, float u);
-float aur_filter_weight(const aur_filter *filter, float offset);
 
 /* What a scene says of its picture. */
 typedef struct aur_film_settings {

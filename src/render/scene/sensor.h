@@ -59,19 +59,25 @@ static inline aur_vector aur_sensor_direction(const aur_sensor *sensor, float ha
                         (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
 }
 
-/* Reconstruction filters; aur_filter_find and aur_filter_sample are in scene.h. */
+/* Reconstruction filters; their functions are in scene.h. */
 
 typedef enum aur_filter_kind {
     AUR_FILTER_BOX,
     AUR_FILTER_TENT,
     AUR_FILTER_GAUSSIAN,
-    AUR_FILTER_MITCHELL
+    AUR_FILTER_MITCHELL,
+    AUR_FILTER_CATMULLROM,
+    AUR_FILTER_LANCZOS
 } aur_filter_kind;
+
+/* Pixels; samples are drawn by filters that reach farther. */
+enum { AUR_FILTER_REACH_MAX = 16 };
 
 struct aur_filter {
     aur_filter_kind kind;
-    float scale; /* pixels: box and tent their radius, gaussian its standard deviation, mitchell half its
-                    radius */
+    float scale;   /* pixels: the standard deviation of a gaussian, the radius of box and tent */
+    float b, c;    /* of mitchell */
+    int64_t lobes; /* of lanczos */
 };
 
 extern const aur_table aur_filter_table;

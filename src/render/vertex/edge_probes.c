@@ -34,15 +34,17 @@ static void make_rays(const aur_view *view, size_t count, const float *across, c
 
 /* The camera rays of a pixel by the numbers of its stream from stream->index on. */
 static void make_pixel_rays(const aur_view *view, const aur_stream *stream, size_t x, size_t y, size_t count,
-                            aur_packet *packet) {
+                            float (*offsets)[2], aur_packet *packet) {
     float across[AUR_PACKET_SIZE], down[AUR_PACKET_SIZE];
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         float u[2] = {0.5f, 0.5f};
         const aur_stream own = {stream->sampler, stream->pixel, stream->index + (uint32_t)k};
         if (k < count)
             aur_stream_pair(&own, AUR_PAIR_FILTER, u);
-        across[k] = (float)x + 0.5f + aur_filter_sample(view->filter, u[0]);
-        down[k] = (float)y + 0.5f + aur_filter_sample(view->filter, u[1]);
+        offsets[k][0] = aur_filter_sample(view->filter, u[0]);
+        offsets[k][1] = aur_filter_sample(view->filter, u[1]);
+        across[k] = (float)x + 0.5f + offsets[k][0];
+        down[k] = (float)y + 0.5f + offsets[k][1];
     }
     make_rays(view, count, across, down, packet);
 }
@@ -63,6 +65,10 @@ static aur_vector emission_at(const aur_scene *scene, const aur_packet *packet, 
 typedef struct look_sums {
     double values[3], squares[3];
     size_t count;
+    /* Where pixels share samples: the tile that takes what each ray meets, `part` of it; else NULL. */
+    aur_tile *tile;
+    uint32_t index;
+    float part;
 } look_sums;
 
 static void look(const aur_view *view, const aur_stream *stream, size_t x, size_t y, size_t count,
@@ -71,12 +77,16 @@ static void look(const aur_view *view, const aur_stream *stream, size_t x, size_
     aur_packet_clear(&packet);
     for (size_t first = 0; first < count; first += AUR_PACKET_SIZE) {
         const size_t rays = count - first < AUR_PACKET_SIZE ? count - first : AUR_PACKET_SIZE;
+        float offsets[AUR_PACKET_SIZE][2];
         const aur_stream block = {stream->sampler, stream->pixel, stream->index + (uint32_t)first};
-        make_pixel_rays(view, &block, x, y, rays, &packet);
+        make_pixel_rays(view, &block, x, y, rays, offsets, &packet);
         const uint32_t hits = aur_scene_intersect16(view->scene, AUR_EMBREE_COHERENT, &packet);
         for (size_t k = 0; k < rays; ++k) {
             double light[3];
-            aur_vector_to_doubles(emission_at(view->scene, &packet, k, (hits >> k & 1u) != 0), light);
+            const aur_vector emission = emission_at(view->scene, &packet, k, (hits >> k & 1u) != 0);
+            if (sums->tile != NULL)
+                aur_tile_add_light(sums->tile, x, y, sums->index, offsets[k], sums->part, emission);
+            aur_vector_to_doubles(emission, light);
             for (size_t c = 0; c < 3; ++c) {
                 sums->values[c] += light[c];
                 sums->squares[c] += light[c] * light[c];
@@ -92,16 +102,22 @@ static aur_stream stream_of(const aur_edge_probes *probes, uint64_t pixel, uint6
                         (uint32_t)first};
 }
 
-bool aur_edge_probe(const aur_edge_probes *probes, const aur_view *view, size_t x, size_t y, uint32_t index,
+bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, size_t y, uint32_t index,
                     aur_vector *seen) {
+    const aur_view *const view = tile->view;
     const size_t count = probes != NULL ? probes->counts[y * view->width + x] : 0;
     if (count == 0)
         return false;
     const aur_stream stream = stream_of(probes, aur_hash3(view->seed, y, x), (uint64_t)index * count);
-    look_sums sums = {.count = 0};
+    look_sums sums = {.count = 0, .index = index, .part = 1.0f / (float)count};
+    if (tile->spread != NULL)
+        sums.tile = tile;
     look(view, &stream, x, y, count, &sums);
-    *seen = (aur_vector){(float)(sums.values[0] / (double)count), (float)(sums.values[1] / (double)count),
-                         (float)(sums.values[2] / (double)count)};
+    if (tile->spread != NULL)
+        *seen = (aur_vector){0};
+    else
+        *seen = (aur_vector){(float)(sums.values[0] / (double)count), (float)(sums.values[1] / (double)count),
+                             (float)(sums.values[2] / (double)count)};
     return true;
 }
 
@@ -139,7 +155,8 @@ static aur_result survey_centres(void *context, size_t y) {
 }
 
 /* Whether an edge of a lamp may cross the pixel: those about it see more or less of one, or points of lamps
- * lie there, of which the largest variance is given where the filter may see it. */
+ * lie there, of which the largest variance is given where the filter may see it. Where pixels share samples,
+ * those within reach of an edge have an error from it too: samples around it weigh more or less by chance. */
 static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
     const float alike = 0.9f;
     const double nearly_whole = 0.9, small = 0.25;
@@ -158,6 +175,9 @@ static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
             if ((s->spreads || (i == x && j == y)) && share < small)
                 *variance = fmax(*variance, s->visible->variance[pixel]);
         }
+    const double part = 0.25, unlike = part * (double)(most - least);
+    if (s->view->reach > 0)
+        *variance = fmax(*variance, unlike * unlike);
     return near || least < alike * most;
 }
 
@@ -241,7 +261,9 @@ static aur_result find(const aur_view *view, double rays, const aur_integrator_c
     if (result == AUR_OK && visible.share != NULL) {
         const float radius = -aur_filter_sample(view->filter, 0.0f);
         const size_t beyond = (size_t)ceilf(aur_larger(radius - 0.5f, 0.0f));
-        const survey all = {view, probes, &visible, beyond > 1 ? beyond : 1, beyond > 0, centres, deviations};
+        const size_t about = view->reach > 0 ? view->reach + 1 : beyond > 0 ? beyond : 1;
+        const survey all = {view,    probes,    &visible, about, beyond > 0 || view->reach > 0,
+                            centres, deviations};
         result = survey_picture(&all, context, error);
         probes->counts = calloc(pixels, sizeof *probes->counts);
         if (result == AUR_OK && probes->counts == NULL)
@@ -263,8 +285,8 @@ aur_result aur_edge_probes_find(const aur_view *view, double rays, const aur_int
     if (!aur_visible_emitters_can_be_found(view))
         return AUR_OK;
     char key[160];
-    snprintf(key, sizeof key, "looks %zu %zu %s %.9g %.9g", view->width, view->height,
-             aur_filter_name(view->filter), (double)aur_filter_sample(view->filter, 0.0f), rays);
+    snprintf(key, sizeof key, "looks %zu %zu %s %.9g %zu %.9g", view->width, view->height,
+             aur_filter_name(view->filter), (double)aur_filter_sample(view->filter, 0.0f), view->reach, rays);
     aur_edge_probes *probes = aur_cache_find(context->cache, key);
     if (probes == NULL) {
         probes = calloc(1, sizeof *probes);

@@ -30,7 +30,8 @@ static aur_result find(const aur_view *view, uint16_t probes, lamp_edges *edges,
     const aur_film_layout layout = {
         .width = view->width, .height = view->height, .x1 = view->width, .y1 = view->height};
     const float radius = -aur_filter_sample(view->filter, 0.0f);
-    const size_t beyond = (size_t)ceilf(aur_larger(radius - 0.5f, 0.0f));
+    const size_t drawn = (size_t)ceilf(aur_larger(radius - 0.5f, 0.0f));
+    const size_t beyond = drawn > view->reach ? drawn : view->reach;
     aur_visible_emitters visible = {0};
     aur_result result =
         aur_visible_emitters_find(view->scene, &layout, aur_emitter_points(pixels), 0, &visible, error);
@@ -55,8 +56,9 @@ aur_result aur_emitter_edges_find(const aur_view *view, uint16_t probes,
     if (!aur_visible_emitters_can_be_found(view))
         return AUR_OK;
     char key[160];
-    snprintf(key, sizeof key, "lamp edges %zu %zu %s %.9g %u", view->width, view->height,
-             aur_filter_name(view->filter), (double)aur_filter_sample(view->filter, 0.0f), (unsigned)probes);
+    snprintf(key, sizeof key, "lamp edges %zu %zu %s %.9g %zu %u", view->width, view->height,
+             aur_filter_name(view->filter), (double)aur_filter_sample(view->filter, 0.0f), view->reach,
+             (unsigned)probes);
     lamp_edges *edges = aur_cache_find(context->cache, key);
     if (edges == NULL) {
         const uint64_t before = aur_rays_traced;

@@ -57,7 +57,7 @@ aur_result aur_edge_probes_find(const aur_view *view, double rays, const aur_int
                                 const aur_edge_probes **probes, aur_error *error);
 
 /* What lamps send straight to sample `index` of a pixel. False where its own ray is to tell. */
-bool aur_edge_probe(const aur_edge_probes *probes, const aur_view *view, size_t x, size_t y, uint32_t index,
+bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, size_t y, uint32_t index,
                     aur_vector *seen);
 
 /* Lamps of a few pixels, which a pixel's first samples and those of its neighbours may all miss: where an

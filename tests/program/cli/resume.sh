@@ -88,7 +88,9 @@ render --spp 4 --integrator $integrator --seed 9 --shard 3/3 -o other.part
 refuses "other.part: of another render: it was made with 'seed 9', this one is 'seed 0'" 2 merge cornell-box.{1,2}-of-3.part other.part
 render --spp 4 --integrator $integrator --shard 3/4 -o other.part
 refuses 'one of 4 parts' 2 merge cornell-box.{1,2}-of-3.part other.part
-refuses 'no checkpoint' 2 merge whole.exr
+refuses 'not a checkpoint' 2 merge whole.exr
+printf 'AURCHKP1%064d' 0 >old.part
+refuses 'another version of the program' 2 merge old.part
 refuses "cannot read" 2 merge none.part
 refuses "'-o FILE' is missing" 2 "$aureole" merge one.part
 refuses "such as 2/3, not '3/2'" 2 render --shard 3/2

@@ -83,7 +83,7 @@ static void test_tiles_have_their_means(void **state) {
         means[i] = values[i] = (double)(i * i % 101); /* whole numbers: sums are exact */
         samples[i] = (uint32_t)(1 + i % 7);
     }
-    aur_replicas_average_tiles(&replicas, samples, means);
+    aur_replicas_average(&replicas, AUR_TILE_SIZE, samples, means);
     for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
         const size_t replica = i / COUNT, x = X0 + i % COUNT % (X1 - X0), y = Y0 + i % COUNT / (X1 - X0);
         double sum = 0.0, count = 0.0;
@@ -102,7 +102,7 @@ static void test_tiles_have_their_means(void **state) {
 
 static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
     const aur_film *const film = aur_render_film(replicas->renders[r]);
-    return film->sums[pixel * film->layout.channel_count + channel] / (double)film->counts[pixel];
+    return aur_film_mean(film, pixel, channel);
 }
 
 /* The covariance of two channels of a pixel, by differences of replicas. */

@@ -117,6 +117,7 @@ static void steps_are_one_render(void **state) {
 static void parts_are_merged(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small("path", 2);
+    options.filter = "box";
     aur_render *const whole = start(f->renderer, &options);
     aur_image *expected = NULL;
     assert_int_equal(aur_renderer_render(f->renderer, &options, &expected, NULL, NULL), AUR_OK);
@@ -141,6 +142,7 @@ static void parts_are_merged(void **state) {
     assert_non_null(strstr(error.message, "whole tiles"));
     aur_render_destroy(crooked);
     options = small("path", 1);
+    options.filter = "box";
     options.width = 44;
     aur_render *const narrow = start(f->renderer, &options);
     assert_int_equal(aur_render_merge(whole, aur_render_film(narrow), &error), AUR_ERROR_ARGUMENT);
@@ -157,7 +159,8 @@ static int stop_at(void *user, const char *what, uint64_t done, uint64_t total) 
 /* Pixels have the samples that a step gives each of them. */
 static void pixels_get_samples_of_their_own(void **state) {
     const fixture *const f = *state;
-    const aur_render_options options = small("path", 1);
+    aur_render_options options = small("path", 1);
+    options.filter = "box";
     aur_render *const render = start(f->renderer, &options);
     static uint32_t targets[45 * 37];
     uint64_t all = 0;

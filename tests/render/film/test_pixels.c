@@ -17,6 +17,7 @@ static aur_render *start(aur_renderer *renderer, const char *integrator, size_t 
     const aur_render_options options = {.size = sizeof options,
                                         .integrator = integrator,
                                         .gather = &lab_finalgather,
+                                        .filter = "box",
                                         .samples_per_pixel = MOST,
                                         .width = WIDTH,
                                         .height = HEIGHT,

@@ -91,35 +91,39 @@ static aur_scene *load_sensor(const char *sensor) {
     return scene;
 }
 
-/* Rays of one film point leave the disk of the aperture and meet in the plane of focus. */
-static double mitchell(double x) {
-    x = fabs(x);
-    if (x < 1.0)
-        return (7.0 * x * x * x - 12.0 * x * x + 16.0 / 3.0) / 6.0;
-    return x < 2.0 ? (-7.0 / 3.0 * x * x * x + 12.0 * x * x - 20.0 * x + 32.0 / 3.0) / 6.0 : 0.0;
-}
-
-/* Weighted samples have the moments that quadrature of the definition has. */
-static void samples_mitchell(void **state) {
+/* What defines the filters: values in the middle and a pixel away, and the radius. The cubic ones are weights
+ * of interpolation: over whole pixels they add up to 1 wherever they stand. */
+static void values_of_filters(void **state) {
     (void)state;
-    const aur_filter *const filter = aur_filter_find("mitchell");
-    enum { COUNT = 200000 };
-    double drawn[3] = {0, 0, 0}, exact[3] = {0, 0, 0};
-    for (size_t i = 0; i < COUNT; ++i) {
-        const double u = ((double)i + 0.5) / COUNT;
-        const double x = (double)aur_filter_sample(filter, (float)u);
-        const double weight = (double)aur_filter_weight(filter, (float)x);
-        const double y = 4.0 * u - 2.0;
-        for (int k = 0; k < 3; ++k) {
-            drawn[k] += weight * pow(x, 2 * k) / COUNT;
-            exact[k] += mitchell(y) * pow(y, 2 * k) * 4.0 / COUNT;
+    static const struct {
+        const char *name;
+        double radius, middle, beside;
+        bool shares, whole;
+    } rows[] = {{"box", 0.5, 1.0, 0.0, false, true},
+                {"tent", 1.0, 1.0, 0.0, true, true},
+                {"gaussian", 2.0, 0.99966453737, 0.13499982060, true, false},
+                {"mitchell", 2.0, 8.0 / 9.0, 1.0 / 18.0, true, true},
+                {"catmullrom", 2.0, 1.0, 0.0, true, true},
+                {"lanczos", 3.0, 1.0, 0.0, true, false}};
+    for (size_t f = 0; f < sizeof rows / sizeof rows[0]; ++f) {
+        const aur_filter *const filter = aur_filter_find(rows[f].name);
+        assert_near(aur_filter_radius(filter), rows[f].radius, 0.0);
+        assert_near(aur_filter_value(filter, 0.0), rows[f].middle, 1e-8);
+        assert_near(aur_filter_value(filter, -1.0), rows[f].beside, 1e-8);
+        assert_near(aur_filter_value(filter, rows[f].radius + 1e-9), 0.0, 0.0);
+        assert_int_equal(aur_filter_shares_samples(filter), rows[f].shares);
+        for (double at = -0.45; at < 0.5 && rows[f].whole; at += 0.1) {
+            double sum = 0.0;
+            for (int i = -3; i <= 3; ++i)
+                sum += aur_filter_value(filter, at + i);
+            assert_near(sum, 1.0, 1e-6);
         }
     }
-    assert_near(exact[0], 1.0, 1e-9);
-    for (int k = 0; k < 3; ++k)
-        assert_near(drawn[k], exact[k], 2e-5);
+    /* sinc(1/2) sinc(1/6) */
+    assert_near(aur_filter_value(aur_filter_find("lanczos"), 0.5), 2.0 / AUR_PI * 3.0 / AUR_PI, 1e-12);
 }
 
+/* Rays of one film point leave the disk of the aperture and meet in the plane of focus. */
 static void focuses(void **state) {
     (void)state;
     aur_scene *const scene = load_sensor("thinlens'><float name='fov' value='60'/>"
@@ -265,7 +269,7 @@ int main(void) {
         cmocka_unit_test(frames_the_picture),
         cmocka_unit_test(moves_and_clips),
         cmocka_unit_test(samples_filters),
-        cmocka_unit_test(samples_mitchell),
+        cmocka_unit_test(values_of_filters),
         cmocka_unit_test(focuses),
         cmocka_unit_test(sees_in_parallel),
         cmocka_unit_test(finds_where_a_direction_is_seen),

@@ -55,7 +55,7 @@ static const aur_key film_names[] = {
     NAME("component_format", "not needed: images are 32-bit floats where the format has them"),
     NAME("banner", "of no effect: pictures carry none"),
     NAME("high_quality_edges", "of no effect: all edges are"),
-    NAME("sample_border", "of no effect: samples are drawn by the filter"),
+    NAME("sample_border", "of no effect: samples lie within the image"),
     NAME("compensate", "of no effect: sums are exact enough"),
     NAME("gamma", "of no effect: pictures are linear, PNG is sRGB"),
 };

@@ -1,0 +1,304 @@
+#include "render/film/spread.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/film/film.h"
+
+size_t aur_spread_reach(const aur_filter *filter) {
+    return (size_t)ceil(aur_filter_radius(filter) - 0.5);
+}
+
+void aur_spread_measure(const aur_filter *filter, size_t cell, size_t channel_count, aur_spread *spread) {
+    *spread = (aur_spread){.reach = aur_spread_reach(filter), .cell = cell, .channels = channel_count + 1};
+    spread->side = cell + 2 * spread->reach;
+    spread->tile_cells = (AUR_TILE_SIZE / cell) * (AUR_TILE_SIZE / cell);
+    spread->cell_values = spread->side * spread->side * spread->channels;
+}
+
+static void fill_table(const aur_filter *filter, aur_spread *spread) {
+    const size_t width = 2 * spread->reach + 1;
+    for (size_t bin = 0; bin <= AUR_SPREAD_BINS; ++bin)
+        for (size_t i = 0; i < width; ++i) {
+            const double offset = (double)bin / AUR_SPREAD_BINS - 0.5;
+            spread->table[bin * width + i] =
+                (float)aur_filter_value(filter, offset + (double)spread->reach - (double)i);
+        }
+}
+
+bool aur_spread_create(const aur_filter *filter, size_t cell, size_t channel_count, size_t tile_count,
+                       aur_spread **out) {
+    aur_spread *const spread = *out = calloc(1, sizeof *spread);
+    if (spread == NULL)
+        return false;
+    aur_spread_measure(filter, cell, channel_count, spread);
+    const size_t cells = tile_count * spread->tile_cells, pixels = spread->side * spread->side;
+    spread->table = malloc((AUR_SPREAD_BINS + 1) * (2 * spread->reach + 1) * sizeof *spread->table);
+    spread->sums = calloc(cells, spread->cell_values * sizeof *spread->sums);
+    spread->given = calloc(cells, sizeof *spread->given);
+    spread->steps = calloc(cells, sizeof *spread->steps);
+    if (cell == AUR_TILE_SIZE)
+        spread->moments = calloc(cells, pixels * AUR_SPREAD_MOMENTS * sizeof *spread->moments);
+    if (spread->table == NULL || spread->sums == NULL || spread->given == NULL || spread->steps == NULL ||
+        (cell == AUR_TILE_SIZE && spread->moments == NULL))
+        return false;
+    fill_table(filter, spread);
+    return true;
+}
+
+void aur_spread_destroy(aur_spread *spread) {
+    if (spread == NULL)
+        return;
+    free(spread->table);
+    free(spread->sums);
+    free(spread->given);
+    free(spread->steps);
+    free(spread->moments);
+    free(spread);
+}
+
+/* --- samples */
+
+/* Adds a row of pixels; `channels` is known where it is called for images without more of them. */
+static inline void add_row(size_t width, size_t channels, const float *across, double weight,
+                           const double *values, double *sums) {
+    for (size_t i = 0; i < width; ++i) {
+        const double share = weight * (double)across[i];
+        for (size_t c = 0; c < channels; ++c)
+            sums[i * channels + c] += share * values[c];
+    }
+}
+
+void aur_spread_add(const aur_spread *spread, double *cells, size_t x, size_t y, const float offset[2],
+                    double weight, const float *values, bool counts) {
+    enum { PLAIN = 4 };
+    const size_t width = 2 * spread->reach + 1, channels = spread->channels;
+    float across[AUR_SPREAD_WIDTH_MAX], down[AUR_SPREAD_WIDTH_MAX];
+    double own[3 + AUR_EXTRA_CHANNELS_MAX + 1];
+    aur_spread_weights(spread, offset[0], across);
+    aur_spread_weights(spread, offset[1], down);
+    for (size_t c = 0; c + 1 < channels; ++c)
+        own[c] = (double)values[c];
+    own[channels - 1] = counts ? 1.0 : 0.0;
+    double *const sums = cells + aur_spread_cell_of(spread, x, y) * spread->cell_values;
+    for (size_t j = 0; j < width; ++j) {
+        double *const row = sums + ((y % spread->cell + j) * spread->side + x % spread->cell) * channels;
+        const double share = weight * (double)down[j];
+        if (down[j] == 0.0f)
+            continue;
+        if (channels == PLAIN)
+            add_row(width, PLAIN, across, share, own, row);
+        else
+            add_row(width, channels, across, share, own, row);
+    }
+}
+
+/* --- tiles */
+
+static size_t first_cell(const aur_film *film, const aur_tile *tile) {
+    return aur_film_tile_at(film, tile->x0, tile->y0) * film->spread->tile_cells;
+}
+
+static size_t clamped(size_t at, size_t first, size_t end) {
+    return at < first ? first : at < end ? at : end - 1;
+}
+
+/* Pixels beside a crop get as many samples as the nearest one in it. */
+void aur_spread_set_wanted(const aur_film *film, size_t index, const aur_film_targets *targets,
+                           const aur_tile *tile, aur_film_before *before) {
+    const aur_film_layout *const layout = &film->layout;
+    const aur_spread *const spread = film->spread;
+    const size_t width = layout->x1 - layout->x0, count = tile->stride * (tile->y1 - tile->y0);
+    uint32_t most[AUR_TILE_SIZE * AUR_TILE_SIZE] = {0};
+    for (size_t turn = 0; turn < 2; ++turn)
+        for (size_t k = 0; k < count; ++k) {
+            const size_t x = tile->x0 + k % tile->stride, y = tile->y0 + k / tile->stride;
+            const size_t at = (clamped(y, layout->y0, layout->y1) - layout->y0) * width +
+                              clamped(x, layout->x0, layout->x1) - layout->x0;
+            const size_t cell = aur_spread_cell_of(spread, x, y);
+            const uint32_t target = targets->pixels != NULL ? targets->pixels[at] : targets->all;
+            most[cell] = target > most[cell] ? target : most[cell];
+            before->targets[k] = most[cell];
+            before->given[k] = spread->given[index * spread->tile_cells + cell];
+        }
+}
+
+aur_result aur_spread_open_tile(const aur_film *film, aur_tile *tile, aur_film_before *before) {
+    const aur_spread *const spread = film->spread;
+    const size_t pixels = tile->stride * (tile->y1 - tile->y0);
+    const size_t bytes = spread->tile_cells * spread->cell_values * sizeof *tile->sums;
+    tile->spread = spread;
+    tile->sums = malloc(bytes);
+    tile->counts = calloc(pixels, sizeof *tile->counts);
+    before->cells = spread->moments != NULL ? malloc(bytes) : NULL;
+    if (tile->sums == NULL || tile->counts == NULL || (spread->moments != NULL && before->cells == NULL))
+        return AUR_ERROR_MEMORY;
+    memcpy(tile->sums, &spread->sums[first_cell(film, tile) * spread->cell_values], bytes);
+    if (before->cells != NULL)
+        memcpy(before->cells, tile->sums, bytes);
+    for (size_t k = 0; k < pixels; ++k) {
+        size_t at;
+        if (aur_film_has(film, tile->x0 + k % tile->stride, tile->y0 + k / tile->stride, &at))
+            tile->counts[k] = film->counts[at];
+    }
+    return AUR_OK;
+}
+
+void aur_spread_take_tile(aur_film *film, aur_tile *tile) {
+    aur_spread *const spread = film->spread;
+    const size_t first = first_cell(film, tile), pixels = tile->stride * (tile->y1 - tile->y0);
+    memcpy(&spread->sums[first * spread->cell_values], tile->sums,
+           spread->tile_cells * spread->cell_values * sizeof *tile->sums);
+    const uint32_t last = tile->first + tile->count;
+    bool empty[AUR_TILE_SIZE * AUR_TILE_SIZE];
+    memset(empty, true, sizeof empty);
+    for (size_t k = 0; k < pixels; ++k) {
+        const size_t x = tile->x0 + k % tile->stride, y = tile->y0 + k / tile->stride;
+        const size_t cell = aur_spread_cell_of(spread, x, y);
+        uint32_t *const given = &spread->given[first + cell];
+        empty[cell] = false;
+        const uint32_t end = tile->ends != NULL && tile->ends[k] < last ? tile->ends[k] : last;
+        size_t at;
+        *given = end > *given ? end : *given;
+        if (!aur_film_has(film, x, y, &at))
+            continue;
+        film->counts[at] = tile->counts[k];
+        film->given[at] = *given;
+    }
+    for (size_t cell = 0; cell < spread->tile_cells; ++cell) /* without pixels, and never short of samples */
+        if (empty[cell])
+            spread->given[first + cell] = last;
+}
+
+/* Notes a step of `count` samples of each pixel, after which a cell has `now`. */
+static void note_step(const aur_spread *spread, uint32_t count, const double *before, const double *now,
+                      double *moments) {
+    for (size_t i = 0; i < spread->side * spread->side; ++i) {
+        double step[4];
+        for (size_t c = 0; c < 4; ++c) {
+            const size_t value = i * spread->channels + (c < 3 ? c : spread->channels - 1);
+            step[c] = now[value] - before[value];
+        }
+        double *const own = &moments[i * AUR_SPREAD_MOMENTS];
+        for (size_t c = 0; c < 3; ++c) {
+            own[c] += step[c] * step[c] / (double)count;
+            own[3 + c] += step[c] * step[3] / (double)count;
+        }
+        own[6] += step[3] * step[3] / (double)count;
+    }
+}
+
+void aur_spread_close_tile(aur_film *film, const aur_tile *tile, const aur_film_before *before) {
+    aur_spread *const spread = film->spread;
+    const size_t first = first_cell(film, tile), pixels = tile->stride * (tile->y1 - tile->y0);
+    uint32_t given[AUR_TILE_SIZE * AUR_TILE_SIZE] = {0}; /* before, by cells */
+    for (size_t k = 0; k < pixels; ++k)
+        given[aur_spread_cell_of(spread, tile->x0 + k % tile->stride, tile->y0 + k / tile->stride)] =
+            before->given[k];
+    for (size_t cell = 0; cell < spread->tile_cells; ++cell) {
+        if (spread->given[first + cell] <= given[cell])
+            continue;
+        ++spread->steps[first + cell];
+        if (spread->moments != NULL)
+            note_step(spread, spread->given[first + cell] - given[cell],
+                      before->cells + cell * spread->cell_values,
+                      &spread->sums[(first + cell) * spread->cell_values],
+                      &spread->moments[(first + cell) * spread->side * spread->side * AUR_SPREAD_MOMENTS]);
+    }
+}
+
+/* --- the image */
+
+/* A cell that reaches a pixel. */
+typedef struct reaching_cell {
+    size_t cell;  /* of the film */
+    size_t place; /* of the pixel in it */
+} reaching_cell;
+
+enum { CELLS_MAX = (2 * AUR_FILTER_REACH_MAX / 4 + 2) * (2 * AUR_FILTER_REACH_MAX / 4 + 2) };
+
+/* The cells with samples that reach a pixel, in the order of their places. */
+static size_t find_cells(const aur_film *film, size_t pixel, reaching_cell *found) {
+    const aur_film_layout *const layout = &film->layout;
+    const aur_spread *const spread = film->spread;
+    const size_t cell = spread->cell, reach = spread->reach, width = layout->x1 - layout->x0;
+    const size_t x = layout->x0 + pixel % width, y = layout->y0 + pixel / width;
+    const aur_film_area area = aur_film_area_of(layout);
+    const size_t left = x > area.x0 + reach ? x - reach : area.x0;
+    const size_t top = y > area.y0 + reach ? y - reach : area.y0;
+    const size_t right = x + reach < area.x1 ? x + reach : area.x1 - 1;
+    const size_t bottom = y + reach < area.y1 ? y + reach : area.y1 - 1;
+    size_t count = 0;
+    for (size_t row = top / cell; row <= bottom / cell; ++row)
+        for (size_t column = left / cell; column <= right / cell; ++column) {
+            const size_t at = aur_film_tile_at(film, column * cell, row * cell) * spread->tile_cells +
+                              aur_spread_cell_of(spread, column * cell, row * cell);
+            if (spread->given[at] > 0)
+                found[count++] =
+                    (reaching_cell){at, (y + reach - row * cell) * spread->side + x + reach - column * cell};
+        }
+    return count;
+}
+
+static double sum_of(const aur_spread *spread, const reaching_cell *at, size_t channel) {
+    return spread->sums[at->cell * spread->cell_values + at->place * spread->channels + channel] /
+           (double)spread->given[at->cell];
+}
+
+double aur_spread_value(const aur_film *film, size_t pixel, size_t channel) {
+    const aur_spread *const spread = film->spread;
+    reaching_cell cells[CELLS_MAX];
+    const size_t count = find_cells(film, pixel, cells);
+    double sum = 0.0, weight = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        sum += sum_of(spread, &cells[i], channel);
+        weight += sum_of(spread, &cells[i], spread->channels - 1);
+    }
+    return weight != 0.0 ? sum / weight : 0.0;
+}
+
+/* A value is the ratio of sums over the cells, s / w, and its variance by the ratio's linear form that of
+ * s - (value) w over w^2; the cells' steps are independent. */
+bool aur_spread_error(const aur_film *film, size_t pixel, double squares[3]) {
+    const aur_spread *const spread = film->spread;
+    reaching_cell cells[CELLS_MAX];
+    const size_t count = find_cells(film, pixel, cells);
+    double weight = 0.0;
+    bool good = count > 0 && spread->moments != NULL;
+    for (size_t i = 0; i < count; ++i) {
+        weight += sum_of(spread, &cells[i], spread->channels - 1);
+        good = good && spread->steps[cells[i].cell] > 1;
+    }
+    for (size_t c = 0; good && c < 3; ++c) {
+        const double value = aur_spread_value(film, pixel, c);
+        squares[c] = 0.0;
+        for (size_t i = 0; i < count; ++i) {
+            const size_t cell = cells[i].cell;
+            const double *const own =
+                &spread->moments[(cell * spread->side * spread->side + cells[i].place) * AUR_SPREAD_MOMENTS];
+            const double mean =
+                sum_of(spread, &cells[i], c) - value * sum_of(spread, &cells[i], spread->channels - 1);
+            const double given = spread->given[cell];
+            const double square =
+                own[c] - 2.0 * value * own[3 + c] + value * value * own[6] - given * mean * mean;
+            squares[c] += fmax(square, 0.0) / ((double)(spread->steps[cell] - 1) * given);
+        }
+        squares[c] /= weight * weight;
+    }
+    return good;
+}
+
+void aur_spread_merge(aur_film *film, const aur_film *part) {
+    aur_spread *const to = film->spread;
+    const aur_spread *const from = part->spread;
+    const size_t cells = film->tile_count * to->tile_cells;
+    for (size_t i = 0; i < cells * to->cell_values; ++i)
+        to->sums[i] += from->sums[i];
+    for (size_t i = 0; to->moments != NULL && i < cells * to->side * to->side * AUR_SPREAD_MOMENTS; ++i)
+        to->moments[i] += from->moments[i];
+    for (size_t i = 0; i < cells; ++i) {
+        to->given[i] += from->given[i];
+        to->steps[i] += from->steps[i];
+    }
+}

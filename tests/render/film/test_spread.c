@@ -1,0 +1,260 @@
+/* Pixels that share samples: every sample counts in all pixels that its filter reaches. */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <aureole-render/render.h>
+
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
+#include "render/film/integrator.h"
+#include "render/image/format.h"
+
+enum { WIDTH = 37, HEIGHT = 21, PIXELS = WIDTH * HEIGHT, SAMPLES = 3 };
+
+static const char *const filters[] = {"tent", "gaussian", "mitchell", "catmullrom", "lanczos"};
+enum { FILTER_COUNT = sizeof filters / sizeof filters[0] };
+
+typedef struct fixture {
+    aur_scene *scene;
+    aur_renderer *renderer;
+} fixture;
+
+static int set_up(void **state) {
+    fixture *const f = calloc(1, sizeof *f);
+    assert_int_equal(
+        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
+    *state = f;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    fixture *const f = *state;
+    aur_renderer_destroy(f->renderer);
+    aur_scene_destroy(f->scene);
+    free(f);
+    return 0;
+}
+
+static aur_render_options options_of(const char *integrator, const char *filter) {
+    return (aur_render_options){.size = sizeof(aur_render_options),
+                                .integrator = integrator,
+                                .filter = filter,
+                                .samples_per_pixel = SAMPLES,
+                                .width = WIDTH,
+                                .height = HEIGHT,
+                                .threads = 1};
+}
+
+static aur_render *start(const fixture *f, const aur_render_options *options) {
+    aur_render *render = NULL;
+    aur_error error = {0};
+    if (aur_render_create(f->renderer, options, &render, &error) != AUR_OK)
+        fail_msg("%s", error.message);
+    return render;
+}
+
+static aur_image *picture(const aur_render *render) {
+    aur_image *image = NULL;
+    assert_int_equal(aur_film_develop(aur_render_film(render), &image, NULL), AUR_OK);
+    return image;
+}
+
+static aur_image *render_all(const fixture *f, const aur_render_options *options) {
+    aur_render *const render = start(f, options);
+    assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
+    aur_image *const image = picture(render);
+    aur_render_destroy(render);
+    return image;
+}
+
+static void assert_same(aur_image *a, aur_image *b) {
+    assert_int_equal(a->channel_count, b->channel_count);
+    assert_memory_equal(a->data, b->data, a->width * a->height * a->channel_count * sizeof *a->data);
+    aur_image_destroy(b);
+}
+
+/* Brute force: all samples of all pixels, weighed by the filter's definition. */
+static void pixels_are_the_weighed_means_of_all_samples(void **state) {
+    const fixture *const f = *state;
+    static float values[PIXELS][SAMPLES][3], offsets[PIXELS][SAMPLES][2];
+    for (size_t k = 0; k < FILTER_COUNT; ++k) {
+        const aur_filter *const filter = aur_filter_find(filters[k]);
+        const aur_render_options options = options_of("direct", filters[k]);
+        aur_render *const render = start(f, &options);
+        const aur_integrator *const integrator = aur_render_integrator(render);
+        aur_sampler *sampler = NULL;
+        assert_int_equal(aur_sampler_create(aur_scene_sampler(f->scene), SAMPLES, NULL, &sampler, NULL),
+                         AUR_OK);
+        const aur_view view = {.scene = f->scene,
+                               .sampler = sampler,
+                               .filter = aur_filter_find("box"),
+                               .width = WIDTH,
+                               .height = HEIGHT};
+        aur_counters counters = {0};
+        for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
+            const size_t pixel = i / SAMPLES, s = i % SAMPLES;
+            aur_camera_sample sample;
+            aur_view_sample(&view, pixel % WIDTH, pixel / WIDTH, (uint32_t)s, &sample);
+            const aur_vector l = integrator->descriptor->radiance(integrator, &sample, &counters);
+            memcpy(values[pixel][s], (const float[3]){l.x, l.y, l.z}, sizeof values[pixel][s]);
+            memcpy(offsets[pixel][s], sample.offset, sizeof sample.offset);
+        }
+        assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
+        aur_image *const image = picture(render);
+        for (size_t pixel = 0; pixel < PIXELS; ++pixel) {
+            double sums[3] = {0}, weight = 0.0, sizes = 0.0, most = 0.0;
+            for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
+                const size_t other = i / SAMPLES, s = i % SAMPLES;
+                const double x = (double)(other % WIDTH) - (double)(pixel % WIDTH);
+                const double y = (double)(other / WIDTH) - (double)(pixel / WIDTH);
+                if (fabs(x) > 4.0 || fabs(y) > 4.0)
+                    continue;
+                const double w = aur_filter_value(filter, x + (double)offsets[other][s][0]) *
+                                 aur_filter_value(filter, y + (double)offsets[other][s][1]);
+                weight += w;
+                sizes += fabs(w);
+                for (size_t c = 0; c < 3; ++c) {
+                    sums[c] += w * (double)values[other][s][c];
+                    most = w != 0.0 ? fmax(most, (double)values[other][s][c]) : most;
+                }
+            }
+            /* The table is wrong by 1e-5 of the filter's peak at most: of so many samples' weights. */
+            const double bound = 1e-4 * most * (1.0 + sizes) / weight;
+            for (size_t c = 0; c < 3; ++c)
+                assert_true(fabs((double)image->data[3 * pixel + c] - sums[c] / weight) <= bound);
+        }
+        aur_image_destroy(image);
+        aur_sampler_destroy(sampler);
+        aur_render_destroy(render);
+    }
+}
+
+static void assert_crop_is_cut(const fixture *f, const aur_render_options *options, const aur_image *whole,
+                               const size_t crop[4]) {
+    aur_render_options part = *options;
+    part.crop_x0 = crop[0];
+    part.crop_x1 = crop[1];
+    part.crop_y0 = crop[2];
+    part.crop_y1 = crop[3];
+    aur_image *const image = render_all(f, &part);
+    const size_t channels = whole->channel_count;
+    for (size_t y = crop[2]; y < crop[3]; ++y)
+        assert_memory_equal(&image->data[channels * (y - crop[2]) * image->width],
+                            &whole->data[channels * (y * WIDTH + crop[0])],
+                            channels * image->width * sizeof *image->data);
+    aur_image_destroy(image);
+}
+
+static void assert_goes_on(const fixture *f, const aur_render_options *options, aur_image *whole) {
+    aur_render *const first = start(f, options);
+    assert_int_equal(aur_render_step(first, 1, NULL), AUR_OK);
+    assert_int_equal(aur_film_save(aur_render_film(first), "half.film", NULL), AUR_OK);
+    aur_film *half = NULL;
+    assert_int_equal(aur_film_load("half.film", &half, NULL), AUR_OK);
+    remove("half.film");
+    aur_render *const second = start(f, options);
+    assert_int_equal(aur_render_merge(second, half, NULL), AUR_OK);
+    assert_int_equal(aur_render_samples(second), 1);
+    assert_int_equal(aur_render_step(second, 0, NULL), AUR_OK);
+    assert_same(whole, picture(second));
+    aur_film_destroy(half);
+    aur_render_destroy(first);
+    aur_render_destroy(second);
+}
+
+static void assert_is_of_parts(const fixture *f, const aur_render_options *options, aur_image *whole) {
+    enum { PARTS = 3 };
+    aur_render *const all = start(f, options);
+    for (size_t part = PARTS; part > 0; --part) {
+        aur_render_options own = *options;
+        own.shard = part;
+        own.shard_count = PARTS;
+        aur_render *const render = start(f, &own);
+        assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
+        assert_int_equal(aur_render_merge(all, aur_render_film(render), NULL), AUR_OK);
+        aur_render_destroy(render);
+    }
+    assert_int_equal(aur_render_samples(all), options->samples_per_pixel);
+    assert_same(whole, picture(all));
+    aur_render_destroy(all);
+}
+
+/* Neither threads, nor crops that cut tiles or of one pixel, nor parts, nor a film that goes on from a file
+ * change a bit. */
+static void nothing_changes_a_bit(void **state) {
+    const fixture *const f = *state;
+    static const char *const integrators[] = {"path", "aov:aovs=(n:sample_count,v:variance,d:depth)", "ao",
+                                              "finalgather:photons=2000,diffuse_samples=4,edges=4"};
+    static const size_t crops[][4] = {{5, 30, 14, 19}, {17, 18, 15, 16}, {0, 1, 0, 1}, {36, 37, 20, 21}};
+    for (size_t k = 0; k < FILTER_COUNT; ++k)
+        for (size_t i = 0; i < sizeof integrators / sizeof integrators[0]; ++i) {
+            aur_render_options options = options_of(integrators[i], filters[k]);
+            aur_image *const whole = render_all(f, &options);
+            options.threads = 3;
+            assert_same(whole, render_all(f, &options));
+            for (size_t c = 0; c < sizeof crops / sizeof crops[0]; ++c)
+                assert_crop_is_cut(f, &options, whole, crops[c]);
+            if (i < 3) /* finalgather sums its samples step by step */
+                assert_goes_on(f, &options, whole);
+            assert_is_of_parts(f, &options, whole);
+            aur_image_destroy(whole);
+        }
+}
+
+/* Cells count by their means: where some pixels have many more samples than others, the image of a plain
+ * function of the film is still the filtered one, as it would not be if all samples weighed the same. The
+ * scene is a camera that sees depth alone, whose samples have no noise but that of their places. */
+static void cells_count_alike_with_any_number_of_samples(void **state) {
+    const fixture *const f = *state;
+    aur_render_options options = options_of("aov:aovs=(d:depth)", "gaussian");
+    options.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    options.sampler = "sobol";
+    aur_image *images[2];
+    static uint32_t targets[PIXELS];
+    for (size_t r = 0; r < 2; ++r) {
+        aur_render *const render = start(f, &options);
+        for (size_t i = 0; i < PIXELS; ++i)
+            targets[i] = r == 0 ? 256 : i % WIDTH / 4 % 2 == 0 ? 16 : 256;
+        assert_int_equal(aur_render_step_pixels(render, PIXELS, targets, NULL), AUR_OK);
+        images[r] = picture(render);
+        aur_render_destroy(render);
+    }
+    double sum = 0.0, square = 0.0;
+    for (size_t i = 0; i < PIXELS; ++i) {
+        const double a = (double)images[0]->data[4 * i + 3], b = (double)images[1]->data[4 * i + 3];
+        sum += fabs(b - a) / a / PIXELS;
+        square += a > 0.0;
+    }
+    assert_int_equal((size_t)square, PIXELS);
+    print_message("mean difference of depths: %g\n", sum);
+    assert_true(sum < 2e-3); /* 1e-2 if cells counted by their samples */
+    aur_image_destroy(images[0]);
+    aur_image_destroy(images[1]);
+}
+
+/* Filters wider than the image, and images of one pixel. */
+static void small_images(void **state) {
+    const fixture *const f = *state;
+    for (size_t k = 0; k < FILTER_COUNT; ++k)
+        for (size_t side = 1; side <= 3; ++side) {
+            aur_render_options options = options_of("path", filters[k]);
+            options.width = options.height = side;
+            aur_image *const image = render_all(f, &options);
+            for (size_t i = 0; i < 3 * side * side; ++i)
+                assert_true(isfinite(image->data[i]));
+            aur_image_destroy(image);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_the_weighed_means_of_all_samples),
+                                       cmocka_unit_test(nothing_changes_a_bit),
+                                       cmocka_unit_test(cells_count_alike_with_any_number_of_samples),
+                                       cmocka_unit_test(small_images)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
