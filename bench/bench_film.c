@@ -43,7 +43,7 @@ static bool render_runs(aur_renderer *renderer, const char *integrator, const ch
     const double n = (double)runs;
     double variance = 0.0;
     for (size_t i = 0; i < 3 * SIDE * SIDE; ++i)
-        variance += fmax(squares[i] - sums[i] * sums[i] / n, 0.0) / (n - 1.0) / (3.0 * SIDE * SIDE);
+        variance += fmax(squares[i] - sums[i] * sums[i] / n, 0.0) / fmax(n - 1.0, 1.0) / (3.0 * SIDE * SIDE);
     *found = (film_runs){sqrt(variance), bench_cpu_seconds() - start};
     return true;
 }
@@ -63,8 +63,11 @@ static bool run(const bench_options *options) {
     for (size_t i = 0; good && i < sizeof integrators / sizeof integrators[0]; ++i) {
         film_runs box = {0};
         for (size_t f = 0; good && f < sizeof filters / sizeof filters[0]; ++f) {
-            film_runs own;
-            good = render_runs(renderer, integrators[i], filters[f], runs, &own);
+            film_runs own = {0};
+            if (f ==
+                0) /* what renders share, such as the photons of a seed, is made before anything is timed */
+                good = render_runs(renderer, integrators[i], filters[f], runs, &own);
+            good = good && render_runs(renderer, integrators[i], filters[f], runs, &own);
             if (f == 0)
                 box = own;
             if (good)
