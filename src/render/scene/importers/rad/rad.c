@@ -45,9 +45,8 @@ bool aur_rad_is_text(size_t size, const char *data) {
         return false;
     aur_rad self = {.at = data, .end = data + size, .line = 1};
     aur_rad_word modifier, type;
-    const bool comment = size > 0 && data[0] == '#';
     if (!aur_rad_next_word(&self, &modifier))
-        return comment;
+        return false;
     for (size_t i = 0; i < modifier.length; ++i)
         if ((unsigned char)modifier.text[i] < 32)
             return false;

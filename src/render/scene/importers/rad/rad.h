@@ -7,7 +7,7 @@
 
 /* Whether a scene's file is one by its name: .rad, .mat, .sky. */
 bool aur_rad_is_name(const char *path);
-/* Whether text is one by its content: it begins with a comment, a command or a primitive. */
+/* Whether text is one by its content: after comments, it begins with a command or a primitive. */
 bool aur_rad_is_text(size_t size, const char *data);
 
 /* What the files of one scene share: the materials so far, in the order in which they are read. */
