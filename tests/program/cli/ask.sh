@@ -108,13 +108,14 @@ refuses "goes with an integrator that is named" --error 1% --bias .5%
 refuses "--spp' does not go with" --error 1% --spp 4
 refuses "--error-map' goes with" --error-map
 
-# An interrupt leaves what there is beside the picture of before, with and without a wish.
+# An interrupt leaves what there is beside the previous image, with and without a target. There is something once a checkpoint is
+# written: the choice of an integrator leaves nothing.
 for wish in "--error .01%" "--spp 5000"; do
   echo old > e.exr
-  rm -f e.partial.exr
+  rm -f e.partial.exr kept
   # shellcheck disable=SC2086
-  "$aureole" render "$scene" --width 96 --height 96 $wish -o e.exr -q 2> said &
-  sleep 1
+  "$aureole" render "$scene" --width 96 --height 96 $wish -o e.exr -q --checkpoint kept --checkpoint-every .1s 2> said &
+  for _ in $(seq 600); do [ -e kept ] && break; sleep 0.1; done
   kill -INT $!
   status=0
   wait $! || status=$?

@@ -62,7 +62,7 @@ for domain in "--domain sphere" "--domain hemisphere" "--cap 90" "--cap 120"; do
   {
     try "degree 4 to 1e-10" good $domain --method exact --degree 4
     try "must be between 0 and 1500, not '2000'" good $domain --method exact --degree 2000
-    try "--degree, --levels, --negative and --near are for" good $domain --method voronoi --degree 2
+    try "--degree, --levels, --negative, --near and --tolerance are for" good $domain --method voronoi --degree 2
   }
 done
 # A degree that needs negative weights says the least; they are given where they are allowed.

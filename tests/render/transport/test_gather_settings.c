@@ -119,6 +119,7 @@ static aur_result render(const char *integrator, const aur_gather_integrator *ga
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     const aur_render_options options = {.size = sizeof options,
                                         .integrator = integrator,
+                                        .filter = "box", /* a pixel's own samples */
                                         .width = 8,
                                         .height = 8,
                                         .samples_per_pixel = 2,
