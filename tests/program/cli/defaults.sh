@@ -185,6 +185,9 @@ needs() { # needs KIND ROW
     shape:*curve) echo "<string name='filename' value='$plugins/hair.txt'/>" ;;
     shape:polygon) echo "<string name='vertices' value='0 0 0 1 0 0 0 1 0'/>" ;;
     emitter:envmap) echo "<string name='filename' value='$plugins/picture.png'/>" ;;
+    emitter:photometric)
+      printf 'IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n100 50\n' >lamp.ies
+      echo "<string name='filename' value='$PWD/lamp.ies'/>" ;;
     emitter:projector) printf "$picture" irradiance ;;
     sensor:thinlens) echo "<float name='aperture_radius' value='0.1'/><float name='focus_distance' value='3'/>" ;;
     phase:tabphase) echo "<string name='values' value='1, 2, 3'/>" ;;

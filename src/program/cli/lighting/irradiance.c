@@ -225,7 +225,7 @@ static bool check(const cli_call *call) {
         wrong = "irradiance: the points are missing: --sensors POINTS or --grid SURFACE:SPACING";
     else if (given->sensors != NULL && given->grid.target != NULL)
         wrong = "irradiance: --sensors does not go with --grid";
-    else if (cli_given(call, "margin") != NULL && given->grid.target == NULL)
+    else if (given->grid.margin > 0.0 && given->grid.target == NULL)
         wrong = "irradiance: --margin is for --grid";
     else if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
         wrong = "irradiance: --particles is for --reflected map or radiosity";
