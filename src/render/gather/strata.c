@@ -49,6 +49,8 @@ bool aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const a
     stratum->sum[0] += (double)radiance.x;
     stratum->sum[1] += (double)radiance.y;
     stratum->sum[2] += (double)radiance.z;
+    for (size_t c = 0; c < 3; ++c)
+        stratum->single[c] = stratum->sum[c];
     if (aur_has_lane(sums->pooled_lanes, lane)) {
         stratum->gathers += 1.0f;
         add_pooled(&stratum->pooled, &sums->pooled[lane]);

@@ -15,6 +15,7 @@ typedef struct aur_stratum {
     double seen;   /* samples that met it */
     double shaded; /* those whose radiance is in `sum` */
     double sum[3];
+    double single[3]; /* the same before neighbours' irradiance is pooled */
     /* With pooled irradiance: the samples that gathered, and sums over them. */
     float gathers;
     aur_gather_pooled pooled;

@@ -8,6 +8,12 @@
 #include "render/trace/interleave.h"
 #include "render/vertex/shading.h"
 
+/* What a stratum's samples weigh in one pixel: all that met it, those that were shaded, and these times their
+ * radiance. */
+typedef struct spread_cell {
+    float seen, shaded, sum[3];
+} spread_cell;
+
 /* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
 typedef struct gather_tile {
     const aur_view *view;
@@ -17,7 +23,7 @@ typedef struct gather_tile {
     aur_gather_points surface_points;
     aur_gather_sums sums;
     aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
-    float *grids; /* where pixels share samples: the filter's weights of each stratum; else NULL */
+    spread_cell *cells; /* where pixels share samples: of each stratum, for the pixels around; else NULL */
     const aur_spread *spread;
     aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples go to; NULL: none */
     aur_pixel_strata strata[AUR_TILE_PIXELS];
@@ -47,12 +53,12 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     work->spread = tile->spread;
     if (work->spread != NULL) {
         const size_t width = 2 * work->spread->reach + 1;
-        work->grids = calloc(AUR_TILE_PIXELS * AUR_STRATUM_COUNT, width * width * sizeof *work->grids);
+        work->cells = calloc(AUR_TILE_PIXELS * AUR_STRATUM_COUNT, width * width * sizeof *work->cells);
     }
-    if (work->sums.numbers != NULL && (work->spread == NULL || work->grids != NULL))
+    if (work->sums.numbers != NULL && (work->spread == NULL || work->cells != NULL))
         return work;
     free(work->sums.numbers);
-    free(work->grids);
+    free(work->cells);
     free(work);
     return NULL;
 }
@@ -106,22 +112,39 @@ static uint32_t trace(gather_tile *work) {
     return aur_gather_intersect(work->surface_points.plan, order, packet);
 }
 
-/* Where pixels share samples: adds `sign` times what a lane's sample weighs in the pixels around its own. */
-static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, float sign) {
+static spread_cell *cells_of(const gather_tile *work, const aur_pixel_strata *pixel,
+                             const aur_stratum *stratum) {
+    const size_t width = 2 * work->spread->reach + 1;
+    const size_t number =
+        (size_t)(pixel - work->strata) * AUR_STRATUM_COUNT + (size_t)(stratum - pixel->strata);
+    return work->cells + number * width * width;
+}
+
+/* Where pixels share samples: counts a lane's sample in the pixels around its own. NULL for `radiance`: it
+ * has met the stratum, `sign` times. */
+static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, float sign,
+                  const aur_vector *radiance) {
     const aur_spread *const spread = work->spread;
     if (spread == NULL)
         return;
     const size_t width = 2 * spread->reach + 1;
-    const aur_pixel_strata *const pixel = pixel_of(work, lane);
-    const size_t number =
-        (size_t)(pixel - work->strata) * AUR_STRATUM_COUNT + (size_t)(stratum - pixel->strata);
-    float *const grid = work->grids + number * width * width;
+    spread_cell *const cells = cells_of(work, pixel_of(work, lane), stratum);
     float across[AUR_SPREAD_WIDTH_MAX], down[AUR_SPREAD_WIDTH_MAX];
     aur_spread_weights(spread, work->samples[lane].offset[0], across);
     aur_spread_weights(spread, work->samples[lane].offset[1], down);
     for (size_t j = 0; j < width; ++j)
-        for (size_t i = 0; i < width; ++i)
-            grid[j * width + i] += sign * down[j] * across[i];
+        for (size_t i = 0; i < width; ++i) {
+            spread_cell *const cell = &cells[j * width + i];
+            const float weight = down[j] * across[i];
+            if (radiance == NULL) {
+                cell->seen += sign * weight;
+                continue;
+            }
+            cell->shaded += weight;
+            cell->sum[0] += weight * radiance->x;
+            cell->sum[1] += weight * radiance->y;
+            cell->sum[2] += weight * radiance->z;
+        }
 }
 
 /* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
@@ -135,7 +158,7 @@ static void count_seen(gather_tile *work, uint32_t found) {
         bool known;
         aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
         stratum->seen += 1.0;
-        weigh(work, lane, stratum, 1.0f);
+        weigh(work, lane, stratum, 1.0f, NULL);
         if (work->only_new && known && stratum->shaded > 0.0)
             work->surface_points.lanes &= ~(1u << lane);
         else
@@ -232,9 +255,10 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
     work->sums.counters->cut += aur_lane_count(surface_points->lanes);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        if (work->stratum[lane] != NULL &&
-            !aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane))
-            weigh(work, lane, work->stratum[lane], -1.0f);
+        if (work->stratum[lane] == NULL)
+            continue;
+        const bool valid = aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane);
+        weigh(work, lane, work->stratum[lane], -1.0f, valid ? &work->sums.radiance[lane] : NULL);
     }
 }
 
@@ -280,40 +304,46 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 
-/* Where pixels share samples, what a pixel's camera rays met counts where they met it, and each stratum by
- * its mean over the pixel: gather rays are shared out among the samples of a pixel so that together they are
- * a good pattern, which samples weighed singly would not be. */
-static void spread_mean(const gather_tile *work, aur_tile *tile, size_t x, size_t y,
-                        const aur_pixel_strata *pixel, double *sums) {
+/* A stratum in the pixels around, per sample of its own pixel: each sample that was shaded counts where it
+ * lies, and those that were not by the mean of the others, which pooling may have changed. */
+static void spread_stratum(const gather_tile *work, const aur_pixel_strata *pixel, const aur_stratum *stratum,
+                           double *sums) {
     const aur_spread *const spread = work->spread;
     const bool near = work->surface_points.plan->policy.share == AUR_SHARE_NEAR;
     const size_t width = 2 * spread->reach + 1, channels = spread->channels;
-    const uint32_t count = aur_tile_wanted(tile, x, y);
-    double seen = 0.0;
-    memset(sums, 0, width * width * channels * sizeof *sums);
-    for (uint32_t i = 0; i < pixel->count; ++i)
-        seen += pixel->strata[i].shaded != 0.0 ? pixel->strata[i].seen : 0.0;
-    if (!(seen > 0.0))
-        return;
-    for (uint32_t i = 0; i < pixel->count; ++i) {
-        const aur_stratum *const stratum = &pixel->strata[i];
-        const float *const grid =
-            work->grids + ((size_t)(pixel - work->strata) * AUR_STRATUM_COUNT + i) * width * width;
-        double values[3 + 3 + 1] = {0};
-        if (stratum->shaded == 0.0)
-            continue;
+    const spread_cell *const cells = cells_of(work, pixel, stratum);
+    for (size_t k = 0; k < width * width; ++k) {
+        const double seen = (double)cells[k].seen, shaded = (double)cells[k].shaded;
+        double *const to = sums + k * channels;
         for (size_t c = 0; c < 3; ++c) {
-            values[c] = stratum->sum[c] / stratum->shaded;
-            values[3 + c] = near ? stratum->pool_adds[c] / stratum->shaded : 0.0;
+            const double mean = stratum->sum[c] / stratum->shaded;
+            const double single = stratum->single[c] / stratum->shaded;
+            to[c] += (double)cells[k].sum[c] - shaded * single + seen * mean;
+            if (near)
+                to[3 + c] += seen * stratum->pool_adds[c] / stratum->shaded;
         }
         if (work->surface_points.plan->rules.method != NULL)
-            values[3] = (double)pixel->directions;
-        values[channels - 1] = 1.0;
-        for (size_t k = 0; k < width * width; ++k)
-            for (size_t c = 0; c < channels; ++c)
-                sums[k * channels + c] += (double)count / seen * (double)grid[k] * values[c];
+            to[3] += seen * (double)pixel->directions;
+        to[channels - 1] += seen;
     }
-    aur_tile_add_sums(tile, x, y, count, sums);
+}
+
+static void spread_pixel(const gather_tile *work, aur_tile *tile, size_t x, size_t y,
+                         const aur_pixel_strata *pixel, double *sums) {
+    const size_t width = 2 * work->spread->reach + 1, numbers = width * width * work->spread->channels;
+    const uint32_t count = aur_tile_wanted(tile, x, y);
+    double seen = 0.0;
+    memset(sums, 0, numbers * sizeof *sums);
+    for (uint32_t i = 0; i < pixel->count; ++i) {
+        if (pixel->strata[i].shaded == 0.0)
+            continue;
+        seen += pixel->strata[i].seen;
+        spread_stratum(work, pixel, &pixel->strata[i], sums);
+    }
+    for (size_t k = 0; k < numbers && seen > 0.0; ++k)
+        sums[k] *= (double)count / seen;
+    if (seen > 0.0)
+        aur_tile_add_sums(tile, x, y, count, sums);
 }
 
 static aur_result spread_means(const gather_tile *work, aur_tile *tile) {
@@ -323,7 +353,8 @@ static aur_result spread_means(const gather_tile *work, aur_tile *tile) {
         return AUR_ERROR_MEMORY;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
-            spread_mean(work, tile, x, y, &work->strata[(y - work->y) * AUR_TILE_SIZE + (x - work->x)], sums);
+            spread_pixel(work, tile, x, y, &work->strata[(y - work->y) * AUR_TILE_SIZE + (x - work->x)],
+                         sums);
     free(sums);
     return AUR_OK;
 }
@@ -365,7 +396,7 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
         result = spread_means(work, tile);
     else if (result == AUR_OK)
         add_means(work, tile);
-    free(work->grids);
+    free(work->cells);
     free(work->sums.numbers);
     free(work);
     return result;

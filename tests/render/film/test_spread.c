@@ -237,6 +237,55 @@ static void cells_count_alike_with_any_number_of_samples(void **state) {
     aur_image_destroy(images[1]);
 }
 
+/* Direct light by final gathering and by paths, with two seeds each: the products of both differences have a
+ * mean of 0 unless one of them filters something else. By blocks of pixels, which share few samples:
+ * above 4.5 standard errors once in ten thousand for these 36 blocks (Student), and the numbers are fixed. */
+static void gathers_count_where_they_lie(void **state) {
+    enum { SIDE = 24, BLOCK = 4, BLOCKS = (SIDE / BLOCK) * (SIDE / BLOCK) };
+    static const char text[] =
+        "<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='40'/><transform "
+        "name='to_world'>"
+        "<lookat origin='0,-4,3' target='0,0,.3' up='0,0,1'/></transform></sensor><emitter type='point'>"
+        "<point name='position' x='1' y='-1' z='3'/></emitter><shape type='rectangle'><transform "
+        "name='to_world'>"
+        "<scale value='3'/></transform><bsdf type='diffuse'><texture type='checkerboard' name='reflectance'>"
+        "<transform name='to_uv'><scale value='5'/></transform></texture></bsdf></shape><shape type='sphere'>"
+        "<point name='center' x='0' y='0' z='.6'/><float name='radius' value='.6'/></shape></scene>";
+    (void)state;
+    fixture made, *const f = &made;
+    assert_int_equal(aur_scene_load_memory("text.xml", sizeof text - 1, text, NULL, &made.scene, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_renderer_create(made.scene, &made.renderer, NULL), AUR_OK);
+    static const char *const tried[] = {"gaussian", "mitchell"};
+    for (size_t k = 0; k < 2; ++k) {
+        aur_image *images[4];
+        for (size_t i = 0; i < 4; ++i) {
+            const bool gathers = i % 2 == 1;
+            aur_render_options options = options_of(
+                gathers ? "finalgather:max_depth=2,photons=1000,edges=0" : "path:max_depth=2", tried[k]);
+            options.width = options.height = SIDE;
+            options.samples_per_pixel = gathers ? 128 : 512;
+            options.seed = i + 1;
+            images[i] = render_all(f, &options);
+        }
+        double sums[BLOCKS] = {0.0}, mean = 0.0, square = 0.0;
+        for (size_t p = 0; p < SIDE * SIDE; ++p)
+            for (size_t c = 0; c < 3; ++c) {
+                const size_t at = 3 * p + c, block = p / SIDE / BLOCK * (SIDE / BLOCK) + p % SIDE / BLOCK;
+                sums[block] += ((double)images[0]->data[at] - (double)images[1]->data[at]) *
+                               ((double)images[2]->data[at] - (double)images[3]->data[at]);
+            }
+        for (size_t b = 0; b < BLOCKS; ++b) {
+            mean += sums[b] / BLOCKS;
+            square += sums[b] * sums[b] / BLOCKS;
+        }
+        const double error = sqrt((square - mean * mean) / (BLOCKS - 1));
+        assert_true(mean < 4.5 * error);
+        for (size_t i = 0; i < 4; ++i)
+            aur_image_destroy(images[i]);
+    }
+}
+
 /* Filters wider than the image, and images of one pixel. */
 static void small_images(void **state) {
     const fixture *const f = *state;
@@ -255,6 +304,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_the_weighed_means_of_all_samples),
                                        cmocka_unit_test(nothing_changes_a_bit),
                                        cmocka_unit_test(cells_count_alike_with_any_number_of_samples),
+                                       cmocka_unit_test(gathers_count_where_they_lie),
                                        cmocka_unit_test(small_images)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
