@@ -1,14 +1,35 @@
+#if !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* dladdr */
+#endif
 #include "program/watch/server.h"
 
+#include <aureole/core.h>
 #include <dlfcn.h>
 #include <errno.h>
+#include <limits.h>
 #include <string.h>
 #include <unistd.h>
 
-/* Found by the run path of the program, which is where the libraries are; loaded once, for the whole process.
- */
+#include <aureole/text.h>
+
+/* In the folder of the library, or of the program that has it inside; else where the system looks. A run path
+ * alone is not enough: sanitizers call dlopen in the program's place. */
+static void *open_module(const char *file) {
+    const char *(*const inside)(void) = aur_version;
+    void *address;
+    Dl_info info;
+    char path[PATH_MAX] = "";
+    memcpy(&address, &inside, sizeof address);
+    if (dladdr(address, &info) != 0 && info.dli_fname != NULL && strrchr(info.dli_fname, '/') != NULL)
+        aur_format(path, sizeof path, "%.*s/%s", (int)(strrchr(info.dli_fname, '/') - info.dli_fname),
+                   info.dli_fname, file);
+    void *const module = path[0] != '\0' ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
+    return module != NULL ? module : dlopen(file, RTLD_NOW | RTLD_LOCAL);
+}
+
+/* Loaded once, for the whole process. */
 static const watch_server_module *find_module(void) {
-    void *const module = dlopen("aureole-serve.so", RTLD_NOW | RTLD_LOCAL);
+    void *const module = open_module("aureole-serve.so");
     return module != NULL ? dlsym(module, "aureole_serve") : NULL;
 }
 
