@@ -284,6 +284,8 @@ static void gathers_count_where_they_lie(void **state) {
         for (size_t i = 0; i < 4; ++i)
             aur_image_destroy(images[i]);
     }
+    aur_renderer_destroy(made.renderer);
+    aur_scene_destroy(made.scene);
 }
 
 /* Filters wider than the image, and images of one pixel. */
