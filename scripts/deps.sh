@@ -12,9 +12,10 @@ packages=(
   # unit tests
   libcmocka-dev
 )
-# many machines; the Python package and engines for SciPy; the pages for a browser; tests of the binary interface, of terminals
+# many machines; the Python package and engines for SciPy; the pages for a browser; tests of the binary interface, of terminals, and of
+# the header and the library in other languages
 [ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev python3-scipy python3-pytest python3-markdown-it
-  chromium abigail-tools xz-utils bsdutils)
+  chromium abigail-tools xz-utils bsdutils clang rustc)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2

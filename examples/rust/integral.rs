@@ -5,7 +5,8 @@
 //!
 //! The declarations are those of aureole/core.h and aureole/pointset.h; bindgen makes all of them from the headers. A struct of options
 //! begins with its size, by which the library knows the version that it was declared from, and aur_..._init fills it.
-use std::ffi::{c_char, c_double, c_int, c_void, CStr, CString};
+use std::ffi::{c_void, CStr, CString};
+use std::os::raw::{c_char, c_double, c_int};
 use std::{mem, ptr};
 
 #[repr(C)]
