@@ -27,14 +27,15 @@ typedef struct connection {
     double until; /* when it is dropped, or answered at last */
 } connection;
 
-struct watch_server {
+typedef struct http_server {
+    watch_server base; /* first */
     watch_handler *handler;
     void *user;
     struct MHD_Daemon *daemon;
     atomic_bool stop, woken;
     pthread_t thread;
     connection connections[MOST_CONNECTIONS]; /* of the thread */
-};
+} http_server;
 
 static double now(void) {
     struct timespec time;
@@ -48,7 +49,7 @@ static int socket_of(struct MHD_Connection *handle) {
 
 static void notify(void *shared, struct MHD_Connection *handle, void **slot,
                    enum MHD_ConnectionNotificationCode what) {
-    watch_server *const server = shared;
+    http_server *const server = shared;
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
         connection *c = server->connections;
         while (c->handle != NULL) /* there are as many entries as connections */
@@ -104,7 +105,7 @@ static enum MHD_Result handle_request(void *shared, struct MHD_Connection *handl
                                       const char *method, const char *version, const char *upload,
                                       size_t *upload_size, void **state) {
     (void)version, (void)upload, (void)upload_size, (void)state;
-    watch_server *const server = shared;
+    http_server *const server = shared;
     connection *const c = MHD_get_connection_info(handle, MHD_CONNECTION_INFO_SOCKET_CONTEXT)->socket_context;
     watch_answer answer = {.status = refuse(handle, target)};
     if (answer.status == 0 &&
@@ -131,7 +132,7 @@ static void attend(const connection *c, bool woken) {
 }
 
 static void *serve(void *shared) {
-    watch_server *const server = shared;
+    http_server *const server = shared;
     for (bool stop = false; !stop;) {
         MHD_run_wait(server->daemon, TICK);
         stop = atomic_load(&server->stop);
@@ -143,7 +144,7 @@ static void *serve(void *shared) {
 }
 
 /* The thread leaves the host's signals to the host's threads. */
-static bool start(watch_server *server, int listener) {
+static bool start(http_server *server, int listener) {
     server->daemon = MHD_start_daemon(
         MHD_USE_AUTO | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, handle_request, server,
         MHD_OPTION_LISTEN_SOCKET, listener, MHD_OPTION_NOTIFY_CONNECTION, notify, server,
@@ -164,11 +165,12 @@ static bool start(watch_server *server, int listener) {
 }
 
 static bool create(int listener, watch_handler *handler, void *user, watch_server **out) {
-    watch_server *const server = calloc(1, sizeof *server);
+    http_server *const server = calloc(1, sizeof *server);
     if (server == NULL) {
         close(listener);
         return false;
     }
+    server->base.module = &aureole_serve;
     server->handler = handler;
     server->user = user;
     atomic_init(&server->stop, false);
@@ -177,15 +179,17 @@ static bool create(int listener, watch_handler *handler, void *user, watch_serve
         free(server);
         return false;
     }
-    *out = server;
+    *out = &server->base;
     return true;
 }
 
-static void wake(watch_server *server) {
+static void wake(watch_server *base) {
+    http_server *const server = (http_server *)base;
     atomic_store(&server->woken, true);
 }
 
-static void destroy(watch_server *server) {
+static void destroy(watch_server *base) {
+    http_server *const server = (http_server *)base;
     atomic_store(&server->stop, true);
     pthread_join(server->thread, NULL);
     MHD_stop_daemon(server->daemon);

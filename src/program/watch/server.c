@@ -27,7 +27,7 @@ static void *open_module(const char *file) {
     return module != NULL ? module : dlopen(file, RTLD_NOW | RTLD_LOCAL);
 }
 
-/* Loaded once, for the whole process. */
+/* Stays loaded until the process ends. */
 static const watch_server_module *find_module(void) {
     void *const module = open_module("aureole-serve.so");
     return module != NULL ? dlsym(module, "aureole_serve") : NULL;
@@ -53,10 +53,10 @@ aur_result watch_server_create(const char *option, watch_place *place, watch_han
 
 void watch_server_wake(watch_server *server) {
     if (server != NULL)
-        find_module()->wake(server);
+        server->module->wake(server);
 }
 
 void watch_server_destroy(watch_server *server) {
     if (server != NULL)
-        find_module()->destroy(server);
+        server->module->destroy(server);
 }

@@ -41,7 +41,10 @@ typedef struct watch_answer {
 typedef bool watch_handler(void *user, const char *method, const char *target, bool last,
                            watch_answer *answer);
 
-typedef struct watch_server watch_server;
+/* The module's own server begins with this. */
+typedef struct watch_server {
+    const struct watch_server_module *module;
+} watch_server;
 
 /* Begins to serve at `place`, whose port 0 becomes a free one. Errors: OPEN, UNSUPPORTED (an installation
  * without the module). */

@@ -120,10 +120,9 @@ static spread_cell *cells_of(const gather_tile *work, const aur_pixel_strata *pi
     return work->cells + number * width * width;
 }
 
-/* Where pixels share samples: counts a lane's sample in the pixels around its own. NULL for `radiance`: it
- * has met the stratum, `sign` times. */
-static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, float sign,
-                  const aur_vector *radiance) {
+/* Where pixels share samples: counts a lane's sample, which met the stratum, in the pixels around its own.
+ * NULL for `radiance`: it was not shaded. */
+static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, const aur_vector *radiance) {
     const aur_spread *const spread = work->spread;
     if (spread == NULL)
         return;
@@ -136,10 +135,9 @@ static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, fl
         for (size_t i = 0; i < width; ++i) {
             spread_cell *const cell = &cells[j * width + i];
             const float weight = down[j] * across[i];
-            if (radiance == NULL) {
-                cell->seen += sign * weight;
+            cell->seen += weight;
+            if (radiance == NULL)
                 continue;
-            }
             cell->shaded += weight;
             cell->sum[0] += weight * radiance->x;
             cell->sum[1] += weight * radiance->y;
@@ -158,11 +156,12 @@ static void count_seen(gather_tile *work, uint32_t found) {
         bool known;
         aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
         stratum->seen += 1.0;
-        weigh(work, lane, stratum, 1.0f, NULL);
-        if (work->only_new && known && stratum->shaded > 0.0)
+        if (work->only_new && known && stratum->shaded > 0.0) {
             work->surface_points.lanes &= ~(1u << lane);
-        else
+            weigh(work, lane, stratum, NULL);
+        } else {
             work->stratum[lane] = stratum;
+        }
     }
 }
 
@@ -255,10 +254,9 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
     work->sums.counters->cut += aur_lane_count(surface_points->lanes);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        if (work->stratum[lane] == NULL)
-            continue;
-        const bool valid = aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane);
-        weigh(work, lane, work->stratum[lane], -1.0f, valid ? &work->sums.radiance[lane] : NULL);
+        aur_stratum *const stratum = work->stratum[lane];
+        if (stratum != NULL && aur_pixel_strata_add(pixel_of(work, lane), stratum, &work->sums, lane))
+            weigh(work, lane, stratum, &work->sums.radiance[lane]);
     }
 }
 
