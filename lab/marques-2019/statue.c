@@ -12,7 +12,9 @@
 
 #include "program/lab/lab.h"
 
-enum { SIZES = 7, FIRST = 8, SETS = 5, MOST_SEEDS = 16 };
+/* Faure's base is not published. In two dimensions it is the least prime from 2 on, so base 2 is the row that
+ * is compared; base 3 is a further one. JUDGED sets are compared with E-SFG in the claims. */
+enum { SIZES = 7, FIRST = 8, JUDGED = 4, SETS = 6, MOST_SEEDS = 16 };
 
 #define GRID "esfg:base=8,levels=3,first-shift=paper"
 
@@ -105,7 +107,7 @@ static aur_result draw(const statue_study *study, const char *set, size_t diffus
 
 /* Fig. 10: both lobes, 128 directions for the diffuse and 32 for the glossy one. */
 static aur_result study_picture(statue_study *study, aur_error *error) {
-    static const double published[SETS] = {NAN, 0.996, 1.117, 1.120, NAN};
+    static const double published[SETS] = {NAN, 0.996, 1.117, 1.120, NAN, NAN};
     double base[MOST_SEEDS], mse[MOST_SEEDS], drawn;
     study->lobes = "all";
     aur_result result = AUR_OK;
@@ -140,15 +142,16 @@ static void judge(const statue_study *study, double error[SETS][SIZES]) {
         far = fabs(over) > fabs(far) && k % 2 == 0 ? over : far;
         if (k % 2 == 1)
             line = fmax(line, 100.0 * (error[1][k] / sqrt(error[1][k - 1] * error[1][k + 1]) - 1.0));
-        for (size_t r = 2; r < 4; ++r, ++compared)
+        for (size_t r = 2; r < JUDGED; ++r, ++compared)
             below += error[1][k] < error[r][k];
     }
     lab_run *const run = study->run;
     lab_claim(run, fabs(far) < 10.0,
               "fig. 11, %s: E-SFG has the error of spherical Fibonacci within 10 %% (farthest %+.1f %%)",
               study->lobes, far);
-    lab_claim(run, below == compared, "fig. 11, %s: E-SFG below Sobol and Faure at every size (%zu of %zu)",
-              study->lobes, below, compared);
+    lab_claim(run, below == compared,
+              "fig. 11, %s: E-SFG below Sobol and Faure (base 2) at every size (%zu of %zu)", study->lobes,
+              below, compared);
     lab_claim(
         run, line < 10.0,
         "fig. 11, %s: doubled sizes are in line with quadrupled ones within 10 %% (at most %.1f %% above)",
@@ -187,18 +190,18 @@ static aur_result run(lab_run *run, aur_error *error) {
     static const char *const of_slopes[] = {"lobe", "set", "slope", "slope_low", "slope_high", NULL};
     static const aur_definition studio = {"environment", "../generated/studio.exr"};
     const lab_options *const options = lab_run_options(run);
-    statue_study study = {.run = run,
-                          .light = options->quick ? "direct=none,photons=20000"
-                                                  : "direct=gather,incident=emitters",
-                          .width = options->quick ? 20 : 40,
-                          .height = options->quick ? 20 : 50,
-                          .picture_width = options->quick ? 0 : 128,
-                          .picture_height = 160,
-                          .references = options->quick ? 1024 : 2048,
-                          .seeds = options->quick ? 4 : 6,
-                          .sizes = options->quick ? 3 : SIZES,
-                          .set_count = options->set != NULL ? SETS : SETS - 1,
-                          .sets = {"spherical-fibonacci", GRID, "sobol", "faure:base=3", options->set}};
+    statue_study study = {
+        .run = run,
+        .light = options->quick ? "direct=none,photons=20000" : "direct=gather,incident=emitters",
+        .width = options->quick ? 20 : 40,
+        .height = options->quick ? 20 : 50,
+        .picture_width = options->quick ? 0 : 128,
+        .picture_height = 160,
+        .references = options->quick ? 1024 : 2048,
+        .seeds = options->quick ? 4 : 6,
+        .sizes = options->quick ? 3 : SIZES,
+        .set_count = options->set != NULL ? SETS : SETS - 1,
+        .sets = {"spherical-fibonacci", GRID, "sobol", "faure", "faure:base=3", options->set}};
     report_table *const slopes = lab_table(run, "slopes", of_slopes);
     /* The quick form needs no mesh that is to be made first. */
     aur_result result = lab_stage_open(run, options->quick ? "cornell-box/glossy.xml" : "statue/statue.xml",
@@ -250,7 +253,7 @@ const lab_experiment lab_marques_2019_statue = {
     .low = "over_sf_low",
     .high = "over_sf_high",
     .published = "published",
-    .factor = 1.1,
+    .factor = LAB_RATIO_FACTOR,
     .plots = plots,
     .seconds = 60,
     .quick_seconds = 2,

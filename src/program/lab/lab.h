@@ -12,6 +12,10 @@
 
 typedef struct lab_run lab_run;
 
+/* The `factor` of every experiment that measures ratios of errors, counts of samples for the same error,
+ * shares or slopes. Values of their own, such as Keller's, have 1.5. */
+#define LAB_RATIO_FACTOR 1.1
+
 typedef struct lab_experiment {
     const char *name;           /* "marques-2013-gather" */
     const char *reproduces;     /* "Marques 2013, figs 5-6" */
