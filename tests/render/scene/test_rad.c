@@ -199,7 +199,10 @@ static void generates_boxes_and_prisms(void **state) {
          1.0 - 12.0 * .8 * .005 - 8.0 * .001 * 5.0 / 6.0},
         {"!genprism white p 3 0 0 1 0 0 1 -l 0 0 -2", 5, 1.0 + 4.0 + 2.0 * sqrt(2.0), 1.0},
         {"!genprism white p 3 0 0 1 0 0 1 -l 0 0 2 -e -c", 2, 2.0 + 2.0 * sqrt(2.0), -2.0 / 3.0},
+        {"!genprism white p corners.txt -l 0 0 -2", 5, 1.0 + 4.0 + 2.0 * sqrt(2.0), 1.0},
     };
+    FILE *const corners = fopen("corners.txt", "w");
+    assert_true(corners != NULL && fputs("0 0\n1 0 # here\n0 1\n", corners) >= 0 && fclose(corners) == 0);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         char text[1024];
         snprintf(text, sizeof text, MATERIALS "%s\n", rows[i].text);
@@ -230,6 +233,86 @@ static void generates_boxes_and_prisms(void **state) {
     for (size_t k = 0; k < 18; ++k)
         area += scene->shapes[k]->area;
     assert_relative(area, 2.0 * (.6 * .8 + .6 + .8) + 4.0 * (.6 + .8 + 1.0) * (2.0 * AUR_PI * .2), 1e-6);
+    aur_scene_destroy(scene);
+}
+
+static double area_of(const char *text, size_t shapes) {
+    aur_scene *const scene = must_load(text);
+    double area = 0.0;
+    assert_int_equal(scene->shape_count, shapes);
+    for (size_t k = 0; k < scene->shape_count; ++k)
+        area += scene->shapes[k]->area;
+    aur_scene_destroy(scene);
+    return area;
+}
+
+/* A rounded prism over a rectangle is a rounded box, whichever way it is extruded. A surface of revolution of
+ * straight pieces has the area of its frustums; expressions are read as calcomp does, a sign before a power.
+ */
+static void generates_rounded_prisms_and_revolutions(void **state) {
+    (void)state;
+    const double box = area_of(MATERIALS "!genbox white b 1 1.2 1.4 -r .2\n", 26);
+    assert_relative(area_of(MATERIALS "!genprism white p 4 0 0 0 1.2 1 1.2 1 0 -l 0 0 1.4 -r .2\n", 26), box,
+                    1e-6);
+    assert_relative(area_of(MATERIALS "!genprism white p 4 0 0 1 0 1 1.2 0 1.2 -l 0 0 -1.4 -r .2\n", 26), box,
+                    1e-6);
+    static const struct {
+        const char *text;
+        size_t shapes;
+        double area;
+    } rows[] = {
+        {"'t' '1'  4", 4, 2.0},      /* a cylinder */
+        {"'0' '1+t' '2*2'", 4, 3.0}, /* a ring of radii 1 and 2 */
+        {"'2*t' 'if(t-.25, 1, 2)' 2 -s", 2, 3.0 * 1.4142135623730951 + 2.0},
+        {"'4+-2^2*t' '3-mod(4,3)' 1", 1, 2.0 * 4.0 * 2.0}, /* (-2)^2 */
+        {"'PI*t/PI' 'sqrt(1)*hermite(1,1,0,0,t)' 1", 1, 2.0},
+        {"'max(t,0)' 'abs(-1)*bezier(1,1,1,1,t)' 1", 1, 2.0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char text[1024];
+        snprintf(text, sizeof text, MATERIALS "!genrev white r %s\n", rows[i].text);
+        assert_relative(area_of(text, rows[i].shapes), AUR_PI * rows[i].area, 1e-6);
+    }
+}
+
+/* Hemispherical means of matrices between two patches of the same projected solid angle, pi / 2. */
+static void takes_means_of_matrices(void **state) {
+    (void)state;
+    static const char matrix[] =
+        "<WavelengthData><Wavelength unit=\"Integral\">%s</Wavelength><WavelengthDataBlock>"
+        "<WavelengthDataDirection>%s</WavelengthDataDirection><ColumnAngleBasis>two</ColumnAngleBasis>"
+        "<ScatteringData>%s</ScatteringData></WavelengthDataBlock></WavelengthData>\n";
+    FILE *const file = fopen("two.xml", "w");
+    assert_non_null(file);
+    fprintf(file,
+            "<WindowElement><AngleBasis><AngleBasisName>two</AngleBasisName>"
+            "<AngleBasisBlock><nPhis>1</nPhis><ThetaBounds><LowerTheta>0</LowerTheta><UpperTheta>45"
+            "</UpperTheta></ThetaBounds></AngleBasisBlock><AngleBasisBlock><nPhis>1</nPhis><ThetaBounds>"
+            "<LowerTheta>45</LowerTheta><UpperTheta>90</UpperTheta></ThetaBounds></AngleBasisBlock>"
+            "</AngleBasis>\n");
+    fprintf(file, matrix, "Solar", "Transmission Front", "9 9 9 9");
+    fprintf(file, matrix, "Visible", "Transmission Front", ".1, .2,\n.3, 0,");
+    fprintf(file, matrix, "Visible", "Reflection Front", ".1 0 0 .1");
+    fprintf(file, matrix, "Visible", "Reflection Back", "0 .2 .2 0");
+    fputs("</WindowElement>\n", file);
+    assert_int_equal(fclose(file), 0);
+    static const char text[] = "void BSDF w 6 0 two.xml 0 0 1 . 0 0\nw sphere s 0 0 4 0 0 0 1\n"
+                               "void aBSDF v 5 none.xml 0 0 1 . 0 0\n";
+    char said[1024] = "";
+    const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}, .diffuse = true};
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    if (aur_scene_load_memory("room.rad", sizeof text - 1, text, &options, &scene, &error) != AUR_OK)
+        fail_msg("%zu: %s", error.line, error.message);
+    assert_non_null(strstr(said, "1 patterns, textures and materials"));
+    const aur_bsdf_point point = {.u = 0.0f};
+    float pdf;
+    for (size_t i = 0; i < 2; ++i) {
+        const aur_vector value =
+            aur_bsdf_evaluate(aur_scene_shape_bsdf(scene, 0), AUR_BSDF_WHOLE, point, (aur_vector){0, 0, 1},
+                              (aur_vector){0, 0, i == 0 ? 1.0f : -1.0f}, &pdf);
+        assert_near(value.x, (i == 0 ? 0.5 * (.2 + .4) : .6) * (AUR_PI / 4.0) / AUR_PI, 1e-6);
+    }
     aur_scene_destroy(scene);
 }
 
@@ -284,14 +367,26 @@ static void bad_input(void **state) {
         {"void plastic p\n0\n", 3, "the file ends where the number of integers must stand"},
         {"void plastic p\n99999999999999999999\n", 2, "the number of strings must stand here"},
         {"void plastic p 0 0 5 1.5 1 1 0 0", 1, "'reflectance'"},
-        {"\n\n!gensurf a b 1 1 1", 3, "'gensurf' is not run, only cat, xform, genbox and genprism"},
+        {"\n\n!gensurf a b 1 1 1", 3, "'gensurf' is not run, only cat, xform, genbox, genprism and genrev"},
         {"!genbox a b 1 1 1", 1, "no material 'a' above"},
         {"!genbox a b 1 1", 1, "genbox: three sizes expected"},
         {"!genbox a b 1 1 0", 1, "genbox: sizes must be above 0"},
         {"!genbox a b 1 1 1 -b .6", 1, "at most half"},
         {"!genbox a b 1 1 1 -o", 1, "genbox: '-o' is not read"},
         {"!genprism a b 2 0 0 1 1", 1, "must be from 3 to 1024"},
-        {"!genprism a b x.txt", 1, "the number of corners expected"},
+        {"!genprism a b x.txt", 1, "cannot find 'x.txt'"},
+        {"!genprism a b 3 0 0 1 1 0 1 -r 2", 1, "at most the height"},
+        {"!genprism a b 3 0 0 0 0 0 1 -r .1", 1, "side 2 has no length"},
+        {"!genprism a b 3 0 0 1 0 .5 0 -r .1", 1, "lie on each other"},
+        {"!genrev a b t 1", 1, "z(t), r(t) and the number of pieces expected"},
+        {"!genrev a b t 1 0", 1, "must be from 1"},
+        {"!genrev a b t 1 2 -e x", 1, "genrev: '-e' is not read"},
+        {"!genrev a b t -1 2", 1, "r(0) = -1 must not be below 0"},
+        {"!genrev a b t 'sine(t)' 2", 1, "unknown name in 'sine(t)': 'sine'"},
+        {"!genrev a b t 'sin(t,1)' 2", 1, "wrong arguments in 'sin(t,1)': 'sin'"},
+        {"!genrev a b '(t' 1 2", 1, "')' expected in '(t'"},
+        {"!genrev a b 't t' 1 2", 1, "an operator expected in 't t': 't'"},
+        {"!genrev a b '1/t' 1 2", 1, "a finite value expected"},
         {"!genprism a b 3 0 0 1 1 0", 1, "x and y of each corner expected"},
         {"!xform -t 1 2 chair.rad", 1, "xform: 3 numbers expected after '-t'"},
         {"!xform -s 0 chair.rad", 1, "-s must not be 0"},
@@ -359,8 +454,9 @@ static void says_all_that_is_left_out(void **state) {
          "q sphere s 0 0 4 0 0 0 1\nq sphere s 0 0 4 0 0 0 1\n",
          "room.rad:5: plastic: patterns, textures and mixtures are not read: its modifier must be 'void', "
          "not 'b'\n"
-         "room.rad:8: the command 'gensurf' is not run, only cat, xform, genbox and genprism are: write what "
-         "it makes into a file and include that\n"
+         "room.rad:8: the command 'gensurf' is not run, only cat, xform, genbox, genprism and genrev are: "
+         "write "
+         "what it makes into a file and include that\n"
          "room.rad:9: 'blob' is not read; did you mean 'glow'?\n",
          AUR_ERROR_UNSUPPORTED, "'plastic2' is not read; did you mean 'plastic'?"},
         {"void mixfunc d 0 0 5 1 1 1 1.5 0\nvoid mirror unused 0 0 3 1 1 1\n" SPHERE(
@@ -438,6 +534,8 @@ int main(void) {
         cmocka_unit_test(reads_sources),
         cmocka_unit_test(glass_by_its_series),
         cmocka_unit_test(generates_boxes_and_prisms),
+        cmocka_unit_test(generates_rounded_prisms_and_revolutions),
+        cmocka_unit_test(takes_means_of_matrices),
         cmocka_unit_test(takes_diffuse_parts),
         cmocka_unit_test(bad_input),
         cmocka_unit_test(materials_may_be_unused),

@@ -280,9 +280,13 @@ static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
     const aur_result result = read_material(self, item);
     if (result != AUR_ERROR_UNSUPPORTED)
         return result;
-    /* With --diffuse a pattern changes nothing: it is what it modifies. */
-    const aur_rad_material *const under = aur_rad_find_material(self, item->modifier);
-    if (!self->scene->diffuse || !aur_rad_is_word(item->type, "brightfunc") || under == NULL)
+    /* With --diffuse a pattern changes nothing: it is what it modifies. An illum with one is the window that
+     * it stands for. */
+    const bool pattern = aur_rad_is_word(item->type, "brightfunc"),
+               window = aur_rad_is_word(item->type, "illum") && item->string_count > 0;
+    const aur_rad_material *const under =
+        aur_rad_find_material(self, window ? item->strings[0] : item->modifier);
+    if (!self->scene->diffuse || !(pattern || window) || under == NULL)
         return add_unsupported(self, item);
     aur_rad_material material = *under;
     material.name = item->name;
@@ -390,8 +394,8 @@ static aur_result read_pipes(aur_rad *self, size_t at, size_t count) {
     return result;
 }
 
-/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...` and `!genprism ...`, each with pipes into xform:
- * `command` is the word with the exclamation mark, `!` alone where a blank follows. */
+/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...`, `!genprism ...` and `!genrev ...`, each with
+ * pipes into xform: `command` is the word with the exclamation mark, `!` alone where a blank follows. */
 static aur_result read_command(aur_rad *self, aur_rad_word command) {
     size_t count = 0, used = 0;
     aur_result result = read_line(self, command, &count);
@@ -412,8 +416,8 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
     self->pose_count = 0;
     return known ? result
                  : aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
-                                "the command '%.*s' is not run, only cat, xform, genbox and genprism are: "
-                                "write what it makes into a file and include that",
+                                "the command '%.*s' is not run, only cat, xform, genbox, genprism and genrev "
+                                "are: write what it makes into a file and include that",
                                 name.length > 40 ? 40 : (int)name.length, name.text);
 }
 

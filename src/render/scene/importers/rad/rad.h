@@ -23,6 +23,9 @@ typedef struct aur_rad_scene {
     size_t diffuse_count;     /* how many have */
     const aur_warnings *warnings;
     aur_error *left_out; /* the last thing that is not read; those before it have been warned of */
+    /* Finds a file that a scene names; *path is the caller's to free. NULL: no files. */
+    aur_result (*find)(void *context, aur_location location, const char *name, char **path, aur_error *error);
+    void *context;
 } aur_rad_scene;
 
 void aur_rad_scene_release(aur_rad_scene *scene);
@@ -38,7 +41,8 @@ aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *pa
  * nodes->location: *included is its name, in the scene's arena, and NULL at the end of this file. What is
  * included must be read before the next call, which may use its materials.
  * Known are the surfaces and materials of the two tables of rad_reader.h, aliases, and the commands cat,
- * xform with all of its options but files of them, genbox and genprism, in pipes too; no process is started.
+ * xform with all of its options but files of them, genbox, genprism and genrev, in pipes too; no process is
+ * started.
  * Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong; NAME for a modifier that is not defined
  * above; MEMORY. What is well-formed and not known is noted in the scene's `left_out` instead, so that all of
  * it can be said at once; a material that no surface uses may be of any kind. */

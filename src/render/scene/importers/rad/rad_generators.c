@@ -1,18 +1,12 @@
-/* What genbox and genprism make, without running them. */
+/* What the commands genbox, genprism and genrev make, without running them. */
 #include <math.h>
 #include <string.h>
 
 #include "points/base/vector3d.h"
 #include "render/scene/importers/rad/rad_reader.h"
 
-typedef struct generator {
-    aur_rad *rad;
-    size_t count, at;
-    const aur_rad_word *words;
-    aur_rad_take *take;
-} generator;
-
-static aur_result read_numbers(generator *self, const char *what, size_t count, double *numbers) {
+aur_result aur_rad_generator_numbers(aur_rad_generator *self, const char *what, size_t count,
+                                     double *numbers) {
     for (size_t i = 0; i < count; ++i, ++self->at)
         if (self->at >= self->count || !aur_rad_number(self->words[self->at], &numbers[i]))
             return aur_rad_fail(self->rad, self->words[0].line, AUR_ERROR_FORMAT, "%.*s: %s expected",
@@ -20,7 +14,7 @@ static aur_result read_numbers(generator *self, const char *what, size_t count, 
     return AUR_OK;
 }
 
-static aur_result fail_option(const generator *self) {
+aur_result aur_rad_generator_fail(const aur_rad_generator *self) {
     const aur_rad_word word = self->words[self->at];
     return aur_rad_fail(self->rad, word.line, AUR_ERROR_UNSUPPORTED, "%.*s: '%.*s' is not read",
                         (int)self->words[0].length, self->words[0].text, (int)word.length, word.text);
@@ -42,7 +36,7 @@ static void box_point(const box *self, unsigned corner, unsigned inset, double p
 }
 
 /* A polygon that faces along `outward`, or against it where the box is inverted. */
-static aur_result add_face(const generator *self, const box *made, size_t count, double (*corners)[3],
+static aur_result add_face(const aur_rad_generator *self, const box *made, size_t count, double (*corners)[3],
                            const double outward[3]) {
     double a[3], b[3], normal[3];
     for (size_t k = 0; k < 3; ++k) {
@@ -61,7 +55,7 @@ static aur_result add_face(const generator *self, const box *made, size_t count,
 }
 
 /* The face on the upper or lower side of an axis. */
-static aur_result add_side(const generator *self, const box *made, unsigned axis, unsigned upper) {
+static aur_result add_side(const aur_rad_generator *self, const box *made, unsigned axis, unsigned upper) {
     const unsigned e = (axis + 1) % 3, f = (axis + 2) % 3;
     static const unsigned turns[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     double corners[4][3], outward[3] = {0.0};
@@ -72,7 +66,7 @@ static aur_result add_side(const generator *self, const box *made, unsigned axis
 }
 
 /* What lies between two faces: the edge along an axis, at a corner of the plane across it. */
-static aur_result add_edge(const generator *self, const box *made, unsigned axis, unsigned turn) {
+static aur_result add_edge(const aur_rad_generator *self, const box *made, unsigned axis, unsigned turn) {
     const unsigned e = (axis + 1) % 3, f = (axis + 2) % 3;
     const unsigned corner = (turn & 1u) << e | (turn >> 1 & 1u) << f;
     if (made->rounded) {
@@ -92,7 +86,7 @@ static aur_result add_edge(const generator *self, const box *made, unsigned axis
     return add_face(self, made, 4, corners, outward);
 }
 
-static aur_result add_corner(const generator *self, const box *made, unsigned corner) {
+static aur_result add_corner(const aur_rad_generator *self, const box *made, unsigned corner) {
     double corners[3][3], outward[3], ball[4];
     if (made->rounded) {
         box_point(made, corner, 7u, ball);
@@ -106,8 +100,8 @@ static aur_result add_corner(const generator *self, const box *made, unsigned co
     return add_face(self, made, 3, corners, outward);
 }
 
-static aur_result read_box(generator *self, box *made) {
-    aur_result result = read_numbers(self, "three sizes", 3, made->size);
+static aur_result read_box(aur_rad_generator *self, box *made) {
+    aur_result result = aur_rad_generator_numbers(self, "three sizes", 3, made->size);
     while (result == AUR_OK && self->at < self->count) {
         const aur_rad_word word = self->words[self->at];
         const bool rounds = aur_rad_is_word(word, "-r"), segments = aur_rad_is_word(word, "-n");
@@ -116,11 +110,12 @@ static aur_result read_box(generator *self, box *made) {
             made->inverted = true;
         } else if (rounds || aur_rad_is_word(word, "-b") || segments) {
             ++self->at;
-            result = read_numbers(self, "a length after -r or -b", 1, segments ? &ignored : &made->bevel);
+            result = aur_rad_generator_numbers(self, "a length after -r or -b", 1,
+                                               segments ? &ignored : &made->bevel);
             made->rounded = made->rounded || rounds;
             continue;
         } else if (!aur_rad_is_word(word, "-s")) { /* -n, -s: what is round is round here */
-            return fail_option(self);
+            return aur_rad_generator_fail(self);
         }
         ++self->at;
     }
@@ -131,7 +126,7 @@ static aur_result read_box(generator *self, box *made) {
                               "genbox: sizes must be above 0, and a bevel or radius at most half of each");
 }
 
-static aur_result generate_box(generator *self) {
+static aur_result generate_box(aur_rad_generator *self) {
     box made = {.bevel = 0.0};
     aur_result result = read_box(self, &made);
     for (unsigned i = 0; i < 6 && result == AUR_OK; ++i)
@@ -143,71 +138,22 @@ static aur_result generate_box(generator *self) {
     return result;
 }
 
-/* --- genprism MATERIAL NAME N X1 Y1 ... [-l X Y Z] [-c] [-e] */
-
-enum { MOST_CORNERS = 1024 };
-
-typedef struct prism {
-    size_t count;
-    double corners[MOST_CORNERS][2], way[3];
-    bool complete, open;
-} prism;
-
-static aur_result read_prism(generator *self, prism *made) {
-    double count = 0.0;
-    aur_result result = read_numbers(self, "the number of corners", 1, &count);
-    if (result == AUR_OK && !(count >= 3.0 && count <= MOST_CORNERS && count == floor(count)))
-        result = aur_rad_fail(self->rad, self->words[0].line, AUR_ERROR_FORMAT,
-                              "genprism: the number of corners must be from 3 to %d", (int)MOST_CORNERS);
-    made->count = result == AUR_OK ? (size_t)count : 0;
-    if (result == AUR_OK)
-        result = read_numbers(self, "x and y of each corner", 2 * made->count, made->corners[0]);
-    while (result == AUR_OK && self->at < self->count) {
-        const aur_rad_word word = self->words[self->at];
-        const bool way = aur_rad_is_word(word, "-l"), ends = aur_rad_is_word(word, "-e");
-        if (!way && !ends && !aur_rad_is_word(word, "-c"))
-            return fail_option(self);
-        ++self->at;
-        if (way)
-            result = read_numbers(self, "three numbers after -l", 3, made->way);
-        else
-            *(ends ? &made->open : &made->complete) ^= true;
-    }
-    return result;
-}
-
-static aur_result generate_prism(generator *self) {
-    prism made = {.way = {0.0, 0.0, 1.0}};
-    double end[3 * MOST_CORNERS];
-    aur_result result = read_prism(self, &made);
-    const size_t n = made.count;
-    for (size_t k = 0; k < 2 && result == AUR_OK && !made.open; ++k) {
-        for (size_t i = 0; i < n; ++i) {
-            const double *const corner = made.corners[k == 0 ? i : n - 1 - i];
-            for (size_t d = 0; d < 3; ++d)
-                end[3 * i + d] = (d < 2 ? corner[d] : 0.0) + (k == 0 ? 0.0 : made.way[d]);
-        }
-        result = self->take(self->rad, "polygon", self->words[1], 3 * n, end);
-    }
-    for (size_t i = 0; i < (made.complete ? n - 1 : n) && result == AUR_OK; ++i) {
-        const double *const a = made.corners[i], *const b = made.corners[(i + 1) % n], *const l = made.way;
-        double side[12] = {a[0],        a[1],        0.0,  a[0] + l[0], a[1] + l[1], l[2],
-                           b[0] + l[0], b[1] + l[1], l[2], b[0],        b[1],        0.0};
-        result = self->take(self->rad, "polygon", self->words[1], 12, side);
-    }
-    return result;
-}
-
 aur_result aur_rad_generate(aur_rad *self, size_t count, const aur_rad_word *words, aur_rad_take *take,
                             bool *known) {
-    const bool makes_box = aur_rad_is_word(words[0], "genbox");
-    generator made = {.rad = self, .count = count, .at = 3, .words = words, .take = take};
-    *known = makes_box || aur_rad_is_word(words[0], "genprism");
-    if (!*known)
-        return AUR_OK;
-    if (count < 4)
-        return aur_rad_fail(self, words[0].line, AUR_ERROR_FORMAT,
-                            "%.*s: a material, a name and sizes expected", (int)words[0].length,
-                            words[0].text);
-    return makes_box ? generate_box(&made) : generate_prism(&made);
+    static const struct {
+        const char *name;
+        aur_result (*generate)(aur_rad_generator *self);
+    } rows[] = {{"genbox", generate_box},
+                {"genprism", aur_rad_generate_prism},
+                {"genrev", aur_rad_generate_revolution}};
+    aur_rad_generator made = {.rad = self, .count = count, .at = 3, .words = words, .take = take};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        if (!aur_rad_is_word(words[0], rows[i].name))
+            continue;
+        return count >= 4 ? rows[i].generate(&made)
+                          : aur_rad_fail(self, words[0].line, AUR_ERROR_FORMAT,
+                                         "%s: a material, a name and sizes expected", rows[i].name);
+    }
+    *known = false;
+    return AUR_OK;
 }

@@ -181,6 +181,7 @@ typedef enum diffuse_form {
     TWO_COLOURS, /* diffuse R G B, specular R G B */
     SIDES,       /* R G B of the front, of the back and through */
     MIXTURE,     /* of two others: the first of them that is there */
+    MATRIX,      /* a BSDF file, whose hemispherical means stand for it */
 } diffuse_form;
 
 static const struct {
@@ -191,8 +192,8 @@ static const struct {
                  {"plastic2", COAT, 4},        {"metal2", METAL, 4},         {"trans2", SHEET, 8},
                  {"ashik2", TWO_COLOURS, 8},   {"plasfunc", COAT, 4},        {"metfunc", METAL, 4},
                  {"transfunc", SHEET_DATA, 6}, {"BRTDfunc", SIDES, 9},       {"plasdata", COAT, 4},
-                 {"metdata", METAL, 4},        {"transdata", SHEET_DATA, 6}, {"BSDF", NO_FORM, 0},
-                 {"aBSDF", NO_FORM, 0},        {"WGMDfunc", NO_FORM, 0},     {"antimatter", NO_SURFACE, 0},
+                 {"metdata", METAL, 4},        {"transdata", SHEET_DATA, 6}, {"BSDF", MATRIX, 0},
+                 {"aBSDF", MATRIX, 0},         {"WGMDfunc", NO_FORM, 0},     {"antimatter", NO_SURFACE, 0},
                  {"mist", NO_SURFACE, 0},      {"texfunc", NO_FORM, 0},      {"texdata", NO_FORM, 0},
                  {"colorfunc", NO_FORM, 0},    {"colordata", NO_FORM, 0},    {"brightdata", NO_FORM, 0},
                  {"colorpict", NO_FORM, 0},    {"colortext", NO_FORM, 0},    {"brighttext", NO_FORM, 0},
@@ -218,6 +219,38 @@ static aur_result fail_diffuse(const aur_rad *self, const aur_rad_primitive *ite
                         "the diffuse part of '%.*s' is not known", (int)item->type.length, item->type.text);
 }
 
+/* BSDF: thickness FILE ..., or aBSDF: FILE ...; and, of BSDF, added diffuse R G B of the front, of the back
+ * and through. */
+static aur_result add_matrix(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
+    const size_t at = item->type.text[0] == 'a' ? 0 : 1;
+    double thickness = 0.0, reflected[3], through[3];
+    aur_rad_bsdf_means means = {0.0, 0.0};
+    if (item->string_count <= at || (at == 1 && !aur_rad_number(item->strings[0], &thickness)))
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED, "%.*s: the name of a file expected",
+                            (int)item->type.length, item->type.text);
+    if (thickness != 0.0)
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED,
+                            "BSDF: a thickness of %g stands for geometry inside: 0 expected", thickness);
+    const aur_result result = aur_rad_bsdf_read(self, item->strings[at], &means);
+    if (result == AUR_ERROR_OPEN)
+        return AUR_ERROR_UNSUPPORTED; /* it may be unused */
+    if (result != AUR_OK)
+        return result;
+    ++self->scene->diffuse_count;
+    const double *const x = item->numbers;
+    for (size_t i = 0; i < 3; ++i) {
+        const double back = item->number_count >= 6 ? x[3 + i] : 0.0;
+        reflected[i] = means.reflected + (item->number_count >= 3 ? 0.5 * (x[i] + back) : 0.0);
+        through[i] = means.through + (item->number_count >= 9 ? x[6 + i] : 0.0);
+        /* Rounded values of a lossless sheet may add up to a little more than 1. */
+        const double sum = reflected[i] + through[i], less = sum > 1.0 ? 1.0 / sum : 1.0;
+        reflected[i] *= less;
+        through[i] *= less;
+    }
+    add_sheet(self, reflected, through, material);
+    return self->nodes->result;
+}
+
 aur_result aur_rad_add_diffuse_part(aur_rad *self, const aur_rad_primitive *item,
                                     const aur_rad_material *mixed, aur_rad_material *material) {
     const size_t index = find_modifier(item->type);
@@ -227,6 +260,8 @@ aur_result aur_rad_add_diffuse_part(aur_rad *self, const aur_rad_primitive *item
     if (form == NO_FORM || item->number_count < modifiers[index].numbers ||
         (form == MIXTURE && mixed == NULL))
         return fail_diffuse(self, item);
+    if (form == MATRIX)
+        return add_matrix(self, item, material);
     ++self->scene->diffuse_count;
     if (form == MIXTURE) {
         const aur_rad_word name = material->name;

@@ -121,7 +121,39 @@ aur_rad_pose aur_rad_pose_multiply(const aur_rad_pose *outer, const aur_rad_pose
 /* Takes surfaces that a generator makes: type, and numbers. */
 typedef aur_result aur_rad_take(aur_rad *self, const char *type, aur_rad_word modifier, size_t count,
                                 double *numbers);
-/* genbox and genprism: `words` begins with the command. *known is false for others. Errors: FORMAT, and what
- * `take` returns. */
+/* A command whose words are read from `at` on. */
+typedef struct aur_rad_generator {
+    aur_rad *rad;
+    size_t count, at;
+    const aur_rad_word *words;
+    aur_rad_take *take;
+} aur_rad_generator;
+
+/* genbox, genprism and genrev: `words` begins with the command. *known is false for others. Errors: FORMAT,
+ * UNSUPPORTED, OPEN for a file of corners, and what `take` returns. */
 aur_result aur_rad_generate(aur_rad *self, size_t count, const aur_rad_word *words, aur_rad_take *take,
                             bool *known);
+aur_result aur_rad_generate_prism(aur_rad_generator *self);
+aur_result aur_rad_generate_revolution(aur_rad_generator *self);
+/* The next `count` words are numbers; `what` names them in the message. Errors: FORMAT. */
+aur_result aur_rad_generator_numbers(aur_rad_generator *self, const char *what, size_t count,
+                                     double *numbers);
+/* The word at self->at is no option of the command. */
+aur_result aur_rad_generator_fail(const aur_rad_generator *self);
+
+/* The value of an expression of Radiance's calcomp in the variable t. Errors: FORMAT; UNSUPPORTED for names
+ * of functions and variables that are not built in. */
+aur_result aur_rad_evaluate(const aur_rad *self, aur_rad_word expression, double t, double *value);
+
+/* The text of a file that the scene names; *text is the caller's to free and ends with a zero byte. Errors:
+ * OPEN, FORMAT, MEMORY. */
+aur_result aur_rad_read_file(aur_rad *self, aur_rad_word name, char **text, size_t *size);
+
+/* Hemispherical means of a BSDF file: what diffuse light becomes that falls on it. */
+typedef struct aur_rad_bsdf_means {
+    double reflected, through;
+} aur_rad_bsdf_means;
+
+/* Of the visible matrices of a file in Klems' format (LBNL WINDOW), means of both sides. Errors: OPEN,
+ * FORMAT, UNSUPPORTED for files without such matrices. */
+aur_result aur_rad_bsdf_read(aur_rad *self, aur_rad_word name, aur_rad_bsdf_means *means);

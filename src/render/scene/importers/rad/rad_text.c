@@ -1,7 +1,9 @@
 /* Words of the text, and messages. */
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "points/base/file.h"
 #include "points/base/text.h"
 #include "render/scene/importers/rad/rad_reader.h"
 
@@ -91,5 +93,33 @@ aur_result aur_rad_check_name(const aur_rad *self, aur_rad_word name) {
         if ((unsigned char)name.text[i] < 32 || name.text[i] == 127)
             return aur_rad_fail(self, name.line, AUR_ERROR_FORMAT,
                                 "a file's name must not have control characters");
+    return AUR_OK;
+}
+
+aur_result aur_rad_read_file(aur_rad *self, aur_rad_word name, char **text, size_t *size) {
+    enum { LARGEST = 1 << 28 };
+    aur_rad_scene *const scene = self->scene;
+    const aur_location location = {self->nodes->location.file, name.line, 0};
+    char *path = NULL;
+    *text = NULL;
+    aur_result result = aur_rad_check_name(self, name);
+    const char *const copy = result == AUR_OK ? aur_arena_copy(scene->arena, name.text, name.length) : NULL;
+    if (result == AUR_OK && copy == NULL)
+        result = aur_fail_memory(self->error);
+    if (result == AUR_OK && scene->find == NULL)
+        result = aur_rad_fail(self, name.line, AUR_ERROR_OPEN, "cannot find '%s'", copy);
+    else if (result == AUR_OK)
+        result = scene->find(scene->context, location, copy, &path, self->error);
+    if (result == AUR_OK)
+        result = aur_file_read(path, LARGEST, text, size, self->error);
+    free(path);
+    char *const longer = result == AUR_OK ? realloc(*text, *size + 1) : NULL;
+    if (longer == NULL) {
+        free(*text);
+        *text = NULL;
+        return result == AUR_OK ? aur_fail_memory(self->error) : result;
+    }
+    longer[*size] = '\0';
+    *text = longer;
     return AUR_OK;
 }

@@ -71,6 +71,29 @@ static bool read_command(folder in, const char *name, char *command, size_t capa
     return end > 0;
 }
 
+/* Radiance looks where the user is: models name `model/bsdf/a.xml` from the folder of the project. */
+static bool looks_above(const aur_xml_document *document, const char *name) {
+    return document->from_radiance && name[0] != '/' && strchr(name, '/') != NULL;
+}
+
+/* The path of a name in the folders above a file's own. */
+static char *join_above(const char *file, const char *name) {
+    enum { MOST_LEVELS = 8 };
+    const folder in = folder_of(file);
+    char *const named = in.length > 0 ? strndup(file, in.length) : strdup("."), *path = NULL;
+    char *const real = named != NULL ? realpath(named, NULL) : NULL;
+    size_t length = real != NULL ? strlen(real) : 0;
+    for (size_t level = 0; level < MOST_LEVELS && length > 1 && path == NULL; ++level) {
+        while (length > 1 && real[length - 1] != '/')
+            --length;
+        path = join((folder){length, real}, name);
+        length -= length > 1;
+    }
+    free(named);
+    free(real);
+    return path;
+}
+
 static aur_result fail(const aur_xml_document *document, aur_location location, const char *name,
                        aur_error *error) {
     if (name[0] == '/')
@@ -94,7 +117,8 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
         return aur_fail_at(error, location, AUR_ERROR_OPEN,
                            "cannot find '%s'; it is made by the command: %s (looked in %s)", name, command,
                            places);
-    return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s", name, places);
+    return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s%s", name, places,
+                       looks_above(document, name) ? " and the folders above" : "");
 }
 
 aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
@@ -106,6 +130,8 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
     *found = name[0] == '/' ? join((folder){0, ""}, name) : NULL;
     for (size_t i = 0; name[0] != '/' && *found == NULL && folder_at(document, location.file, i, &in); ++i)
         *found = join(in, name);
+    if (*found == NULL && looks_above(document, name))
+        *found = join_above(location.file, name);
     return *found != NULL ? AUR_OK : fail(document, location, name, error);
 }
 

@@ -423,6 +423,12 @@ static aur_result add_lights(reading *shared, const char *path) {
     return result;
 }
 
+/* For files that Radiance's scenes name beside those that they include. */
+static aur_result find_file(void *context, aur_location location, const char *name, char **path,
+                            aur_error *error) {
+    return aur_xml_find_asset(context, location, name, path, error);
+}
+
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
                         aur_xml_document *document, aur_error *error) {
     aur_error unseen;
@@ -433,7 +439,9 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
                       .rad = {.arena = &document->tree.arena,
                               .diffuse = options->diffuse,
                               .warnings = &options->warnings,
-                              .left_out = &document->left_out},
+                              .left_out = &document->left_out,
+                              .find = find_file,
+                              .context = document},
                       .options = options,
                       .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
