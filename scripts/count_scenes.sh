@@ -20,7 +20,7 @@ while IFS= read -r -d '' scene; do
   fi
   echo "$scene"
   # One reason a scene and thing: without places, and without what else there would be.
-  printf '%s\n' "$message" | grep -v '^aureole: warning: [^ ]*: [^u]' | sed -E -n 's/^aureole: (warning: )?[^ ]*\.xml:[0-9]+:[0-9]+: //p' |
+  printf '%s\n' "$message" | awk '!/^aureole: warning: / || /: unknown / || / is not supported: /' | sed -E -n 's/^aureole: (warning: )?[^ ]*\.xml:[0-9]+:[0-9]+: //p' |
     sed -E "s/(; there are|; did you mean| \(looked in| \(nearest).*//; s/cannot find '[^']*'.*/a file that is not there/" |
     sort -u >>"$reasons"
 done < <(find "$folder" -name '*.xml' -type f -print0 | sort -z)

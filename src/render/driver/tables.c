@@ -28,6 +28,7 @@ static const aur_table *const tables[] = {
     &aur_filter_table,
     &aur_sampler_table,
     &aur_ignored_table,
+    &aur_refused_table,
     &aur_image_format_table,
 };
 /* clang-format on */

@@ -43,7 +43,8 @@ static aur_result find(const aur_parameters *parameters, const aur_gather_integr
     memcpy(all, rows, sizeof rows);
     const aur_table table = {
         .kind = aur_integrator_table.kind, .count = gather != NULL ? COUNT + 1 : COUNT, .rows = all};
-    return aur_table_find(&table, parameters, row, error);
+    const aur_result refused = aur_parameters_refuse(parameters, error);
+    return refused != AUR_OK ? refused : aur_table_find(&table, parameters, row, error);
 }
 
 static aur_result refuse_moved(const aur_moved_key *moved, const aur_parameters *parameters,
@@ -54,6 +55,15 @@ static aur_result refuse_moved(const aur_moved_key *moved, const aur_parameters 
                 return aur_fail_at(error, parameters->items[i].location, AUR_ERROR_NAME,
                                    "integrator '%s' has no '%s' any more: %s", parameters->plugin,
                                    moved->name, moved->where);
+    return AUR_OK;
+}
+
+/* Of several integrators that stand inside one. */
+static aur_result refuse_second(const aur_parameters *parameters, aur_error *error) {
+    for (size_t i = 0; i < parameters->count; ++i)
+        if (strcmp(parameters->items[i].name, "integrator2") == 0)
+            return aur_fail_at(error, parameters->items[i].location, AUR_ERROR_UNSUPPORTED,
+                               "a second <integrator> inside another: one is the most");
     return AUR_OK;
 }
 
@@ -118,6 +128,9 @@ static aur_result create(aur_parameters *parameters, const aur_gather_integrator
     const aur_row *row;
     *integrator = NULL;
     aur_result result = find(parameters, gather, &row, error);
+    if (result != AUR_OK)
+        return result;
+    result = refuse_second(parameters, error);
     if (result != AUR_OK)
         return result;
     if (gather != NULL && row == &gather->row) {

@@ -3,7 +3,7 @@
 # both, as far as the three can meet; with a third argument `full` every combination of all three, and more samplers.
 #
 # Every pixel has the same exact radiance and randomisations of its own, so the 256 pixels of one picture are independent
-# estimates: t of their mean must stay below 4.6, the quantile at 1 - (1 - 0.001)^(1/155) for the 155 cases of the pairwise
+# estimates: t of their mean must stay below 4.6, the quantile at 1 - (1 - 0.001)^(1/181) for the 181 cases of the pairwise
 # cover, so a program that is right fails once in 1000 (5.5 in the full product: once in 10,000 for 3000 cases). Beside it
 # a part in a million for rounding, and the bias that is stated: what single scattering on rough facets loses, and the
 # patterns of final gathering, which are turned but not moved.
@@ -43,7 +43,7 @@ check() {
 # alone at the second, of which there are more behind a veil.
 meets() { # MATERIAL INTEGRATOR
   case $2:$1 in
-  direct:glass | direct:pane | direct:sheet | direct:frosted | direct:vellum | direct:crystal | direct:foil) return 1 ;;
+  direct:glass | direct:pane | direct:sheet | direct:frosted | direct:vellum | direct:crystal | direct:foil | direct:parchment) return 1 ;;
   direct:veil | direct:nothing | direct:polarizer | direct:retarder | direct:circular | finalgather*:veil | finalgather*:vellum) return 1 ;;
   esac
 }
@@ -57,10 +57,12 @@ done
 # And every one of the scenes is checked here.
 materials=$(sed -n 's/^ *<bsdf type="[a-z_]*" id="\([a-z]*\)".*/\1/p' "${scenes[@]}")
 
-# What "lacquer" shows, by midpoints: F of an index of 1.5 (Fresnel 1823).
-lacquer=$(awk 'function f(c,   d, p, s) { d = sqrt(1 - (1 - c * c) / 2.25); s = (c - 1.5 * d) / (c + 1.5 * d)
+# What "lacquer" and "glaze" show, by midpoints: F of an index of 1.5 (Fresnel 1823). Under a glaze the base sends 1 / 1.5^2 of its light
+# out at once, and the rest is left out.
+read -r lacquer glaze < <(awk 'function f(c,   d, p, s) { d = sqrt(1 - (1 - c * c) / 2.25); s = (c - 1.5 * d) / (c + 1.5 * d)
     p = (d - 1.5 * c) / (d + 1.5 * c); return (s * s + p * p) / 2 }
-  BEGIN { for (i = 0; i < 1000; ++i) { c = (i + 0.5) / 1000; mean += 2 * c * f(c) / 1000 }; print f(1) + (1 - f(1)) * (1 - mean) }')
+  BEGIN { for (i = 0; i < 1000; ++i) { c = (i + 0.5) / 1000; mean += 2 * c * f(c) / 1000 }
+    through = (1 - f(1)) * (1 - mean); print f(1) + through, f(1) + through / 2.25 }')
 
 row=0
 for material in $materials; do
@@ -73,6 +75,8 @@ for material in $materials; do
   lacquer) exact=$lacquer bias=0.01 ;;
   # Ward's lobe of alpha a seen straight on mirrors 1 - a^2 (1 - exp(-1 / a^2)) of its reflectance.
   enamel) exact=$(awk 'BEGIN { a = 0.25; print 0.4 + 0.6 * (1 - a * (1 - exp(-1 / a))) }') ;;
+  glaze) exact=$glaze ;;
+  wax) exact=$glaze bias=0.01 scene=furnace_coats ;;
   eggshell) bias=0.01 scene=furnace_coats ;;
   satin | frosted | metal | crystal | foil) bias=0.01 ;;
   esac

@@ -78,6 +78,14 @@ static const material_row material_rows[] = {
     {"ward:alpha=0,diffuse_transmittance=0.2,specular_transmittance=0.3,diffuse_reflectance=0.3", NULL,
      WHITE},
     {"twosided", "ward:alpha=0.2", 0},
+    {"difftrans:transmittance=0.6", NULL, 0},
+    {"coating", "diffuse:reflectance=0.8", 0},
+    {"coating:sigma_a=0.4,thickness=0.5,int_ior=1.7", "roughconductor:alpha=0.3,material=Cu", 0},
+    {"coating:sigma_a=0.1", "conductor:material=Au", 0},
+    {"coating", "roughplastic:alpha=0.3,diffuse_reflectance=0.6", 0},
+    {"roughcoating:alpha=0.3", "diffuse:reflectance=0.8", 0},
+    {"roughcoating:alpha=0.2,distribution=ggx,sigma_a=0.3", "roughconductor:alpha=0.4", 0},
+    {"roughcoating:alpha=0.2", "conductor", 0},
 };
 
 enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "mitsuba_values.h"
+#include "render/scene/materials/fresnel.h"
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/materials/sampling.h"
 
@@ -491,6 +492,55 @@ static void rows_of_facets_are_single_facets(void **state) {
     }
 }
 
+/* A coat over a diffuse base is a plastic but for the light that the coat mirrors back to the base, the
+ * series of which is the factor 1 / (1 - inner reflectance). */
+static void coat_over_diffuse_is_plastic(void **state) {
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"coating:int_ior=1.5,ext_ior=1", "plastic:int_ior=1.5,ext_ior=1,diffuse_reflectance=0.7"},
+        {"roughcoating:int_ior=1.5,ext_ior=1,alpha=0.25",
+         "roughplastic:int_ior=1.5,ext_ior=1,alpha=0.25,diffuse_reflectance=0.7"}};
+    for (size_t k = 0; k < 2; ++k) {
+        aur_bsdf *const base = make_bsdf("diffuse:reflectance=0.7", NULL);
+        aur_bsdf *const coated = make_bsdf(pairs[k][0], base), *const plastic = make_bsdf(pairs[k][1], NULL);
+        double inner = 1.0 - (double)aur_fresnel_diffuse(1.0f / 1.5f);
+        if (k == 1) {
+            const aur_microfacet facets = {AUR_MICROFACET_BECKMANN, 0.25f, 0.25f, false};
+            inner = 1.0 - (double)aur_rough_coat_of(&facets, 1.5f).inner_reflectance;
+        }
+        for (size_t i = 0; i < 200; ++i) {
+            const aur_vector a = aur_sample_cosine(unit(k, 1, i), unit(k, 2, i));
+            const aur_vector b = aur_sample_cosine(unit(k, 3, i), unit(k, 4, i));
+            /* What the coat mirrors is the same in both. */
+            const double mirrored = (double)value_of(plastic, AUR_BSDF_SAMPLED_LOBES, a, b).x * (double)k;
+            const double under = (double)value_of(coated, AUR_BSDF_WHOLE, a, b).x - mirrored;
+            const double whole = (double)value_of(plastic, AUR_BSDF_WHOLE, a, b).x - mirrored;
+            assert_near(under, whole * inner, 1e-5 * (under + mirrored));
+        }
+        aur_bsdf_destroy(coated);
+        aur_bsdf_destroy(plastic);
+        aur_bsdf_destroy(base);
+    }
+}
+
+/* Beer and Lambert's law over the way in and out of a mirror under a coat. */
+static void coat_absorbs_along_the_way(void **state) {
+    (void)state;
+    aur_bsdf *const mirror = make_bsdf("conductor", NULL);
+    aur_bsdf *const clear = make_bsdf("coating:int_ior=1.5,ext_ior=1", mirror);
+    aur_bsdf *const tinted = make_bsdf("coating:int_ior=1.5,ext_ior=1,sigma_a=0.8,thickness=0.5", mirror);
+    const aur_vector view = {0.6f, 0.0f, 0.8f};
+    aur_bsdf_lobe lobes[2][AUR_BSDF_LOBE_CAPACITY];
+    assert_int_equal(aur_bsdf_lobes(clear, point, view, lobes[0]), 2);
+    assert_int_equal(aur_bsdf_lobes(tinted, point, view, lobes[1]), 2);
+    const double within = sqrt(1.0 - 0.36 / 2.25), mirrored = (double)lobes[0][0].coefficient.x;
+    assert_near(lobes[0][1].coefficient.x, (1.0 - mirrored) * (1.0 - mirrored), 1e-6);
+    assert_near(lobes[1][1].coefficient.x, (double)lobes[0][1].coefficient.x * exp(-0.8 / within), 1e-6);
+    aur_bsdf_destroy(tinted);
+    aur_bsdf_destroy(clear);
+    aur_bsdf_destroy(mirror);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_material_is_tested),
@@ -503,6 +553,8 @@ int main(void) {
         cmocka_unit_test(masks_in_masks_let_all_light_through),
         cmocka_unit_test(specular_lobes_of_a_mask_stay_apart),
         cmocka_unit_test(sampled_lobes_are_drawn_alone),
+        cmocka_unit_test(coat_over_diffuse_is_plastic),
+        cmocka_unit_test(coat_absorbs_along_the_way),
         cmocka_unit_test(lobe_reflectance_is_its_parameter),
         cmocka_unit_test(values_are_those_of_mitsuba),
         cmocka_unit_test(facets_are_masked_by_the_formula),

@@ -62,4 +62,35 @@ near "a radiancemeter and a camera" "$(meter "$aimed")" \
   "$light<shape type='rectangle'/><sensor type='perspective'><float name='fov' value='1e-4'/>$turned$film</sensor>"
 refused "'origin' with 'direction'" "$(meter "<point name='origin' x='0' y='-4' z='3'/>")"
 
+# A texture may be called a spectrum; the shapes of a `merge` stand in its place.
+check="name='reflectance'><float name='color0' value='.2'/>"
+floor() { echo "$camera$light<shape type='rectangle'><bsdf type='diffuse'>$1</bsdf></shape>"; }
+same "a spectrum that is a texture" "$(floor "<spectrum type='checkerboard' $check</spectrum>")" "$(floor "<texture type='checkerboard' $check</texture>")"
+same "merge" "$camera$light<shape type='merge'><shape type='rectangle'/><shape type='sphere'/></shape>" "$camera$light<shape type='rectangle'/><shape type='sphere'/>"
+
+# A mixture of Mitsuba 0.6 is blends of each material and the rest; what its weights lack is black, and too large ones are scaled.
+grey() { echo "<bsdf type='diffuse'><float name='reflectance' value='$1'/></bsdf>"; }
+mixture() { floor "<bsdf type='mixturebsdf'><string name='weights' value='$1'/>$2</bsdf>" | sed "s|<bsdf type='diffuse'><bsdf|<bsdf|; s|</bsdf></bsdf></shape>|</bsdf></shape>|"; }
+near "a mixture of one" "$(mixture .5 "$(grey .8)")" "$camera$light<shape type='rectangle'>$(grey .4)</shape>"
+near "a mixture of two" "$(mixture ".25 .75" "$(grey .8)$(grey .4)")" "$camera$light<shape type='rectangle'>$(grey .5)</shape>"
+near "a mixture of three" "$(mixture ".25, .25, .25" "$(grey .8)$(grey .4)$(grey .2)")" "$camera$light<shape type='rectangle'>$(grey .35)</shape>"
+near "weights above 1" "$(mixture "1 3" "$(grey .8)$(grey .4)")" "$camera$light<shape type='rectangle'>$(grey .5)</shape>"
+near "weights of 0" "$(mixture "0 1 0" "$(grey .8)$(grey .4)$(grey .2)")" "$camera$light<shape type='rectangle'>$(grey .4)</shape>"
+refused "'weights' must be one number for each of its 2 bsdfs (found '1')" "$(mixture 1 "$(grey .8)$(grey .4)")"
+refused "'weights' must be between 0 and 1 (found '-1')" "$(mixture -1 "$(grey .8)")"
+
+# An integrator that is not known does not matter where another one takes its place, whatever stands inside.
+others="<integrator type='statistical'><integrator type='path'/><integrator type='volpath'/></integrator>"
+render a "$others$(floor "")" --integrator path
+render b "$(floor "")"
+cmp -s a.pfm b.pfm || fail "an integrator that is not known: not the same picture"
+refused "unknown integrator 'statistical'" "$others$(floor "")"
+
+# What is not supported is refused by name, with the reason.
+refused "integrator 'stokes' is not supported: light is unpolarised here" "<integrator type='stokes'><integrator type='path'/></integrator>$(floor "")"
+refused "shape 'sdfgrid' is not supported: a mesh" "$camera<shape type='sdfgrid'/>"
+refused "bsdf 'measured_polarized' is not supported: " "$camera<bsdf type='measured_polarized'/>"
+refused "bsdf 'coating': it needs a nested bsdf that lets no light through" "$camera<bsdf type='coating'><bsdf type='dielectric'/></bsdf>"
+refused "'int_ior' must be above 'ext_ior'" "$camera<bsdf type='coating'><float name='int_ior' value='.9'/><bsdf type='diffuse'/></bsdf>"
+
 exit $((failures > 0))

@@ -239,12 +239,20 @@ aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void *
     return result == AUR_OK && sensor == &scene->sensor ? set_parts(self, parameters, medium) : result;
 }
 
+static aur_result fail_second(aur_loader *self, aur_location location) {
+    return aur_fail_at(self->error, location, AUR_ERROR_UNSUPPORTED,
+                       "a second <integrator> inside another: one is the most");
+}
+
 /* <integrator type="moment">: what stands inside takes its place. */
 static aur_result unwrap_moment(aur_loader *self, aur_parameters *parameters) {
     aur_scene *const scene = self->scene;
     if (aur_parameters_find(parameters, "integrator") == NULL || !scene->has_nested_integrator)
         return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT,
                                    "it needs an <integrator> inside");
+    const aur_parameter *const second = aur_parameters_find(parameters, "integrator2");
+    if (second != NULL)
+        return fail_second(self, second->location);
     aur_warn_at(self->warnings, parameters->location,
                 "integrator 'moment' is read as the one inside it, '%s', without second moments",
                 scene->nested_integrator.plugin);
@@ -260,9 +268,11 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
     bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
     aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
     *object = made;
+    /* What holds two is refused when it is created, unless another integrator takes its place. */
+    if (*has && nested && aur_parameters_find(parameters, "integrator") == NULL)
+        return AUR_OK;
     if (*has && nested)
-        return aur_fail_at(self->error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "a second <integrator> inside another: one is the most");
+        return fail_second(self, parameters->location);
     if (*has) {
         aur_warn_at(self->warnings, parameters->location, "a second integrator is left out");
         return AUR_OK;

@@ -85,3 +85,13 @@ extern const aur_table aur_ignored_table;
 /* Marks what is ignored of an object's parameters as read, whatever its value is, unless `reader` has a key
  * of that name; NULL: nothing is known to read them. */
 void aur_parameters_ignore(aur_parameters *parameters, const aur_row *reader, const aur_warnings *warnings);
+
+/* Plugins of Mitsuba's that are refused by name: a row for each kind, a key for each type, whose help is the
+ * reason. */
+extern const aur_table aur_refused_table;
+
+/* Errors: UNSUPPORTED, with the reason, where the parameters' plugin is one of these. */
+aur_result aur_parameters_refuse(const aur_parameters *parameters, aur_error *error);
+
+/* Rewrites forms that other elements express, in the node and all below it. */
+aur_result aur_loader_rewrite(aur_nodes *nodes, aur_xml_node *node);

@@ -84,7 +84,9 @@ static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *
     aur_result result = aur_parameters_init(&parameters, node->tag, plugin, node->location, error);
     if (result != AUR_OK)
         return result;
-    result = aur_table_find(table, &parameters, &row, error);
+    result = aur_parameters_refuse(&parameters, error);
+    if (result == AUR_OK)
+        result = aur_table_find(table, &parameters, &row, error);
     aur_parameters_release(&parameters);
     return result;
 }
@@ -117,11 +119,14 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
     scene->samples_per_pixel = 4;
     aur_xml_node *const root = scene->document.tree.root;
     aur_error *const left_out = &scene->document.left_out;
+    aur_nodes nodes = {.tree = &scene->document.tree, .error = error};
+    aur_result result = aur_loader_rewrite(&nodes, root);
+    if (result != AUR_OK)
+        return result;
     refuse_unknown(&self, root, 0, left_out);
     if (left_out->result != AUR_OK)
         return aur_fail_at(error, (aur_location){left_out->file, left_out->line, left_out->column},
                            left_out->result, "%s", left_out->message);
-    aur_result result = AUR_OK;
     for (aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
         result = build_top(&self, node);
     aur_loader_drop_image(&self);

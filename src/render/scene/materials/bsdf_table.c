@@ -8,6 +8,7 @@
 
 #define MATERIALS(ROW)                                                                                       \
     ROW(diffuse)                                                                                             \
+    ROW(difftrans)                                                                                           \
     ROW(twosided)                                                                                            \
     ROW(phong)                                                                                               \
     ROW(phong_lobe)                                                                                          \
@@ -21,6 +22,8 @@
     ROW(plastic)                                                                                             \
     ROW(roughplastic)                                                                                        \
     ROW(pplastic)                                                                                            \
+    ROW(coating)                                                                                             \
+    ROW(roughcoating)                                                                                        \
     ROW(principled)                                                                                          \
     ROW(principledthin)                                                                                      \
     ROW(mask)                                                                                                \
