@@ -13,7 +13,7 @@ import sys
 import cffi
 
 NATIVE = [f"aureole/{name}.h" for name in
-          "core text tables pointset sphere rotations nearest statistics quadrature quality exact estimate integrate symmetry".split()]
+          "core text tables pointset sphere rotations symmetry nearest statistics quadrature quality exact estimate integrate".split()]
 LIBRARY = ["aureole/core.h", "aureole/tables.h", "aureole-render/image.h", "aureole-render/scene.h", "aureole-render/film.h",
            "aureole-render/render.h", "aureole-render/adaptive.h", "aureole-lighting/view_factors.h", "aureole-lighting/irradiance.h"]
 

@@ -1,16 +1,18 @@
 /* Weights that make a quadrature of any points exact to a degree.
  *
- * Of axes only polynomials of even degree have a meaning: their rule is the sphere's of both ends, each with
- * half the weight. On the sphere, the hemisphere or a cap about +z a rule is exact to degree L when it
- * integrates every polynomial in x, y, z of degree L or less without error: on the sphere all spherical
- * harmonics to degree L, (L+1)^2 of them. Of all such weights these are the nearest to equal ones, or to
- * given ones. Everywhere the density that is integrated against is normalised to integral 1, so that equal
- * weights are 1/N and the weights sum to 1: multiply by the area (4 pi, 2 pi, ...) for integrals over solid
- * angle. */
+ * On square, cube, disk and rotations the functions are polynomials of a total degree in the coordinates, and
+ * Wigner's functions to a degree.  * Of axes only polynomials of even degree have a meaning: their rule is
+ * the sphere's of both ends, each with half the weight. On the sphere, the hemisphere or a cap about +z a
+ * rule is exact to degree L when it integrates every polynomial in x, y, z of degree L or less without error:
+ * on the sphere all spherical harmonics to degree L, (L+1)^2 of them. Of all such weights these are the
+ * nearest to equal ones, or to given ones. Everywhere the density that is integrated against is normalised to
+ * integral 1, so that equal weights are 1/N and the weights sum to 1: multiply by the area (4 pi, 2 pi, ...)
+ * for integrals over solid angle. */
 #ifndef AUREOLE_EXACT_H
 #define AUREOLE_EXACT_H
 
-#include <aureole/sphere.h>
+#include <aureole/rotations.h>
+#include <aureole/symmetry.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -30,10 +32,14 @@ extern "C" {
 /* No tolerance is smaller or larger. */
 #define AUR_EXACT_TOLERANCE_MIN 1e-15
 #define AUR_EXACT_TOLERANCE_MAX 1e-2
+/* No cube has more dimensions. */
+#define AUR_EXACT_DIMENSION_MAX 4096
+/* On square, cube, disk and rotations functions times points are not more. */
+#define AUR_EXACT_ENTRIES_MAX 134217728
 
 typedef struct aur_exact_options {
     size_t size;        /* of the caller's struct, so that it can grow */
-    aur_domain domain;  /* SPHERE, HEMISPHERE or AXES */
+    aur_domain domain;  /* any */
     double cap_degrees; /* 0: all of the domain; else the cap of that polar angle about +z */
     /* The density: uniform unless the domain is the whole HEMISPHERE. With GGX points below the surface (z <
      * 0) have weight 0. */
@@ -46,6 +52,13 @@ typedef struct aur_exact_options {
     /* Of more than 2048 points: conjugate gradients end when no function errs by more; 0:
      * AUR_EXACT_TOLERANCE_DEFAULT. */
     double tolerance;
+    size_t dimension; /* of the CUBE: 1 to AUR_EXACT_DIMENSION_MAX */
+    /* SPHERE: only functions with the symmetry of this group, one point of each orbit (or any points); a
+     * weight is that of the whole orbit. NULL: no symmetry. */
+    const aur_point_group *group;
+    /* ROTATIONS: only functions that are the same at q g for g of the crystal's group, and at s q for s of
+     * the sample's. */
+    aur_symmetry crystal, sample;
 } aur_exact_options;
 
 /* The largest degree, near to equal weights, on a whole domain. */
@@ -62,20 +75,23 @@ typedef struct aur_exact_report {
     size_t iterations;     /* of conjugate gradients; 0: solved by a factorisation */
 } aur_exact_report;
 
-/* weights[count] for unit vectors xyz[3 * count]: of all weights that are exact to the degree those that make
- * the sum of (w - near)^2 / near least, where the near ones are scaled to sum 1. Points at one place share
- * the weight of one point, unless near ones are given; points with the near weight 0 keep it. Up to 2048
- * points every degree is tried by one factorisation that grows, O(count degree^4); more points are solved by
- * conjugate gradients until the residual is at the tolerance, or ends below 1e-10 after 600 steps, each
- * O(count + degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then found
- * by bisection with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count + 1e4
- * to 1e5 nodes) degree^4) for any count, and the search for the largest degree ends after four without
- * positive weights. `capacity` counts weights; `report` may be NULL.
+/* weights[count] for unit vectors points[3 * count], or coordinates points[dimension * count] of square, cube
+ * and disk, or unit quaternions w,x,y,z points[4 * count]: of all weights that are exact to the degree those
+ * that make the sum of (w - near)^2 / near least, where the near ones are scaled to sum 1. Points at one
+ * place share the weight of one point, unless near ones are given; points with the near weight 0 keep it. Up
+ * to 2048 points every degree is tried by one factorisation that grows, O(count degree^4); more points are
+ * solved by conjugate gradients until the residual is at the tolerance, or ends below 1e-10 after 600 steps,
+ * each O(count + degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then
+ * found by bisection with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count
+ * + 1e4 to 1e5 nodes) degree^4) for any count, and the search for the largest degree ends after four without
+ * positive weights. On square, cube, disk and rotations steps of conjugate gradients take
+ * O(count functions), and the largest degree is sought among those with AUR_EXACT_ENTRIES_MAX. `capacity`
+ * counts weights; `report` may be NULL.
  *
  * Errors: ARGUMENT for no point, a vector that is not of unit length or lies outside the domain (which),
  * options out of range, a degree that no weights of these points have (and the error that is left), a degree
  * that needs negative weights unless they are allowed (and the least one); CAPACITY; MEMORY; CANCELLED. */
-AUR_API aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
+AUR_API aur_result aur_weights_exact(size_t count, const double *points, const aur_exact_options *options,
                                      size_t capacity, double *weights, aur_exact_report *report,
                                      aur_error *error) AUR_NONNULL(2, 3, 5);
 

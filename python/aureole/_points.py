@@ -10,7 +10,9 @@ from typing import Any, Callable, Iterator, Literal, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._bridge import ArgumentError, AureoleWarning, Rebuilt, Seed, as_array, domain_kept, encode, kept, seed_number, vector
+from ._bridge import (
+    ArgumentError, AureoleWarning, Rebuilt, Seed, UnsupportedError, as_array, domain_kept, encode, kept, seed_number, vector,
+)  # fmt: skip
 from ._core import CoreCall, core, ffi, lib
 
 Array = NDArray[np.float64]
@@ -25,6 +27,35 @@ def parse_lobe(lobe: str) -> Any:
     parsed = ffi.new("aur_lobe *")
     core.call(lib.aur_lobe_parse, encode(lobe), parsed)
     return parsed
+
+
+def parse_symmetry(symmetry: Optional[str], domain: str) -> tuple[Any, int, int]:
+    """The point group of directions, or None, and the symmetries of crystal and sample of rotations."""
+    if symmetry is None:
+        return None, 0, 0
+    if domain == "rotations":
+        crystal, _, sample = symmetry.partition(":")
+        return None, core.value("symmetry", crystal), core.value("symmetry", sample or "1")
+    if domain != "sphere":
+        raise UnsupportedError(f"a symmetry is for the sphere and rotations, not for the domain {domain!r}")
+    group = ffi.new("aur_point_group *")
+    core.call(lib.aur_point_group_from_name, encode(symmetry), group)
+    return group, 0, 0
+
+
+def _select(found: Array, weights: Optional[Array], symmetry: str, domain: str) -> tuple[Array, Array]:
+    """Points in the fundamental region, in the first rows of their array, with the weights of their orbits."""
+    group, crystal, _ = parse_symmetry(symmetry, domain)
+    array, mass = np.array(found), np.ones(len(found)) if weights is None else np.array(weights)
+    if group is None:
+        kept = lib.aur_symmetry_select(crystal, len(array), core.output(array))
+    else:
+        kept = lib.aur_point_group_select(group, len(array), core.output(array), core.output(mass))
+    total = mass[:kept].sum()
+    if weights is not None and (group is None or abs(total - 1.0) > 1e-9):
+        raise ArgumentError(f"the set has weights and not this symmetry: those of the region add up to {total:.6g}")
+    found[:kept] = array[:kept]
+    return found[:kept], mass[:kept] / total
 
 
 def directions_options(
@@ -57,18 +88,20 @@ def points(
     set: str, n: int = ..., *, domain: Optional[Domain] = ..., dimension: int = ..., map: Map = ..., lobe: str = ...,
     density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: Seed = ...,
     first: int = ..., count: int = ..., weights: Literal[False] = ..., out: Any = ..., dtype: DTypeLike = ...,
+    symmetry: Optional[str] = ...,
 ) -> np.ndarray: ...  # fmt: skip
 @overload
 def points(
     set: str, n: int = ..., *, domain: Optional[Domain] = ..., dimension: int = ..., map: Map = ..., lobe: str = ...,
     density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: Seed = ...,
     first: int = ..., count: int = ..., weights: Literal[True], out: Any = ..., dtype: DTypeLike = ...,
+    symmetry: Optional[str] = ...,
 ) -> tuple[np.ndarray, Array]: ...  # fmt: skip
 def points(
     set: str, n: int = 0, *, domain: Optional[Domain] = None, dimension: int = 0, map: Map = "lambert",
     lobe: str = "uniform", density: Density = "same", smoothness: float = 1.5, cap: float = 0.0,
     scramble: Scramble = "none", seed: Seed = 0, first: int = 0, count: int = 0, weights: bool = False,
-    out: Any = None, dtype: DTypeLike = np.float64,
+    out: Any = None, dtype: DTypeLike = np.float64, symmetry: Optional[str] = None,
 ) -> Union[np.ndarray, tuple[np.ndarray, Array]]:  # fmt: skip
     """Points of a set, one a row.
 
@@ -96,6 +129,8 @@ def points(
     first, count : the part of the set that is wanted; count 0: all from `first` on.
     weights : whether to return also the weights, (n,): 1/n each where the density is the lobe itself.
     out : an array to write the points into and to return, of float64 or float32 and any strides.
+    symmetry : only one point of each orbit, with its weight: of directions of the sphere a point group ("D2h", "Oh"), of
+        rotations a crystal's group ("432").
     dtype : float64 or float32, where there is no `out`. Of square and cube float32 are the doubles cut to 24 binary digits.
 
     Returns
@@ -123,10 +158,11 @@ def points(
         made = ffi.new("aur_points **")
         core.call(lib.aur_points_generate, encode(set), request, made)
         found, found_weights, of = look(core.own("points", made))
+    mass = np.full(len(found), 1.0 / len(found)) if found_weights is None and weights else found_weights
+    if symmetry is not None:
+        found, mass = _select(found, found_weights, symmetry, of)
     found = _deliver(found, out, dtype, cut=of in ("square", "cube"))
-    if not weights:
-        return found
-    return found, np.full(len(found), 1.0 / len(found)) if found_weights is None else found_weights
+    return (found, mass) if weights else found
 
 
 def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) -> tuple[Array, Optional[Array], str]:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ._bridge import ArgumentError, Progress, Rebuilt, encode, rows, vector
 from ._core import CoreCall, core, ffi, lib
 from ._measures import weights_voronoi
-from ._points import Array, Density, Domain, Map, Scramble, directions_options, domain_of, parse_lobe
+from ._points import Array, Density, Domain, Map, Scramble, directions_options, domain_of, parse_lobe, parse_symmetry
 
 
 class Potential(Rebuilt):
@@ -143,9 +143,11 @@ def weights(
     xyz: ArrayLike, method: Literal["optimal", "exact", "voronoi"] = "optimal", *, domain: Optional[Domain] = None,
     lobe: str = "uniform", cap: float = 0.0, smoothness: float = 1.5, degree: Optional[int] = None,
     near: Optional[ArrayLike] = None, negative: bool = False, regularization: float = 1e-6,
-    sum_constraint: bool = True, threads: int = 0,
+    sum_constraint: bool = True, threads: int = 0, symmetry: Optional[str] = None,
 ) -> Array:  # fmt: skip
     """Weights (n,) of sum 1 for unit vectors (n, 3): for integrals against the lobe normalised to integral 1.
+
+    Exact ones also for points of square, disk and cube and for rotations.
 
     Parameters
     ----------
@@ -157,7 +159,7 @@ def weights(
         not the density of visible normals that points follow. Points below the horizon have weight 0.
     cap : degrees; not 0: the points are on the cap of that polar angle. Not for optimal weights.
     smoothness, regularization, sum_constraint : of optimal weights.
-    degree, near, negative : of exact weights: see `weights_exact`.
+    degree, near, negative, symmetry : of exact weights: see `weights_exact`.
 
     Multiply by the area (4 pi, 2 pi, ...) for integrals over solid angle.
 
@@ -166,12 +168,15 @@ def weights(
     >>> w.shape, round(float(w.sum()), 6)
     ((100,), 1.0)
     """
-    array = rows(xyz, 3, "xyz")
+    array = rows(xyz, 0 if method == "exact" else 3, "xyz")
     where: Domain = domain or domain_of(array)
     if method == "exact":
         return weights_exact(
-            array, degree, domain=where, lobe=lobe, cap=cap, near=near, negative=negative, threads=threads
-        )[0]
+            array, degree, domain=where, lobe=lobe, cap=cap, near=near, negative=negative, threads=threads,
+            symmetry=symmetry,
+        )[0]  # fmt: skip
+    if symmetry is not None:
+        raise ArgumentError("symmetry is for method='exact'")
     if method == "voronoi":
         return weights_voronoi(array, domain=where, lobe=lobe, cap=cap, threads=threads)
     if method != "optimal":
@@ -220,29 +225,38 @@ def _exact_report(report: Any) -> ExactReport:
 
 def _exact_options(
     call: CoreCall, array: Array, domain: Optional[str], degree: Optional[int], lobe: str, cap: float,
-    near: Optional[ArrayLike], negative: bool, threads: int, tolerance: float,
-) -> tuple[Any, Optional[Array]]:  # fmt: skip
+    near: Optional[ArrayLike], negative: bool, threads: int, tolerance: float, symmetry: Optional[str],
+) -> tuple[Any, Any]:  # fmt: skip
     options = ffi.new("aur_exact_options *")
-    core.initialize(options, lib.aur_exact_options_init, core.value("domain", domain or domain_of(array)))
+    where = domain or domain_of(array)
+    columns = {"square": 2, "disk": 2, "rotations": 4, "cube": array.shape[1]}.get(where, 3)
+    if array.shape[1] != columns:
+        raise ArgumentError(f"points of the domain {where!r} must have the shape (n, {columns}), not {array.shape}")
+    core.initialize(options, lib.aur_exact_options_init, core.value("domain", where))
     core.fill(
         options, cap_degrees=cap, lobe=parse_lobe(lobe)[0], negative=negative, threads=threads,
-        tolerance=tolerance,
+        tolerance=tolerance, dimension=array.shape[1],
     )  # fmt: skip
+    group, crystal, sample = parse_symmetry(symmetry, where)
+    core.fill(options, crystal=crystal, sample=sample, group=ffi.NULL if group is None else group)
     if degree is not None:
         core.fill(options, degree=degree)
     mass = None if near is None else vector(near, len(array), "near")
     if mass is not None:
         options.near = core.input(mass)
-    return call.attach(options, warnings=False), mass
+    return call.attach(options, warnings=False), (mass, group)
 
 
 def weights_exact(
     xyz: ArrayLike, degree: Optional[int] = None, *, domain: Optional[Domain] = None, lobe: str = "uniform",
     cap: float = 0.0, near: Optional[ArrayLike] = None, negative: bool = False, threads: int = 0,
-    progress: Optional[Progress] = None, tolerance: float = 0.0,
+    progress: Optional[Progress] = None, tolerance: float = 0.0, symmetry: Optional[str] = None,
 ) -> tuple[Array, ExactReport]:  # fmt: skip
-    """Of all weights (n,) that integrate polynomials in x, y, z to a degree without error, the nearest to equal ones.
+    """Of all weights (n,) that integrate polynomials to a degree without error, the nearest to equal ones.
 
+    `xyz`: unit vectors (n, 3); points of square, disk or cube (n, d), of a total degree in the coordinates; or rotations
+    (n, 4), of Wigner functions. `symmetry`: only for functions that have it; of directions of the sphere a point group
+    ("D2h", "Oh"), of rotations "CRYSTAL" or "CRYSTAL:SAMPLE" ("432:222").
     `degree`: 0 to 1500; None: the largest that keeps every weight positive. `near`: the weights to stay near to, (n,).
     `negative`: a given degree may take negative weights. `domain` and `cap` as for `weights`. `tolerance`: the largest
     error of a polynomial of mean square 1, for more than 2048 points; 0: 1e-14.
@@ -251,11 +265,13 @@ def weights_exact(
     >>> report.degree, report.points
     (13, 200)
     """
-    array = rows(xyz, 3, "xyz")
+    array = rows(xyz, 0, "xyz")
     found = np.empty(len(array))
     report = ffi.new("aur_exact_report *")
     with CoreCall(progress) as call:
-        options, _keep = _exact_options(call, array, domain, degree, lobe, cap, near, negative, threads, tolerance)
+        options, _keep = _exact_options(
+            call, array, domain, degree, lobe, cap, near, negative, threads, tolerance, symmetry
+        )
         core.call(
             lib.aur_weights_exact, len(array), core.input(array), options, len(array), core.output(found), report
         )
@@ -265,17 +281,19 @@ def weights_exact(
 def weights_nested(
     xyz: ArrayLike, counts: Sequence[int], degree: Optional[int] = None, *, domain: Optional[Domain] = None,
     lobe: str = "uniform", cap: float = 0.0, near: Optional[ArrayLike] = None, negative: bool = False,
-    threads: int = 0, tolerance: float = 0.0,
+    threads: int = 0, tolerance: float = 0.0, symmetry: Optional[str] = None,
 ) -> tuple[Array, list[ExactReport]]:  # fmt: skip
     """Exact weights for the first counts[k] points of a set, (levels, n), 0 behind them; and a report for each level.
 
     One function value a point gives an integral for every level; differences of neighbours estimate the error.
     """
-    array = rows(xyz, 3, "xyz")
+    array = rows(xyz, 0, "xyz")
     found = np.empty((len(counts), len(array)))
     reports = ffi.new("aur_exact_report[]", max(1, len(counts)))
     with CoreCall() as call:
-        options, _keep = _exact_options(call, array, domain, degree, lobe, cap, near, negative, threads, tolerance)
+        options, _keep = _exact_options(
+            call, array, domain, degree, lobe, cap, near, negative, threads, tolerance, symmetry
+        )
         core.call(
             lib.aur_weights_nested, len(array), core.input(array), len(counts), ffi.new("size_t[]", list(counts)),
             options, found.size, core.output(found), reports,

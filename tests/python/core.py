@@ -408,6 +408,35 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(aureole.weights(xyz, "voronoi").sum(), 1, delta=1e-12)
         self.assertTrue((aureole.weights(xyz, "exact", degree=8) == weights).all())
 
+    def test_exact_weights_of_other_domains(self):
+        for domain, dimension, mean in (("square", 2, 1 / 15), ("cube", 4, 1 / 15), ("disk", 2, 0)):
+            x = aureole.points("sobol", 256, domain=domain, dimension=dimension if domain == "cube" else 0)
+            weights, report = aureole.weights_exact(x, 6 if dimension == 2 else 4)
+            self.assertAlmostEqual(float(weights @ (x[:, 0] ** 2 * x[:, 1] ** 4 if dimension == 2 else x[:, 0] ** 2 * x[:, 3])),
+                                   {"square": mean, "cube": 1 / 6, "disk": 1 / 64}[domain], delta=1e-14)
+        turns = aureole.points("super-fibonacci", 240)
+        weights = aureole.weights(turns, "exact", degree=3)
+        cosines = 2 * (turns[:, 0] ** 2) - 1  # of the angle; the mean of the character of degree 1 is 0
+        self.assertAlmostEqual(float(weights @ (1 + 2 * cosines)), 0, delta=1e-14)
+        cubic, report = aureole.weights_exact(turns, symmetry="432:222")
+        self.assertGreater(report.degree, aureole.weights_exact(turns)[1].degree)
+        kept = aureole.points("super-fibonacci", 2400, symmetry="432")
+        self.assertEqual(len(kept), len(aureole.symmetry_select(aureole.points("super-fibonacci", 2400), "432")))
+        with self.assertRaisesRegex(aureole.ArgumentError, r"must have the shape \(n, 4\)"):
+            aureole.weights_exact(turns[:, :3], domain="rotations")
+
+    def test_symmetry_of_points(self):
+        xyz, w = aureole.points("lebedev", 110, weights=True, symmetry="Oh")
+        self.assertEqual(len(xyz), 6)
+        self.assertAlmostEqual(float(w @ (xyz**4).sum(axis=1)), 3 / 5, delta=1e-14)
+        xyz = aureole.points("spherical-fibonacci", 960, domain="sphere", symmetry="D2h")
+        weights = aureole.weights(xyz, "exact", symmetry="D2h")
+        self.assertAlmostEqual(float(weights @ xyz[:, 1] ** 8), 1 / 9, delta=1e-14)
+        with self.assertRaisesRegex(aureole.ArgumentError, "not this symmetry"):
+            aureole.points("lebedev", 110, domain="sphere", symmetry="D5h")
+        with self.assertRaises(aureole.UnsupportedError):
+            aureole.points("sobol", 16, symmetry="D2h")
+
     def test_integrate(self):
         with_axis = aureole.integrate(lambda u, r: r**2 * u[:, 2] ** 2, 1e-3, axis=(0, 2))
         self.assertLess(abs(with_axis.value - 32 * np.pi / 9), 3 * with_axis.error)

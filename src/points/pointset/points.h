@@ -18,6 +18,12 @@ aur_result aur_points_create(aur_domain domain, uint64_t count, size_t dimension
  * stride below the dimension. */
 aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *view, aur_error *error);
 
+/* The name of a column: u,v on the square, x,y on the disk, x,y,z on the sphere, u1,u2,... on the cube,
+ * w,x,y,z or m11,m12,... of rotations. */
+enum { AUR_COLUMN_NAME_CAPACITY = 24 };
+void aur_points_column_name(const aur_points_view *points, size_t column,
+                            char name[AUR_COLUMN_NAME_CAPACITY]);
+
 /* Whether there are weights, and they are not all 1/N, which say nothing. */
 bool aur_points_weighted(const aur_points_view *points);
 

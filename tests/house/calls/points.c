@@ -249,6 +249,8 @@ static void weights(void) {
     const double north[3] = {0.0, 0.0, 1.0}, weight = 1.0;
     accept(aur_weights_write("calls.csv", AUR_DOMAIN_SPHERE, 1, north, 1, &weight, &error), &error);
     remove("calls.csv");
+    const aur_points_view view = aur_points_view_of(AUR_DOMAIN_SPHERE, 1, 3, north);
+    accept(aur_weights_write_points("calls.csv", &view, 1, &weight, &error), &error);
     refuse(aur_weights_write("no such folder/calls.csv", AUR_DOMAIN_SPHERE, 1, north, 1, &weight, &error),
            AUR_ERROR_WRITE, &error);
 }

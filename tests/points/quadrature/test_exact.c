@@ -404,7 +404,7 @@ static void bad_input(void **state) {
     assert_int_equal(aur_weights_exact(4, xyz, &options, 5, weights, &report, &error), AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "point 2 "));
     options.size = sizeof(aur_exact_options);
-    aur_exact_options_init(AUR_DOMAIN_DISK, &options, NULL);
+    aur_exact_options_init((aur_domain)9, &options, NULL);
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
     options.size = sizeof(aur_exact_options);
     aur_exact_options_init(AUR_DOMAIN_SPHERE, &options, NULL);

@@ -62,19 +62,27 @@ for domain in "--domain sphere" "--domain hemisphere" "--cap 90" "--cap 120"; do
   {
     try "degree 4 to 1e-10" good $domain --method exact --degree 4
     try "must be between 0 and 1500, not '2000'" good $domain --method exact --degree 2000
-    try "--degree, --levels, --negative, --near and --tolerance are for" good $domain --method voronoi --degree 2
+    try "--degree, --levels, --negative, --near, --symmetry and --tolerance are for" good $domain --method voronoi --degree 2
   }
 done
 # A degree that needs negative weights says the least; they are given where they are allowed.
 "$aureole" points random -n 20 --domain sphere -q -o uneven.csv
 try "needs negative weights, the least of them -[0-9.]+/N" uneven --domain sphere --method exact --degree 3
 try sum uneven --domain sphere --method exact --degree 3 --negative
-# Other domains have no weights, no set has 0 points, and caps are of some size.
+# Other domains have exact weights alone and take no directions, no set has 0 points, and caps are of some size.
+declare -A dim=([cube]="--dim 3")
 for domain in square cube disk rotations; do
-  for method in exact voronoi osw equal ratio; do
-    try "must be one of hemisphere, sphere, axes, not '$domain'" good --domain $domain --method $method
+  try "says that the points are on the sphere, not on the $domain" good --domain $domain
+  for method in voronoi osw equal ratio; do
+    "$aureole" points sobol -n 16 --domain $domain ${dim[$domain]:-} -o $domain.csv
+    try "weights on the domain '$domain' are exact ones" $domain --domain $domain --method $method
   done
+  try "caps and lobes are for directions" $domain --domain $domain --cap 20
+  try "(functions|polynomials) of degree 7" $domain --domain $domain --degree 7
 done
+try "unknown point group 'Q'" good --domain sphere --method exact --symmetry Q
+try "unknown symmetry '5'" rotations --symmetry 5
+try "needs --domain sphere or rotations" good --domain hemisphere --method exact --symmetry Oh
 for method in exact voronoi osw equal ratio; do
   "$aureole" weights sobol -n 0 --method $method >/dev/null 2>message.txt && fail "no points by $method"
   grep -q "at least 1, not '0'" message.txt || fail "$(cat message.txt)"

@@ -13,7 +13,7 @@
 #include "points/pointset/points.h"
 
 static const char *const format_names[] = {"csv", "json", "npy", "ply"};
-enum { FORMAT_COUNT = sizeof format_names / sizeof format_names[0], NAME_CAPACITY = 24, MOST_DIGITS = 17 };
+enum { FORMAT_COUNT = sizeof format_names / sizeof format_names[0], MOST_DIGITS = 17 };
 
 aur_result aur_points_format_from_name(const char *name, aur_points_format *format, aur_error *error) {
     size_t index;
@@ -28,25 +28,24 @@ const char *aur_points_format_name(aur_points_format format) {
     return (size_t)format < FORMAT_COUNT ? format_names[format] : NULL;
 }
 
-/* The name of a column: u,v on the square, x,y on the disk, x,y,z on the sphere, u1,u2,... on the cube,
- * w,x,y,z or m11,m12,... of rotations. */
-static void column_name(const aur_points_view *points, size_t column, char name[NAME_CAPACITY]) {
+void aur_points_column_name(const aur_points_view *points, size_t column,
+                            char name[AUR_COLUMN_NAME_CAPACITY]) {
     static const char letters[] = "xyz";
     if (points->domain == AUR_DOMAIN_CUBE)
-        snprintf(name, NAME_CAPACITY, "u%zu", column + 1);
+        snprintf(name, AUR_COLUMN_NAME_CAPACITY, "u%zu", column + 1);
     else if (points->domain == AUR_DOMAIN_ROTATIONS && points->dimension == 9)
-        snprintf(name, NAME_CAPACITY, "m%zu%zu", column / 3 + 1, column % 3 + 1);
+        snprintf(name, AUR_COLUMN_NAME_CAPACITY, "m%zu%zu", column / 3 + 1, column % 3 + 1);
     else if (points->domain == AUR_DOMAIN_ROTATIONS)
-        snprintf(name, NAME_CAPACITY, "%c", "wxyz"[column % 4]);
+        snprintf(name, AUR_COLUMN_NAME_CAPACITY, "%c", "wxyz"[column % 4]);
     else
-        snprintf(name, NAME_CAPACITY, "%c",
+        snprintf(name, AUR_COLUMN_NAME_CAPACITY, "%c",
                  points->domain == AUR_DOMAIN_SQUARE ? (column == 0 ? 'u' : 'v') : letters[column % 3]);
 }
 
 static void write_csv_header(const aur_points_view *points, FILE *stream) {
     for (size_t d = 0; d < points->dimension; ++d) {
-        char name[NAME_CAPACITY];
-        column_name(points, d, name);
+        char name[AUR_COLUMN_NAME_CAPACITY];
+        aur_points_column_name(points, d, name);
         fprintf(stream, "%s%s", d > 0 ? "," : "", name);
     }
     if (points->weights != NULL)

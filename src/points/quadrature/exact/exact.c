@@ -12,12 +12,22 @@
 /* Points this far below the rim still belong to a domain: rounding. */
 static const double rim = 1e-9;
 
+static aur_result check_degree(const aur_exact_options *o, size_t most, aur_error *error) {
+    if (o->degree != AUR_DEGREE_LARGEST && o->degree > most)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %zu, not %zu", most,
+                        o->degree);
+    if (o->tolerance != 0.0 &&
+        !(o->tolerance >= AUR_EXACT_TOLERANCE_MIN && o->tolerance <= AUR_EXACT_TOLERANCE_MAX))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the tolerance of exact weights must be between %g and %g, not %g",
+                        AUR_EXACT_TOLERANCE_MIN, AUR_EXACT_TOLERANCE_MAX, o->tolerance);
+    return AUR_OK;
+}
+
 static aur_result check_options(aur_exact_options *o, double *lowest, aur_error *error) {
     const bool sphere = o->domain == AUR_DOMAIN_SPHERE;
     if (!sphere && o->domain != AUR_DOMAIN_HEMISPHERE)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "exact weights are for the sphere, the hemisphere, caps and axes, not for the domain "
-                        "'%s'",
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there are no exact weights on the domain '%s'",
                         aur_domain_name(o->domain));
     const double most = sphere ? 180.0 : 90.0;
     const bool wide = o->cap_degrees > 90.0 && o->cap_degrees <= 180.0;
@@ -36,26 +46,25 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
                         AUR_EXACT_EXPONENT_MAX, o->lobe.exponent);
     if ((ggx || o->lobe.exponent > 0.0) && o->cap_degrees != 90.0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe is for the whole hemisphere");
-    const size_t most_degree = ggx ? AUR_EXACT_GGX_DEGREE_MAX : AUR_BASIS_DEGREE_MAX;
-    if (o->degree != AUR_DEGREE_LARGEST && o->degree > most_degree)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %zu, not %zu", most_degree,
-                        o->degree);
-    if (o->tolerance != 0.0 &&
-        !(o->tolerance >= AUR_EXACT_TOLERANCE_MIN && o->tolerance <= AUR_EXACT_TOLERANCE_MAX))
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the tolerance of exact weights must be between %g and %g, not %g",
-                        AUR_EXACT_TOLERANCE_MIN, AUR_EXACT_TOLERANCE_MAX, o->tolerance);
+    const aur_result degree = check_degree(o, ggx ? AUR_EXACT_GGX_DEGREE_MAX : AUR_BASIS_DEGREE_MAX, error);
+    if (degree != AUR_OK)
+        return degree;
     *lowest = o->cap_degrees == 180.0  ? -1.0
               : o->cap_degrees == 90.0 ? 0.0
                                        : cos(o->cap_degrees / 180.0 * AUR_PI);
     return AUR_OK;
 }
 
+typedef struct place {
+    const double *at;
+    size_t dimension, index;
+} place;
+
 static int compare(const void *a, const void *b) {
-    const double *const x = *(const double *const *)a, *const y = *(const double *const *)b;
-    for (int d = 0; d < 3; ++d)
-        if (x[d] != y[d])
-            return x[d] < y[d] ? -1 : 1;
+    const place *const p = a, *const q = b;
+    for (size_t d = 0; d < p->dimension; ++d)
+        if (p->at[d] != q->at[d])
+            return p->at[d] < q->at[d] ? -1 : 1;
     return 0;
 }
 
@@ -66,29 +75,40 @@ static bool hidden(const aur_exact_options *o, const double *direction) {
 
 /* Fills near[count], unless they are given equal ones which points at one place share, and returns the number
  * of different places of points that have weight. */
-static size_t share(size_t count, const double *xyz, const aur_exact_options *o, const double **order,
-                    double *near) {
+static size_t share(size_t count, size_t dimension, const double *points, const aur_exact_options *o,
+                    place *order, double *near) {
     const double *const given = o->near;
     size_t used = 0, places = 0;
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
-        if (!hidden(o, xyz + 3 * i) && (given == NULL || given[i] > 0.0))
-            order[used++] = xyz + 3 * i;
+        if (!hidden(o, points + dimension * i) && (given == NULL || given[i] > 0.0))
+            order[used++] = (place){points + dimension * i, dimension, i};
     qsort(order, used, sizeof *order, compare);
     for (size_t first = 0, next; first < used; first = next) {
         for (next = first + 1; next < used && compare(&order[first], &order[next]) == 0; ++next) {
         }
         for (size_t k = first; k < next; ++k)
-            near[(size_t)(order[k] - xyz) / 3] = 1.0 / (double)(next - first);
+            near[order[k].index] = 1.0 / (double)(next - first);
         ++places;
     }
     for (size_t i = 0; i < count; ++i) {
-        near[i] = given != NULL && !hidden(o, xyz + 3 * i) ? given[i] : near[i];
+        near[i] = given != NULL && !hidden(o, points + dimension * i) ? given[i] : near[i];
         sum += near[i];
     }
     for (size_t i = 0; i < count; ++i)
         near[i] /= sum;
     return places;
+}
+
+static aur_result check_near(size_t count, const aur_exact_options *o, aur_error *error) {
+    bool some = o->near == NULL;
+    for (size_t i = 0; i < count && o->near != NULL; ++i) {
+        if (!(o->near[i] >= 0.0 && o->near[i] < INFINITY))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g",
+                            i + 1, o->near[i]);
+        some = some || o->near[i] > 0.0;
+    }
+    return some ? AUR_OK : aur_fail(error, AUR_ERROR_ARGUMENT, "all weights to stay near to are 0");
 }
 
 static aur_result check_points(size_t count, const double *xyz, const aur_exact_options *o, double lowest,
@@ -102,26 +122,35 @@ static aur_result check_points(size_t count, const double *xyz, const aur_exact_
         if (xyz[3 * i + 2] < lowest - rim && !below)
             return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu (z = %g) lies outside the %s", i + 1,
                             xyz[3 * i + 2], o->cap_degrees == 90.0 ? "hemisphere" : "cap");
-        if (o->near != NULL && !(o->near[i] >= 0.0 && o->near[i] < INFINITY))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g",
-                            i + 1, o->near[i]);
         some = some || (!below && (o->near == NULL || o->near[i] > 0.0));
     }
-    if (result == AUR_OK && !some)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        o->near != NULL ? "all weights to stay near to are 0"
-                                        : "no point lies above the surface");
-    return result;
+    const aur_result near = result == AUR_OK ? check_near(count, o, error) : result;
+    if (near == AUR_OK && !some)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "no point lies above the surface");
+    return near;
 }
 
 static size_t least_of(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-/* The degrees that so many places can have: a polynomial of degree k that vanishes at all of them exists for
- * (k+1)^2 > places, and its square has a positive integral. */
-static size_t degree_bound(size_t places) {
-    return least_of(2 * (size_t)sqrt((double)places) - 1, AUR_BASIS_DEGREE_MAX);
+/* The degrees that so many places can have: a function of degree k that vanishes at all of them exists where
+ * there are more functions than places, and its square has a positive integral. */
+static size_t degree_bound(const aur_exact_system *system) {
+    if (system->space == NULL)
+        return least_of(2 * (size_t)sqrt((double)system->places) - 1, AUR_BASIS_DEGREE_MAX);
+    size_t degree = 0;
+    while (2 * degree < AUR_BASIS_DEGREE_MAX && aur_exact_functions(system, degree) <= system->places)
+        ++degree;
+    return least_of(2 * degree - 1, AUR_BASIS_DEGREE_MAX);
+}
+
+/* The largest degree whose rows have room. */
+static size_t room_bound(const aur_exact_system *system, size_t bound) {
+    const size_t most = system->space != NULL ? AUR_EXACT_ENTRIES_MAX / system->points.count : SIZE_MAX;
+    while (bound > 0 && aur_exact_functions(system, bound) > most)
+        --bound;
+    return bound;
 }
 
 /* A search for the largest degree by solving for one after the other. */
@@ -223,7 +252,8 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
         reporting.progress = (aur_progress){report, &l};
     l.system = &reporting;
     climbs(&l, 0);
-    size_t next = (size_t)sqrt((double)system->places / 1.3);
+    /* Even sets on the sphere have positive weights to about this degree; elsewhere low degrees are quick. */
+    size_t next = system->space == NULL ? (size_t)sqrt((double)system->places / 1.3) : 1;
     for (size_t step = 1; l.low + 1 < l.high && l.result == AUR_OK;) {
         if (next >= l.high || next <= l.low)
             next = l.low + (l.high - l.low) / 2;
@@ -248,10 +278,12 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
     if (!found->exact)
         return aur_fail(
             error, AUR_ERROR_ARGUMENT,
-            "no weights of these %zu points at %zu places were found that integrate all %zu polynomials of "
-            "degree %zu to %g: ask for the largest degree that has some",
-            count, system->places, (found->degree + 1) * (found->degree + 1), found->degree,
-            fmax(AUR_EXACT_TOLERANCE, system->tolerance));
+            "no weights of these %zu points at %zu places were found that integrate all %zu %s of degree %zu "
+            "to %g: ask for the largest degree that has some",
+            count, system->places, aur_exact_functions(system, found->degree),
+            system->space != NULL && system->space->domain == AUR_DOMAIN_ROTATIONS ? "functions"
+                                                                                   : "polynomials",
+            found->degree, fmax(AUR_EXACT_TOLERANCE, system->tolerance));
     if (found->least <= 0.0 && !o->negative)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
@@ -296,7 +328,7 @@ static aur_result weigh_ggx(const aur_exact_options *o, const aur_exact_system *
 static aur_result solve(const aur_exact_options *o, const aur_exact_system *system, const double *xyz,
                         double *weights, aur_exact_report *report, aur_error *error) {
     const bool largest = o->degree == AUR_DEGREE_LARGEST;
-    const size_t bound = degree_bound(system->places);
+    const size_t bound = degree_bound(system);
     aur_exact_found found = {.degree = largest ? 0 : o->degree};
     aur_result result = AUR_OK;
     if (!largest && o->degree > bound)
@@ -304,10 +336,10 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
     if (o->lobe.kind == AUR_LOBE_GGX)
         result = weigh_ggx(o, system, xyz, largest ? least_of(bound, AUR_EXACT_GGX_DEGREE_MAX) : o->degree,
                            largest, weights, &found, error);
-    else if (system->points.count <= AUR_EXACT_DIRECT_POINTS)
+    else if (system->space == NULL && system->points.count <= AUR_EXACT_DIRECT_POINTS)
         result = factor(system, largest ? bound : o->degree, largest, weights, &found, error);
     else if (largest)
-        result = search(system, bound, weights, &found, error);
+        result = search(system, room_bound(system, bound), weights, &found, error);
     else
         result = aur_exact_iterate(system, o->degree, AUR_EXACT_STEPS, weights, &found, error);
     if (result == AUR_OK && found.exact)
@@ -330,76 +362,123 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
     return result;
 }
 
-/* Both ends of each axis have the half of its weight: with them odd polynomials integrate to 0, as they must.
- */
-static aur_result weigh_axes(size_t count, const double *xyz, const aur_exact_options *options,
-                             double *weights, aur_exact_report *report, aur_error *error) {
-    double *const ends = count <= SIZE_MAX / 64 ? malloc((10 * count + 1) * sizeof *ends) : NULL;
-    if (ends == NULL)
+/* All images of each point have an equal part of its weight: with them functions without the symmetry are
+ * integrated as their means over the group, as they must. Axes have the group of x and -x. */
+static aur_result weigh_orbits(size_t count, const double *xyz, const aur_exact_options *options,
+                               const aur_point_group *group, double *weights, aur_exact_report *report,
+                               aur_error *error) {
+    const size_t order = group->order;
+    double *const images =
+        count <= SIZE_MAX / (64 * order) ? malloc((5 * order * count + 1) * sizeof *images) : NULL;
+    if (images == NULL)
         return aur_fail_memory(error);
-    double *const found = ends + 6 * count, *const near = found + 2 * count;
-    for (size_t i = 0; i < 3 * count; ++i)
-        ends[3 * count + i] = -(ends[i] = xyz[i]);
-    for (size_t i = 0; i < count && options->near != NULL; ++i)
-        near[count + i] = near[i] = options->near[i];
+    double *const found = images + 3 * order * count, *const near = found + order * count;
+    for (size_t g = 0; g < order; ++g) {
+        memcpy(images + 3 * g * count, xyz, 3 * count * sizeof *xyz);
+        aur_rotation_apply(&group->elements[g], count, images + 3 * g * count);
+        for (size_t i = 0; i < count && options->near != NULL; ++i)
+            near[g * count + i] = options->near[i];
+    }
     aur_exact_options whole = *options;
     whole.domain = AUR_DOMAIN_SPHERE;
+    whole.group = NULL;
     whole.near = options->near != NULL ? near : NULL;
-    aur_exact_report of_ends;
-    const aur_result result = aur_weights_exact(2 * count, ends, &whole, 2 * count, found, &of_ends, error);
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        weights[i] = found[i] + found[count + i];
-    of_ends.points /= 2;
-    of_ends.places /= 2;
+    aur_exact_report of_images = {0};
+    const aur_result result =
+        aur_weights_exact(order * count, images, &whole, order * count, found, &of_images, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+        weights[i] = 0.0;
+        for (size_t g = 0; g < order; ++g)
+            weights[i] += found[g * count + i];
+    }
+    of_images.points = count;
+    of_images.places = (of_images.places + order - 1) / order;
     if (result == AUR_OK && report != NULL)
-        *report = of_ends;
-    free(ends);
+        *report = of_images;
+    free(images);
     return result;
 }
 
-aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
-                             size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
-    aur_exact_options own = {.size = sizeof own};
-    aur_exact_options_init(AUR_DOMAIN_SPHERE, &own, NULL);
-    double lowest = -1.0;
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
-    const bool axes = own.domain == AUR_DOMAIN_AXES;
-    if (result == AUR_OK && axes && own.cap_degrees != 0.0)
-        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "a cap is for the sphere and the hemisphere");
-    if (result == AUR_OK && axes)
-        result = aur_check_capacity(count, capacity, error);
-    if (result == AUR_OK && axes)
-        return weigh_axes(count, xyz, &own, weights, report, error);
-    if (result == AUR_OK)
-        result = check_options(&own, &lowest, error);
-    if (result == AUR_OK)
-        result = check_points(count, xyz, &own, lowest, error);
-    if (result == AUR_OK)
-        result = aur_check_capacity(count, capacity, error);
-    if (result != AUR_OK)
-        return result;
+/* Weights that stay near to the options' or to equal ones, of points that have been checked. */
+static aur_result weigh(size_t count, const double *points, const aur_exact_options *o, double lowest,
+                        aur_exact_space *space, double *weights, aur_exact_report *report, aur_error *error) {
     double *const storage = calloc(6 * count, sizeof *storage);
-    const double **const order = malloc(count * sizeof *order);
+    place *const order = malloc(count * sizeof *order);
+    aur_result result = AUR_OK;
     if (storage == NULL || order == NULL) {
         result = aur_fail_memory(error);
     } else {
         double *const near = storage + 4 * count, *const found = near + count;
-        const aur_exact_system system = {.points = aur_polar_points_make(count, xyz, storage),
-                                         .places = share(count, xyz, &own, order, near),
-                                         .near = near,
-                                         .lowest = lowest,
-                                         .exponent = own.lobe.exponent,
-                                         .tolerance = own.tolerance > 0.0 ? own.tolerance
-                                                                          : AUR_EXACT_TOLERANCE_DEFAULT,
-                                         .threads = own.threads,
-                                         .progress = own.progress};
-        result = solve(&own, &system, xyz, found, report, error);
+        const aur_exact_system system = {
+            .points = space != NULL ? (aur_polar_points){.count = count}
+                                    : aur_polar_points_make(count, points, storage),
+            .space = space,
+            .places = share(count, space != NULL ? space->dimension : 3, points, o, order, near),
+            .near = near,
+            .lowest = lowest,
+            .exponent = o->lobe.exponent,
+            .tolerance = o->tolerance > 0.0 ? o->tolerance : AUR_EXACT_TOLERANCE_DEFAULT,
+            .threads = o->threads,
+            .progress = o->progress};
+        result = solve(o, &system, points, found, report, error);
         if (result == AUR_OK)
             memcpy(weights, found, count * sizeof *weights);
     }
     free(storage);
     free(order);
     return result;
+}
+
+static aur_result weigh_space(size_t count, const double *points, const aur_exact_options *o, double *weights,
+                              aur_exact_report *report, aur_error *error) {
+    aur_exact_space space;
+    aur_result result = check_degree(o, AUR_BASIS_DEGREE_MAX, error);
+    if (result == AUR_OK)
+        result = aur_exact_space_open(count, points, o, &space, error);
+    if (result != AUR_OK)
+        return result;
+    result = check_near(count, o, error);
+    if (result == AUR_OK)
+        result = weigh(count, space.points, o, -1.0, &space, weights, report, error);
+    aur_exact_space_release(&space);
+    return result;
+}
+
+/* Of axes, and with a point group. */
+static aur_result weigh_symmetric(size_t count, const double *xyz, const aur_exact_options *o,
+                                  double *weights, aur_exact_report *report, aur_error *error) {
+    static const aur_point_group ends = {
+        .order = 2, .elements = {{{1, 0, 0, 0, 1, 0, 0, 0, 1}}, {{-1, 0, 0, 0, -1, 0, 0, 0, -1}}}};
+    const bool axes = o->domain == AUR_DOMAIN_AXES;
+    if (o->cap_degrees != 0.0 || (!axes && o->domain != AUR_DOMAIN_SPHERE) || (axes && o->group != NULL))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        o->cap_degrees != 0.0
+                            ? "a cap is for the sphere and the hemisphere without a symmetry"
+                            : "a point group is for directions of the whole sphere");
+    const aur_point_group *const group = axes ? &ends : o->group;
+    if (group->order < 1 || group->order > AUR_POINT_GROUP_ORDER_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a point group has between 1 and %d elements, not %zu",
+                        AUR_POINT_GROUP_ORDER_MAX, group->order);
+    return weigh_orbits(count, xyz, o, group, weights, report, error);
+}
+
+aur_result aur_weights_exact(size_t count, const double *points, const aur_exact_options *options,
+                             size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
+    aur_exact_options own = {.size = sizeof own};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &own, NULL);
+    double lowest = -1.0;
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
+    if (result == AUR_OK)
+        result = aur_check_capacity(count, capacity, error);
+    if (result == AUR_OK && (own.domain == AUR_DOMAIN_AXES || own.group != NULL))
+        return weigh_symmetric(count, points, &own, weights, report, error);
+    if (result == AUR_OK && aur_exact_space_has(own.domain))
+        return weigh_space(count, points, &own, weights, report, error);
+    if (result == AUR_OK)
+        result = check_options(&own, &lowest, error);
+    if (result == AUR_OK)
+        result = check_points(count, points, &own, lowest, error);
+    return result == AUR_OK ? weigh(count, points, &own, lowest, NULL, weights, report, error) : result;
 }
 
 aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error) {

@@ -46,8 +46,18 @@ static double square(size_t count, const double *a, const double *b) {
 }
 
 static aur_result analyse(const gradients *g, const double *weights, double *coefficients, aur_error *error) {
+    if (g->system->space != NULL)
+        return aur_exact_space_analyse(g->system->space, g->size, weights, coefficients, error);
     return g->fast != NULL ? aur_fast_transform_analyse(g->fast, weights, coefficients, error)
                            : aur_transform_analyse(&g->transform, weights, coefficients, error);
+}
+
+static aur_result synthesise(const gradients *g, const double *coefficients, double *values,
+                             aur_error *error) {
+    if (g->system->space != NULL)
+        return aur_exact_space_synthesise(g->system->space, g->size, coefficients, values, error);
+    return g->fast != NULL ? aur_fast_transform_synthesise(g->fast, coefficients, values, error)
+                           : aur_transform_synthesise(&g->transform, coefficients, values, error);
 }
 
 /* rest = b - A w. */
@@ -76,9 +86,7 @@ static aur_result descend(gradients *g, double *weights, size_t *steps, aur_erro
         g->steps = *steps;
         if (aur_progress_stops(&progress, NULL, 0, 0))
             return aur_fail(error, AUR_ERROR_CANCELLED, "solving: cancelled");
-        aur_result result = g->fast != NULL
-                                ? aur_fast_transform_synthesise(g->fast, g->direction, g->t, error)
-                                : aur_transform_synthesise(&g->transform, g->direction, g->t, error);
+        aur_result result = synthesise(g, g->direction, g->t, error);
         for (size_t i = 0; i < system->points.count; ++i)
             g->t[i] *= system->near[i];
         if (result == AUR_OK)
@@ -122,11 +130,15 @@ static aur_result solve(gradients *g, double *weights, aur_exact_found *found, a
 /* The transforms to a degree, ready, and room for the steps. */
 static aur_result open_gradients(const aur_exact_system *system, size_t degree, aur_basis *basis,
                                  gradients *g, aur_error *error) {
-    const aur_result result = aur_basis_create(degree, system->lowest, system->exponent, basis, error);
+    aur_exact_space *const space = system->space;
+    *basis = (aur_basis){0};
+    const aur_result result = space != NULL
+                                  ? aur_exact_space_fill(space, degree, error)
+                                  : aur_basis_create(degree, system->lowest, system->exponent, basis, error);
     if (result != AUR_OK)
         return result;
-    const size_t size = aur_coefficient_count(degree),
-                 room = AUR_TRANSFORM_BANDS * aur_transform_room(degree);
+    const size_t size = space != NULL ? aur_exact_space_size(space, degree) : aur_coefficient_count(degree);
+    const size_t room = space != NULL ? 0 : AUR_TRANSFORM_BANDS * aur_transform_room(degree);
     *g = (gradients){.system = system,
                      .transform = {.basis = basis, .points = &system->points, .threads = system->threads},
                      .size = size,
@@ -153,7 +165,8 @@ aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, size
         return result;
     *found = (aur_exact_found){.degree = degree};
     g.limit = steps;
-    const bool fast = system->lowest == -1.0 && system->points.count >= FAST_POINTS && degree >= FAST_DEGREE;
+    const bool fast = system->space == NULL && system->lowest == -1.0 &&
+                      system->points.count >= FAST_POINTS && degree >= FAST_DEGREE;
     if (fast)
         result = aur_fast_transform_create(&basis, &system->points, system->threads, progress_of(&g), &g.fast,
                                            error);
@@ -178,6 +191,10 @@ aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, con
     free(g.storage);
     aur_basis_release(&basis);
     return result;
+}
+
+size_t aur_exact_functions(const aur_exact_system *system, size_t degree) {
+    return system->space != NULL ? aur_exact_space_size(system->space, degree) : (degree + 1) * (degree + 1);
 }
 
 bool aur_exact_factoring_stops(const aur_progress *progress, aur_exact_factoring *factoring, size_t at,

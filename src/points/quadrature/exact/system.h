@@ -6,10 +6,13 @@
 #include <aureole/sphere.h>
 
 #include "points/base/parallel.h"
+#include "points/quadrature/exact/space.h"
 #include "points/quadrature/exact/transform.h"
 
 typedef struct aur_exact_system {
     aur_polar_points points;
+    aur_exact_space
+        *space;         /* the functions, or NULL: polynomials on the sphere; the points' count alone holds */
     const double *near; /* of sum 1, not negative; points of weight 0 keep it */
     size_t places;      /* different ones, of points that have weight */
     double lowest, exponent;
@@ -17,6 +20,9 @@ typedef struct aur_exact_system {
     size_t threads;
     aur_progress progress;
 } aur_exact_system;
+
+/* The functions to a degree. */
+size_t aur_exact_functions(const aur_exact_system *system, size_t degree);
 
 /* Weights are exact when no function is integrated worse than this or the tolerance, the function's root mean
  * square being 1: far above rounding, far below what a missing degree costs. */

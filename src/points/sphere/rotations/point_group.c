@@ -131,3 +131,34 @@ aur_result aur_point_group_from_name(const char *name, aur_point_group *group, a
     generate(count, generators, group);
     return AUR_OK;
 }
+
+/* Whether an image stands in for a direction: it is nearer to the middle of the region, or as near and later
+ * in the order of coordinates. */
+static bool is_better(const double image[3], const double u[3]) {
+    static const double middle[3] = {0.6438467239, 0.0257675850, 0.7647219}, tie = 1e-12;
+    double ahead = aur_dot3(middle, image) - aur_dot3(middle, u);
+    for (size_t d = 0; d < 3 && fabs(ahead) <= tie; ++d)
+        ahead = image[d] - u[d];
+    return ahead > tie;
+}
+
+size_t aur_point_group_select(const aur_point_group *group, size_t count, double *xyz, double *weights) {
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const double *const u = xyz + 3 * i;
+        bool first = true;
+        size_t fixed = 1; /* elements that leave it where it is */
+        for (size_t g = 1; g < group->order && first; ++g) {
+            double image[3] = {u[0], u[1], u[2]};
+            aur_rotation_apply(&group->elements[g], 1, image);
+            first = !is_better(image, u);
+            fixed += fabs(image[0] - u[0]) + fabs(image[1] - u[1]) + fabs(image[2] - u[2]) < 1e-9;
+        }
+        if (!first)
+            continue;
+        if (weights != NULL)
+            weights[kept] = weights[i] * (double)group->order / (double)fixed;
+        memmove(xyz + 3 * kept++, u, 3 * sizeof *u);
+    }
+    return kept;
+}

@@ -114,3 +114,19 @@ aur_result cli_load_points(const char *text, const cli_points *from, size_t coun
         view->weights = NULL;
     return AUR_OK;
 }
+
+aur_result cli_parse_symmetry(const char *text, aur_domain domain, cli_symmetry *symmetry, aur_error *error) {
+    *symmetry = (cli_symmetry){.given = text != NULL};
+    if (text == NULL)
+        return AUR_OK;
+    if (domain == AUR_DOMAIN_SPHERE)
+        return aur_point_group_from_name(text, &symmetry->group, error);
+    if (domain != AUR_DOMAIN_ROTATIONS)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "--symmetry: needs --domain sphere or rotations");
+    char crystal[16];
+    const char *const colon = strchr(text, ':');
+    aur_format(crystal, sizeof crystal, "%.*s", colon != NULL ? (int)(colon - text) : 15, text);
+    const aur_result result = aur_symmetry_from_name(crystal, &symmetry->crystal, error);
+    return result != AUR_OK || colon == NULL ? result
+                                             : aur_symmetry_from_name(colon + 1, &symmetry->sample, error);
+}

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <aureole/pointset.h>
-#include <aureole/sphere.h>
+#include <aureole/rotations.h>
+#include <aureole/symmetry.h>
 
 #include "program/cli/options.h"
 
@@ -29,6 +30,16 @@ void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warn
  * equal, until aur_points_destroy. */
 aur_result cli_load_points(const char *text, const cli_points *from, size_t count, aur_points **points,
                            aur_points_view *view, aur_error *error);
+
+/* What --symmetry names: of directions a point group, of rotations the crystal's group and the sample's. */
+typedef struct cli_symmetry {
+    bool given;
+    aur_point_group group;
+    aur_symmetry crystal, sample;
+} cli_symmetry;
+
+/* `text` NULL: none. Errors: NAME; UNSUPPORTED for a domain without symmetries. */
+aur_result cli_parse_symmetry(const char *text, aur_domain domain, cli_symmetry *symmetry, aur_error *error);
 
 /* Pictures of points: the square, the disk, and the sphere from the side and from the pole. */
 

@@ -1,5 +1,4 @@
 /* aureole points: writes points of any set on any domain. */
-#include <aureole/rotations.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,8 +14,8 @@ typedef struct points_command {
     const char *path;
     const char *warp; /* a picture's path */
     unsigned format;
-    aur_symmetry symmetry;
-    bool symmetric, matrices; /* of rotations */
+    const char *symmetry;
+    bool matrices; /* of rotations */
     cli_common common;
     cli_points from;
     aur_points_request points;
@@ -45,10 +44,10 @@ static const cli_option options[] = {
     {CLI_TEXT(points_command, warp, "warp", "IMAGE", NULL,
               "move points of the square so that they follow the picture's brightness"),
      .content = "file"},
-    {CLI_CHOICE(points_command, symmetry, "symmetry", "GROUP", "none",
-                "only the rotations in the fundamental zone of a crystal's symmetry, 432 for a cubic one; 1 "
-                "makes w positive"),
-     .key.computed = true, .name = aur_symmetry_name},
+    {CLI_TEXT(
+        points_command, symmetry, "symmetry", "GROUP", NULL,
+        "only points in the fundamental region: of rotations for a crystal's group (432 for a cubic one; 1 "
+        "makes w positive), of directions for a point group (D2h, Oh)")},
     {CLI_FLAG(points_command, matrices, "matrices", "write rotations as matrices, row by row")},
     {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
                 "how points are written; svg, pdf, png and tex are pictures"),
@@ -91,13 +90,16 @@ static bool complete(const cli_call *call) {
         wanted->from.options.domain = AUR_DOMAIN_HEMISPHERE;
         domain_given = true;
     }
-    wanted->symmetric = cli_given(call, "symmetry") != NULL;
     wanted->points.natural_domain = !domain_given;
     if (cli_given(call, "map") != NULL && (!domain_given || wanted->from.options.domain <= AUR_DOMAIN_CUBE)) {
         cli_bad_usage("--map: needs --domain disk, hemisphere, sphere or axes");
         return false;
     }
     return choose_format(wanted, cli_given(call, "format") != NULL || cli_given(call, "json") != NULL);
+}
+
+static int out_of_memory(void) {
+    return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
 }
 
 /* Moves the points into an array of their own, which the caller frees. */
@@ -113,42 +115,58 @@ static int warp(const char *path, aur_points_view *points, double **warped) {
         aur_density_image_warp(density, points->coordinates + 2 * i, *warped + 2 * i);
     aur_density_image_destroy(density);
     points->coordinates = *warped;
-    return *warped != NULL ? CLI_SUCCESS
-                           : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    return *warped != NULL ? CLI_SUCCESS : out_of_memory();
 }
 
-/* Rotations into an array of their own, which the caller frees: those in the fundamental zone, as matrices
- * where these are wanted. */
-static int change_rotations(const points_command *wanted, aur_points_view *points, double **changed) {
-    if (!wanted->symmetric && !wanted->matrices)
+/* Weights of whole orbits add up to 1 where the set has the symmetry. */
+static int check_sum(const aur_points_view *points) {
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; ++i)
+        sum += points->weights[i];
+    return fabs(sum - 1.0) < 1e-9
+               ? CLI_SUCCESS
+               : cli_bad_usage("--symmetry: the set has weights and not this symmetry: those of the "
+                               "fundamental region add up to %.6g",
+                               sum);
+}
+
+/* Points in the fundamental region, and rotations as matrices, into an array of their own, which the caller
+ * frees. */
+static int change_points(const points_command *wanted, aur_points_view *points, double **changed) {
+    if (wanted->symmetry == NULL && !wanted->matrices)
         return CLI_SUCCESS;
-    if (points->domain != AUR_DOMAIN_ROTATIONS)
-        return cli_bad_usage("--%s: needs --domain rotations", wanted->matrices ? "matrices" : "symmetry");
-    if (points->weights != NULL && wanted->symmetric)
+    cli_symmetry symmetry;
+    aur_error error = {0};
+    if (cli_parse_symmetry(wanted->symmetry, points->domain, &symmetry, &error) != AUR_OK)
+        return cli_fail(&error);
+    const size_t count = points->count, from = points->dimension;
+    if (wanted->matrices && points->domain != AUR_DOMAIN_ROTATIONS)
+        return cli_bad_usage("--matrices: needs --domain rotations");
+    if (points->weights != NULL && symmetry.given && from != 3)
         return cli_bad_usage("--symmetry: the rotations have weights, which would no longer add up to 1");
-    const size_t dimension = wanted->matrices ? 9 : 4;
-    *changed = malloc(9 * points->count * sizeof **changed);
-    double *const quaternions = malloc(4 * points->count * sizeof *quaternions);
-    const bool good = *changed != NULL && quaternions != NULL;
-    for (size_t i = 0; i < 4 * points->count && good; ++i)
-        quaternions[i] = points->coordinates[i / 4 * points->stride + i % 4];
-    if (good && wanted->symmetric)
-        points->count = aur_symmetry_select(wanted->symmetry, points->count, quaternions);
-    for (size_t i = 0; i < points->count && good; ++i) {
-        aur_rotation rotation;
-        aur_rotation_from_quaternion(quaternions + 4 * i, &rotation);
-        memcpy(*changed + dimension * i, wanted->matrices ? rotation.m : quaternions + 4 * i,
-               dimension * sizeof **changed);
-    }
-    free(quaternions);
-    if (!good)
-        return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    *changed = malloc((from + 10) * count * sizeof **changed);
+    if (*changed == NULL)
+        return out_of_memory();
+    double *const kept = *changed + (wanted->matrices ? 9 * count : 0);
+    double *const weights = points->weights != NULL ? *changed + (from + 9) * count : NULL;
+    for (size_t i = 0; i < from * count; ++i)
+        kept[i] = points->coordinates[i / from * points->stride + i % from];
+    if (weights != NULL)
+        memcpy(weights, points->weights, count * sizeof *weights);
+    if (symmetry.given)
+        points->count = from == 3 ? aur_point_group_select(&symmetry.group, count, kept, weights)
+                                  : aur_symmetry_select(symmetry.crystal, count, kept);
     if (points->count == 0)
-        return cli_bad_usage(
-            "--symmetry: none of the rotations is in the fundamental zone: take a larger -n");
+        return cli_bad_usage("--symmetry: no point is in the fundamental region: take a larger -n");
+    for (size_t i = 0; i < points->count && wanted->matrices; ++i) {
+        aur_rotation rotation;
+        aur_rotation_from_quaternion(kept + 4 * i, &rotation);
+        memcpy(*changed + 9 * i, rotation.m, sizeof rotation.m);
+    }
     points->coordinates = *changed;
-    points->dimension = points->stride = dimension;
-    return CLI_SUCCESS;
+    points->weights = weights;
+    points->dimension = points->stride = wanted->matrices ? 9 : from;
+    return weights != NULL && symmetry.given ? check_sum(points) : CLI_SUCCESS;
 }
 
 static int write_points(const char *set, points_command *wanted, const aur_points_view *points) {
@@ -205,7 +223,7 @@ static int run(const cli_call *call) {
     double *warped = NULL;
     int status = wanted->warp != NULL ? warp(wanted->warp, &view, &warped) : CLI_SUCCESS;
     if (status == CLI_SUCCESS && wanted->warp == NULL)
-        status = change_rotations(wanted, &view, &warped);
+        status = change_points(wanted, &view, &warped);
     if (status == CLI_SUCCESS)
         status = write_points(set, wanted, &view);
     free(warped);

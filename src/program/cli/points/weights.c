@@ -49,6 +49,10 @@ static const cli_option options[] = {
     {CLI_REAL(cli_weights_arguments, tolerance, "tolerance", "E", AUR_EXACT_TOLERANCE_MIN,
               AUR_EXACT_TOLERANCE_MAX, "1e-14",
               "exact weights of more than 2048 samples: the largest error of a polynomial of mean square 1")},
+    {CLI_TEXT(
+        cli_weights_arguments, symmetry, "symmetry", "GROUP", NULL,
+        "exact weights for functions with a symmetry: of directions a point group (D2h, Oh), of rotations "
+        "CRYSTAL[:SAMPLE] (432:222)")},
     {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
     {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
               "added to the diagonal"),
@@ -105,9 +109,10 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
     const bool exact = arguments->method == CLI_METHOD_EXACT;
     if (two && (exact || arguments->method == CLI_METHOD_VORONOI))
         return "--lobe2: exact weights and areas of cells are for one lobe";
-    if (!exact && (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
-                   arguments->levels.count > 0 || cli_given(call, "tolerance") != NULL))
-        return "--degree, --levels, --negative, --near and --tolerance are for --method exact";
+    if (!exact &&
+        (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
+         arguments->levels.count > 0 || cli_given(call, "tolerance") != NULL || arguments->symmetry != NULL))
+        return "--degree, --levels, --negative, --near, --symmetry and --tolerance are for --method exact";
     if (!exact && arguments->method != CLI_METHOD_VORONOI && arguments->points.options.cap_degrees > 0.0)
         return "--cap: is for --method exact and voronoi";
     if (arguments->levels.count > CLI_LEVEL_LIMIT)
@@ -129,15 +134,14 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
             points->options.cap_degrees > 90.0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE;
     arguments->domain_follows = !points->domain_given && !arguments->two && cli_given(call, "lobe") == NULL &&
                                 points->options.cap_degrees == 0.0;
-    if (points->options.domain != AUR_DOMAIN_HEMISPHERE && points->options.domain != AUR_DOMAIN_SPHERE &&
-        points->options.domain != AUR_DOMAIN_AXES)
-        return cli_bad_usage("--domain: must be one of hemisphere, sphere, axes, not '%s'",
-                             aur_domain_name(points->options.domain));
     if (cli_given(call, "size") == NULL && !cli_has_size(arguments->source))
         return cli_bad_usage("weights: -n is missing for the set '%s' (there is no such file)",
                              arguments->source);
     if (cli_given(call, "method") == NULL)
-        arguments->method = arguments->two ? CLI_METHOD_OSWA : CLI_METHOD_OSW;
+        arguments->method = arguments->two ? CLI_METHOD_OSWA
+                            : cli_has_directions(points->options.domain) && arguments->symmetry == NULL
+                                ? CLI_METHOD_OSW
+                                : CLI_METHOD_EXACT;
     if (cli_given(call, "degree") == NULL)
         arguments->degree = AUR_DEGREE_LARGEST;
     const char *const rule = broken_rule(call, arguments);
@@ -205,9 +209,10 @@ static int print_report(const cli_weights_arguments *arguments, const cli_weight
 
 static int write_points(const cli_weights_arguments *arguments, const cli_weights_result *result) {
     aur_error error = {0};
-    return cli_status(aur_weights_write(arguments->path != NULL ? arguments->path : "-", result->domain,
-                                        result->count, result->xyz, result->lobe_count, result->weights,
-                                        &error),
+    const aur_points_view points =
+        aur_points_view_of(result->domain, result->count, result->dimension, result->xyz);
+    return cli_status(aur_weights_write_points(arguments->path != NULL ? arguments->path : "-", &points,
+                                               result->lobe_count, result->weights, &error),
                       &error);
 }
 
@@ -261,13 +266,15 @@ const cli_command cli_command_weights = {
     .notes =
         "Points are directions of the hemisphere (of the sphere, where the lobe is uniform), and the lobe is "
         "what the integrand is multiplied by: the points of a set follow it. Weights are for densities of "
-        "integral 1: equal ones are 1/N. They are worth most for random, irregular and partial sets. With "
+        "integral 1: equal ones are 1/N. Square, cube, disk and rotations have exact weights alone. They are "
+        "worth most for random, irregular and partial sets. With "
         "--lookup a set and its options must be those that the table has been built from; they may be left "
         "out.",
     .operands = {{"FILE|SET", "the samples", .optional = true, .content = "file or set"}},
     .groups = {{options, 0},
                {cli_points_options, offsetof(cli_weights_arguments, points)},
                {cli_cap_option, offsetof(cli_weights_arguments, points)},
+               {cli_dimension_option, offsetof(cli_weights_arguments, points)},
                {cli_format_option, offsetof(cli_weights_arguments, common)},
                {cli_threads_option, offsetof(cli_weights_arguments, common)},
                {cli_quiet_option, offsetof(cli_weights_arguments, common)},

@@ -37,6 +37,7 @@ typedef struct cli_weights_arguments {
     bool near, negative;
     double tolerance; /* of exact weights */
     cli_list levels;  /* of nested exact weights */
+    const char *symmetry;
 } cli_weights_arguments;
 
 enum { CLI_LEVEL_LIMIT = 32 };
@@ -45,7 +46,8 @@ enum { CLI_LEVEL_LIMIT = 32 };
 typedef struct cli_weights_result {
     size_t count;      /* samples */
     size_t lobe_count; /* or levels of exact weights */
-    double *xyz;       /* 3 * count */
+    size_t dimension;  /* of a sample: 3 for directions */
+    double *xyz;       /* dimension * count */
     double *weights;   /* lobe_count * count */
     aur_domain domain; /* of the samples: a file's own unless --domain, --lobe or --cap says it */
     double *near;      /* of the file, where they are asked for and there; else NULL */
@@ -58,6 +60,10 @@ typedef struct cli_weights_result {
 
 /* The two patterns that the options ask for; of one lobe, the pattern of a ggx lobe alone. */
 aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments);
+
+/* Whether samples are directions of the sphere, the hemisphere or axes: other domains have exact weights
+ * alone. */
+bool cli_has_directions(aur_domain domain);
 
 /* Each returns the exit status, after printing what went wrong. */
 int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result);

@@ -18,6 +18,10 @@ typedef struct weights_job {
 
 static const double pi = 3.14159265358979323846;
 
+bool cli_has_directions(aur_domain domain) {
+    return domain == AUR_DOMAIN_HEMISPHERE || domain == AUR_DOMAIN_SPHERE || domain == AUR_DOMAIN_AXES;
+}
+
 static bool from_file(const weights_job *task) {
     return cli_has_size(task->arguments->source);
 }
@@ -66,21 +70,20 @@ static aur_result load_one(weights_job *task, aur_error *error) {
         cli_load_points(arguments->source, &arguments->points, arguments->size, &points, &view, error);
     if (result != AUR_OK)
         return result;
-    double *const xyz = view.dimension == 3 ? malloc(3 * view.count * sizeof *xyz) : NULL;
-    if (xyz != NULL)
-        memcpy(xyz, view.coordinates, 3 * view.count * sizeof *xyz);
+    const size_t row = view.dimension * sizeof *view.coordinates;
+    double *const xyz = malloc(view.count * row);
+    for (size_t i = 0; i < view.count && xyz != NULL; ++i)
+        memcpy(xyz + i * view.dimension, view.coordinates + i * view.stride, row);
     if (arguments->near && view.weights != NULL) {
         task->result->near = malloc(view.count * sizeof *view.weights);
         if (task->result->near != NULL)
             memcpy(task->result->near, view.weights, view.count * sizeof *view.weights);
     }
     aur_points_destroy(points);
-    if (view.dimension != 3)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "weights are for directions: the file must have the columns x,y,z");
     if (xyz == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     task->result->count = view.count;
+    task->result->dimension = view.dimension;
     task->result->xyz = xyz;
     const aur_directions_options *const options = &arguments->points.options;
     aur_domain *const domain = &task->result->domain;
@@ -92,6 +95,9 @@ static aur_result load_one(weights_job *task, aur_error *error) {
                         "%s has axes: lobes and caps are for the hemisphere: --domain hemisphere takes its "
                         "points for that",
                         arguments->source);
+    if (cli_has_directions(*domain) && view.dimension != 3)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "lobes and caps are for directions: the file must have the columns x,y,z");
     for (size_t i = 0; *domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
         if (xyz[3 * i + 2] < -1e-9 && options->lobe.kind != AUR_LOBE_GGX)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -125,6 +131,7 @@ static aur_result load_two(weights_job *task, aur_error *error) {
     if (result != AUR_OK)
         return result;
     task->result->count = aur_oswa_size(oswa);
+    task->result->dimension = 3;
     task->result->xyz = malloc(3 * task->result->count * sizeof(double));
     if (task->result->xyz == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
@@ -281,6 +288,13 @@ static aur_result compute(weights_job *task, aur_error *error) {
         task->arguments->method != CLI_METHOD_VORONOI)
         made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "weights of axes are exact ones or areas of cells: give --method exact or voronoi");
+    const bool directions = cli_has_directions(result->domain);
+    if (made == AUR_OK && !directions && !exact)
+        made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "weights on the domain '%s' are exact ones: give --method exact",
+                        aur_domain_name(result->domain));
+    if (made == AUR_OK && !directions && task->arguments->plot != NULL)
+        made = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--plot: draws directions");
     if (made == AUR_OK && !exact && result->domain != AUR_DOMAIN_AXES)
         made = prepare_lobes(task, error);
     if (made != AUR_OK)

@@ -17,6 +17,14 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
     options.near = result->near;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);
+    options.dimension = result->dimension;
+    cli_symmetry symmetry;
+    const aur_result parsed = cli_parse_symmetry(arguments->symmetry, result->domain, &symmetry, error);
+    if (parsed != AUR_OK)
+        return parsed;
+    options.group = symmetry.given && result->domain == AUR_DOMAIN_SPHERE ? &symmetry.group : NULL;
+    options.crystal = symmetry.crystal;
+    options.sample = symmetry.sample;
     size_t counts[CLI_LEVEL_LIMIT] = {result->count};
     for (size_t k = 0; k < arguments->levels.count; ++k) {
         const char *const text = cli_list_at(&arguments->levels, k);
