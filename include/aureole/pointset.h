@@ -1,6 +1,8 @@
 /* Point sets on the unit cube [0,1)^d, their scramblings, and files of points.
  *
- * A set is named by one text everywhere: NAME[:key=value[,key=value...]], or file:PATH. Points are random
+ * A set is named by one text everywhere: NAME[:key=value[,key=value...]], file:PATH, file:NAME-%d.csv or
+ * file:FOLDER with a file for each number of points (%d in the name, or the last number of the names in the
+ * folder), or callback:NAME for what aur_set_register was given. Points are random
  * access: point i is computed from i, so any part of a set can be asked for in any order from any thread. */
 #ifndef AUREOLE_POINTSET_H
 #define AUREOLE_POINTSET_H
@@ -101,6 +103,29 @@ typedef struct aur_pointset_options {
 /* A set of two dimensions that is not scrambled. */
 AUR_API aur_result aur_pointset_options_init(uint64_t count, aur_pointset_options *options, aur_error *error)
     AUR_NONNULL(2);
+
+/* Points that a program makes itself, as the set "callback:NAME" for all that takes a SET: measures, weights,
+ * integrators of scenes, the lab. Experimental. */
+typedef struct aur_set_callback {
+    size_t size;       /* of the caller's struct, so that it can grow */
+    const char *name;  /* letters, digits, '-', '_' and '.'; copied */
+    aur_domain domain; /* where the points are: those of the SQUARE are mapped as other sets are */
+    bool weighted;     /* the function also writes weights; they should add up to 1 */
+    void *user;        /* first argument of the function */
+    /* Writes `count` >= 1 points one after another into points[count * dimension], which is checked as a file
+     * is, and weights[count] where weighted (else NULL). dimension is 2 on square and disk, 3 for directions,
+     * 4 for rotations (w,x,y,z), and what is asked for on the cube. Called at any time, also more than once,
+     * by any thread, several at once: the same arguments must give the same points. What it returns, other
+     * than AUR_OK, ends the work; it should fill *error, which is never NULL here. */
+    aur_result (*generate)(void *user, uint64_t count, size_t dimension, double *points, double *weights,
+                           aur_error *error);
+} aur_set_callback;
+
+/* Registers the set for the whole process, in place of an earlier one of its name; `generate` NULL removes
+ * that. Sets that were made before keep their points. May be called by any thread. Errors: ARGUMENT for a
+ * name or domain, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_set_register(const aur_set_callback *callback, aur_error *error)
+    AUR_NONNULL(1);
 
 /* Makes the set that `set` names ready. Errors: NAME for an unknown set or key, FORMAT, ARGUMENT for a count
  * or dimension that the set does not have, UNSUPPORTED for a scrambling that has no meaning there, MEMORY. */

@@ -3,17 +3,27 @@
 #include <math.h>
 #include <string.h>
 
+static bool can_make(const char *set, size_t count, aur_scramble scramble) {
+    aur_directions_options options = {.size = sizeof options};
+    aur_directions_options_init(count, AUR_DOMAIN_HEMISPHERE, &options, NULL);
+    options.scramble = scramble;
+    aur_directions *directions;
+    const aur_result result = aur_directions_create(set, &options, &directions, NULL);
+    aur_directions_destroy(directions);
+    return result == AUR_OK;
+}
+
 aur_scramble lab_scrambling(const char *set) {
     if (strncmp(set, "random", 6) == 0)
         return AUR_SCRAMBLE_NONE;
-    for (size_t i = 0; i < aur_set_count(); ++i) {
-        const aur_set_description *const description = aur_set_at(i);
-        const size_t length = strlen(description->row.name);
-        if (strncmp(set, description->row.name, length) == 0 && (set[length] == '\0' || set[length] == ':'))
-            return (description->domains >> AUR_DOMAIN_SQUARE & 1u) != 0 ? AUR_SCRAMBLE_DIGIT
-                                                                         : AUR_SCRAMBLE_ROTATE;
-    }
-    return AUR_SCRAMBLE_ROTATE;
+    /* A file has its number of points, and files of several sizes need not have these. */
+    static const size_t counts[] = {0, 64, 128, 16, 32, 256, 512, 1024, 2048, 4096, 8, 4};
+    size_t i = 0;
+    while (i + 1 < sizeof counts / sizeof counts[0] && !can_make(set, counts[i], AUR_SCRAMBLE_NONE))
+        ++i;
+    return can_make(set, counts[i], AUR_SCRAMBLE_DIGIT)   ? AUR_SCRAMBLE_DIGIT
+           : can_make(set, counts[i], AUR_SCRAMBLE_SHIFT) ? AUR_SCRAMBLE_SHIFT
+                                                          : AUR_SCRAMBLE_ROTATE;
 }
 
 aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error) {
@@ -26,10 +36,6 @@ aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur
                                       .seed = wanted->seed};
     aur_directions *directions;
     aur_result result = aur_directions_create(wanted->set, &options, &directions, error);
-    if (result != AUR_OK && options.scramble == AUR_SCRAMBLE_DIGIT) {
-        options.scramble = AUR_SCRAMBLE_SHIFT; /* lattices and files have no digits */
-        result = aur_directions_create(wanted->set, &options, &directions, error);
-    }
     if (result != AUR_OK)
         return result;
     result = aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights, NULL);

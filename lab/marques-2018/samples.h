@@ -14,8 +14,8 @@ typedef struct lab_samples {
     uint64_t seed; /* of random sets and of the scrambling */
 } lab_samples;
 
-/* Digit scrambling for sets of the square that know it, a rotation for sets of the sphere, nothing for random
- * ones. */
+/* Digit scrambling for sets of the square that take it, else a shift (lattices, files of the square), a
+ * rotation for directions, nothing for random points. */
 aur_scramble lab_scrambling(const char *set);
 
 /* Directions into xyz[3 * count] and weights[count] (or NULL). */

@@ -36,6 +36,21 @@ void aur_points_warn_of_prefix(const aur_points_view *points, uint64_t used, con
 /* Warns where nothing but the numbers said what domain the points of a file are of. */
 void aur_points_warn_of_guess(const aur_points_view *points, const char *path, const aur_warnings *warnings);
 
+/* The sets of the user: file:PATH, a file for each size (file:NAME-%d.csv, file:FOLDER), callback:NAME. */
+typedef struct aur_user_request {
+    const char *set;
+    uint64_t count;           /* of the set; 0: all points of file:PATH, which the other sets refuse */
+    size_t dimension;         /* of a callback's cube; 0: 2 */
+    const aur_domain *domain; /* where the points must be, as in aur_points_read; or NULL */
+} aur_user_request;
+
+/* Whether a SET's text is one of them. */
+bool aur_set_is_user(const char *set);
+/* Makes the points of the set; file:PATH has all of its points, the others have `count`. Errors: those of
+ * aur_points_read, NAME for a callback that is not registered, ARGUMENT where a count is needed, FORMAT for a
+ * file with another number of points than its name says. */
+aur_result aur_user_points(const aur_user_request *request, aur_points **points, aur_error *error);
+
 static inline const double *aur_point_at(const aur_points_view *points, size_t index) {
     return points->coordinates + index * points->stride;
 }

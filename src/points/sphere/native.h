@@ -68,8 +68,6 @@ aur_result aur_native_open(const aur_native_set *native, const char *set, const 
                            void **data, aur_error *error);
 /* AUR_OK if a SET's text names a set of either kind, else NAME with a suggestion. */
 aur_result aur_set_check_name(const char *set, aur_error *error);
-/* Whether a SET's text is file:PATH, whose path starts at set + 5. */
-bool aur_set_is_file(const char *set);
 /* Whether the points of a rule are not all worth the same. */
 AUR_INTERNAL bool aur_directions_weighted(const aur_directions *directions);
 

@@ -163,6 +163,7 @@ aur_result lab_forgive(lab_run *run, const char *set, aur_result result, const a
         return result;
     while (run->cells > 0)
         lab_text(run, NULL);
-    lab_note(run, "%s left out: %s", set, error->message);
+    lab_note(run, "%s left out: %s%s%s", set, error->file, error->file[0] != '\0' ? ": " : "",
+             error->message);
     return AUR_OK;
 }

@@ -87,6 +87,22 @@ static aur_result begin(lab_run *run, aur_error *error) {
     return AUR_OK;
 }
 
+/* A file is compared at other sizes than its own by its first points, which says nothing of what it is at
+ * those. */
+static void note_prefixes(lab_run *run) {
+    const char *const set = run->options.set;
+    aur_points *points;
+    if (set == NULL || strncmp(set, "file:", 5) != 0 || run->experiment->takes_no_set != NULL ||
+        aur_points_read(set + 5, NULL, &points, NULL) != AUR_OK)
+        return;
+    lab_note(
+        run,
+        "%s is one file of %zu points: at smaller sizes its first points are compared, which need not be "
+        "as even as a set of that size (file:NAME-%%d.csv or a folder takes a file for each size)",
+        set, aur_points_get_view(points)->count);
+    aur_points_destroy(points);
+}
+
 static void note_verdicts(lab_run *run) {
     const lab_experiment *const of = run->experiment;
     const size_t *const v = run->result->verdicts;
@@ -155,6 +171,8 @@ aur_result lab_run_experiment(const lab_experiment *experiment, const lab_option
         outcome = experiment->run(&run, error);
     if (outcome == AUR_OK && ready)
         note_verdicts(&run);
+    if (outcome == AUR_OK && ready)
+        note_prefixes(&run);
     const bool noted = finish(run.notes);
     if (outcome == AUR_OK && ready && noted)
         outcome = save_all(&run, error);

@@ -28,6 +28,7 @@ static aur_result name_pattern(rule_maker *maker, aur_error *error) {
                                                .optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL,
                                                .smoothness = p->smoothness,
                                                .rotations = p->rotations,
+                                               .weighted = p->weights == AUR_WEIGHTS_RATIO,
                                                .seed = aur_hash2(maker->context->seed, p->pattern_seed),
                                                .warnings = maker->context->warnings};
     return aur_gather_rule_options_name(&maker->pattern, "finalgather", p->map, p->scramble, error);

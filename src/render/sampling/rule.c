@@ -37,35 +37,47 @@ static aur_vector warp(double x, double y, double z, double exponent) {
     return (aur_vector){(float)(x * scale), (float)(y * scale), (float)warped};
 }
 
-/* The points of the set: three coordinates a direction of the hemisphere, or two a point of the square. */
-static aur_result find_points(const aur_gather_rule_options *options, bool on_square, double *points,
-                              aur_error *error) {
+/* The directions, and the weights of a set that has them. */
+static aur_result find_directions(const aur_gather_rule_options *options, double *xyz, double *weights,
+                                  aur_error *error) {
     const size_t count = options->count;
-    aur_directions *directions = NULL;
-    aur_pointset *square = NULL;
     const aur_directions_options wanted = {.size = sizeof wanted,
                                            .count = count,
                                            .domain = AUR_DOMAIN_HEMISPHERE,
                                            .map = options->map,
                                            .seed = options->set_seed,
                                            .warnings = options->warnings};
-    const aur_pointset_options wanted_square = {.size = sizeof wanted_square,
-                                                .count = count,
-                                                .dimension = 2,
-                                                .seed = options->set_seed,
-                                                .warnings = options->warnings};
-    aur_result result = on_square ? aur_pointset_create(options->set, &wanted_square, &square, error)
-                                  : aur_directions_create(options->set, &wanted, &directions, error);
-    if (result == AUR_OK && (on_square ? options->map == AUR_MAP_POLAR : aur_directions_weighted(directions)))
-        result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                          "the directions of '%s' by the map '%s' have weights, which patterns do not use: a "
-                          "file must be without the column w, and the map another than polar",
-                          options->set, aur_map_name(options->map));
+    aur_directions *directions = NULL;
+    aur_result result = aur_directions_create(options->set, &wanted, &directions, error);
+    if (result == AUR_OK && !options->weighted && aur_directions_weighted(directions))
+        result =
+            aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                     "the directions of '%s' by the map '%s' have weights, which are used by finalgather "
+                     "with weights=ratio only: the column w, or the map polar, must be left out here",
+                     options->set, aur_map_name(options->map));
     if (result == AUR_OK)
-        result = on_square ? aur_pointset_points(square, 0, count, 2 * count, points, error)
-                           : aur_directions_points(directions, 0, count, 3 * count, points, NULL, error);
-    aur_pointset_destroy(square);
+        result = aur_directions_points(directions, 0, count, 3 * count, xyz, weights, error);
     aur_directions_destroy(directions);
+    return result;
+}
+
+/* Points of the square, two coordinates each. */
+static aur_result find_square(const aur_gather_rule_options *options, double *points, aur_error *error) {
+    const size_t count = options->count;
+    const aur_pointset_options wanted = {.size = sizeof wanted,
+                                         .count = count,
+                                         .dimension = 2,
+                                         .seed = options->set_seed,
+                                         .warnings = options->warnings};
+    if (options->map == AUR_MAP_POLAR)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "the map 'polar' has weights, which patterns scrambled on the square do not use: "
+                        "expected scramble=rotate or another map");
+    aur_pointset *square = NULL;
+    aur_result result = aur_pointset_create(options->set, &wanted, &square, error);
+    if (result == AUR_OK)
+        result = aur_pointset_points(square, 0, count, 2 * count, points, error);
+    aur_pointset_destroy(square);
     return result;
 }
 
@@ -78,10 +90,12 @@ static void set_direction(aur_gather_rule *rule, size_t index, aur_vector direct
 /* The words of the square's points, or the directions. */
 static aur_result fill(const aur_gather_rule_options *options, aur_gather_rule *rule, aur_error *error) {
     const bool on_square = rule->square != NULL;
-    double *const points = malloc(3 * rule->count * sizeof *points);
+    double *const points = malloc(4 * rule->count * sizeof *points), *const weights =
+                                                                         points + 3 * rule->count;
     if (points == NULL)
         return aur_fail_memory(error);
-    const aur_result result = find_points(options, on_square, points, error);
+    const aur_result result =
+        on_square ? find_square(options, points, error) : find_directions(options, points, weights, error);
     for (size_t i = 0; i < rule->count && result == AUR_OK; ++i) {
         const double *const at = points + (on_square ? 2 : 3) * i;
         if (on_square)
@@ -89,6 +103,8 @@ static aur_result fill(const aur_gather_rule_options *options, aur_gather_rule *
                 rule->square[i][k] = (uint32_t)(at[k] * 0x1p32);
         else
             set_direction(rule, i, warp((float)at[0], (float)at[1], (float)at[2], rule->drawn_exponent));
+        if (!on_square)
+            rule->weights[i] = (float)(weights[i] * (double)rule->count);
     }
     free(points);
     return result;
@@ -218,12 +234,14 @@ aur_result aur_gather_rule_create(const aur_gather_rule_options *options, double
         aur_gather_rule_release(rule);
         return result;
     }
+    const bool on_square = rule->square != NULL; /* which prepared scramblings do away with */
     if (rule->nested)
         prepare_nested(rule);
     else
         prepare_rotations(options->seed, rule);
     for (size_t i = 0; i < rule->copies * rule->count; ++i) {
-        rule->weights[i] = weight_at(rule, rule->z[i]);
+        const float factor = on_square || rule->nested ? 1.0f : rule->weights[i];
+        rule->weights[i] = factor * weight_at(rule, rule->z[i]);
         rule->densities[i] = aur_gather_rule_density(rule, rule->z[i]);
     }
     return AUR_OK;

@@ -24,6 +24,10 @@ typedef struct aur_gather_rule_options {
     size_t rotations;  /* so many randomisations, prepared once; 0: a new one at every shading point */
     uint64_t seed;     /* of the prepared randomisations */
     uint64_t set_seed; /* of sets that are random themselves */
+    /* The weights of the directions, such as a file's, are factors of the rule's; without it they are
+     * refused.
+     */
+    bool weighted;
     aur_warnings warnings;
 } aur_gather_rule_options;
 

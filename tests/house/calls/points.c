@@ -46,6 +46,8 @@ static void names(void) {
 }
 
 static void prepared_sets(void) {
+    const aur_set_callback callback = {.size = sizeof callback, .name = "none"};
+    accept(aur_set_register(&callback, &error), &error);
     aur_pointset_options options = {.size = sizeof options};
     aur_pointset_options_init(COUNT, &options, NULL);
     aur_pointset *set = NULL;

@@ -1,4 +1,5 @@
-/* A user's own points as a set: file:PATH, CSV or NPY, points of the square or the cube. Sets have no
+/* A user's own points as a set: file:PATH, CSV or NPY, points of the square or the cube, and what
+ * user_points.c has beside it. Sets have no
  * weights: a file with weights is refused. */
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +7,7 @@
 #include "points/pointset/points.h"
 #include "points/pointset/set.h"
 
-/* What follows "file:" is the path as it stands. */
+/* The whole text of the set: file:PATH or callback:NAME. */
 typedef struct file_keys {
     const char *path;
 } file_keys;
@@ -20,11 +21,13 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
     aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
-    const char *const path = p.path;
-    if (path == NULL || path[0] == '\0')
+    if (p.path == NULL || !aur_set_is_user(p.path) || strcmp(p.path, "file:") == 0)
         return aur_fail(error, AUR_ERROR_FORMAT, "a file of points is named by file:PATH");
+    const char *const path = strchr(p.path, ':') + 1;
     aur_points *points;
-    result = aur_points_read(path, &(const aur_domain){AUR_DOMAIN_CUBE}, &points, error);
+    result = aur_user_points(
+        &(const aur_user_request){p.path, set->size, set->dimension, &(const aur_domain){AUR_DOMAIN_CUBE}},
+        &points, error);
     if (result != AUR_OK)
         return result;
     const aur_location where = {.file = path};
@@ -53,7 +56,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
 
 const aur_square_set aur_set_file = {
     .description = {.row = {.name = "file",
-                            .summary = "points from a CSV or NPY file",
+                            .summary = "points from CSV or NPY: a file, or one for each size (NAME-%d.csv)",
                             .source = "the user",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,

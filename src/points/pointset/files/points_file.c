@@ -230,16 +230,19 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
     return AUR_OK;
 }
 
-static aur_result interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
-                            aur_points **points, aur_error *error) {
+aur_result aur_points_interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
+                                aur_points **points, aur_error *error) {
     meaning m = {0};
     aur_result result = find_meaning(path, matrix, wanted, &m, error);
     if (result == AUR_OK)
         result = aur_points_create(m.domain, matrix->row_count, m.dimension, m.weights, points, error);
     if (result == AUR_OK)
         result = copy_rows(path, wanted, matrix, &m, *points, error);
-    if (result != AUR_OK)
+    if (result != AUR_OK) {
+        aur_points_destroy(*points);
+        *points = NULL;
         return result;
+    }
     (*points)->view.lines = (*points)->lines = matrix->lines;
     matrix->lines = NULL;
     return AUR_OK;
@@ -266,13 +269,9 @@ static aur_result parse_points(const char *name, size_t size, char *data, const 
     aur_result result = aur_npy_recognize(data, size) ? aur_npy_parse(name, data, size, &matrix, error)
                                                       : aur_csv_parse(name, data, size, &matrix, error);
     if (result == AUR_OK)
-        result = interpret(name, wanted, &matrix, points, error);
+        result = aur_points_interpret(name, wanted, &matrix, points, error);
     free(matrix.values);
     free(matrix.lines);
-    if (result != AUR_OK) {
-        aur_points_destroy(*points);
-        *points = NULL;
-    }
     return result;
 }
 

@@ -16,6 +16,10 @@ typedef struct aur_matrix {
     bool weighted; /* declared without names of columns: the last one has weights */
 } aur_matrix;
 
+/* What the rows mean, as in aur_points_read; takes `lines`. Errors: FORMAT, UNSUPPORTED, MEMORY. */
+aur_result aur_points_interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
+                                aur_points **points, aur_error *error);
+
 /* Takes up a comment "domain: NAME", or "domain: NAME; weights"; others say nothing. */
 void aur_matrix_read_comment(aur_matrix *matrix, const char *text);
 

@@ -8,6 +8,7 @@
 #include "points/base/error.h"
 #include "points/base/names.h"
 #include "points/base/text.h"
+#include "points/pointset/points.h"
 #include "points/pointset/sets.h"
 
 static const aur_square_set *const sets[] = {
@@ -60,17 +61,15 @@ static aur_result make(aur_pointset *set, aur_parameters *keys, aur_error *error
     return result;
 }
 
-/* What follows "file:" is a path, whatever characters it has. */
+/* What follows "file:" is a path, whatever characters it has; sets of the user are one row of the table. */
 static aur_result parse(const char *text, aur_parameters *keys, aur_error *error) {
-    static const char prefix[] = "file:";
-    if (strncmp(text, prefix, sizeof prefix - 1) != 0)
+    if (!aur_set_is_user(text))
         return aur_parameters_parse(keys, "set", text, error);
     const aur_location nowhere = {0};
     aur_result result = aur_parameters_init(keys, "set", "file", nowhere, error);
     if (result != AUR_OK)
         return result;
-    result =
-        aur_parameters_add_text(keys, AUR_PARAMETER_TEXT, "PATH", text + sizeof prefix - 1, nowhere, error);
+    result = aur_parameters_add_text(keys, AUR_PARAMETER_TEXT, "PATH", text, nowhere, error);
     if (result != AUR_OK)
         aur_parameters_release(keys);
     return result;

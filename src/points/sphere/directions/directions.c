@@ -19,7 +19,7 @@ enum { CHUNK = 128 };
 
 struct aur_directions {
     uint64_t size;
-    const aur_native_set *native; /* NULL: a set of the square, or a file */
+    const aur_native_set *native; /* NULL: a set of the square, or one of the user */
     void *native_data;
     aur_pointset *square;
     aur_points *file; /* of directions; NULL when it is something else */
@@ -32,12 +32,6 @@ struct aur_directions {
     bool axes; /* each stands for its opposite too, and is given with z >= 0 */
     aur_rotation rotation;
 };
-
-static const char file_prefix[] = "file:";
-
-bool aur_set_is_file(const char *set) {
-    return strncmp(set, file_prefix, sizeof file_prefix - 1) == 0;
-}
 
 static aur_result check_options(const aur_directions_options *options, aur_error *error) {
     if (options->domain != AUR_DOMAIN_HEMISPHERE && options->domain != AUR_DOMAIN_SPHERE &&
@@ -129,8 +123,9 @@ static aur_result open_square(const char *set, const aur_directions_options *opt
 
 static aur_result open_file(const char *set, const aur_directions_options *options, aur_scramble scramble,
                             aur_directions *directions, aur_error *error) {
-    const char *const path = set + sizeof file_prefix - 1;
-    const aur_result result = aur_points_read(path, NULL, &directions->file, error);
+    const char *const path = strchr(set, ':') + 1;
+    const aur_user_request request = {.set = set, .count = options->count};
+    const aur_result result = aur_user_points(&request, &directions->file, error);
     if (result != AUR_OK)
         return result;
     const aur_points_view *const file = aur_points_get_view(directions->file);
@@ -174,7 +169,7 @@ static aur_result open_set(const char *set, const aur_directions_options *option
     directions->map = options->map;
     directions->height = cap_height(options);
     directions->axes = options->domain == AUR_DOMAIN_AXES;
-    if (aur_set_is_file(set))
+    if (aur_set_is_user(set))
         return open_file(set, options, scramble, directions, error);
     directions->native = aur_native_find(set);
     result = aur_set_check_name(set, error);

@@ -35,17 +35,20 @@ static aur_result choose_domain(job *j) {
     const aur_points_request *const request = j->request;
     j->domain = j->options->domain;
     j->size = j->options->count;
-    if (!aur_set_is_file(j->set)) {
+    if (!aur_set_is_user(j->set)) {
         if (request->natural_domain)
             j->domain = natural_domain(aur_native_find(j->set));
         return AUR_OK;
     }
-    if (j->size != 0 && !request->natural_domain && j->domain != AUR_DOMAIN_DISK)
+    if (j->size != 0 && !request->natural_domain && j->domain != AUR_DOMAIN_DISK &&
+        j->domain != AUR_DOMAIN_ROTATIONS)
         return AUR_OK;
-    const char *const path = j->set + 5;
+    const char *const path = strchr(j->set, ':') + 1;
     const aur_domain cube = AUR_DOMAIN_CUBE;
     const bool flat = !request->natural_domain && is_flat(j->domain);
-    const aur_result result = aur_points_read(path, flat ? &cube : NULL, &j->file, j->error);
+    const aur_result result =
+        aur_user_points(&(const aur_user_request){j->set, j->size, request->dimension, flat ? &cube : NULL},
+                        &j->file, j->error);
     if (result != AUR_OK)
         return result;
     const aur_points_view *const held = aur_points_get_view(j->file);
@@ -123,7 +126,7 @@ static aur_result copy_disk(const job *j, aur_points **points) {
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
                         "points that are on the disk already take no scrambling");
     const aur_points_view *const held = aur_points_get_view(j->file);
-    aur_points_warn_of_prefix(held, j->size, j->set + 5, &j->options->warnings);
+    aur_points_warn_of_prefix(held, j->size, strchr(j->set, ':') + 1, &j->options->warnings);
     const aur_result result = allocate(j, j->size, 2, held->weights != NULL, points);
     if (result != AUR_OK)
         return result;
@@ -185,7 +188,7 @@ static aur_result generate_rotations(const job *j, aur_points **points) {
 /* Rotations of a file, as they stand. */
 static aur_result copy_rotations(const job *j, aur_points **points) {
     const aur_points_view *const held = aur_points_get_view(j->file);
-    aur_points_warn_of_prefix(held, j->size, j->set + 5, &j->options->warnings);
+    aur_points_warn_of_prefix(held, j->size, strchr(j->set, ':') + 1, &j->options->warnings);
     const aur_result result = allocate(j, j->size, 4, held->weights != NULL, points);
     if (result != AUR_OK)
         return result;

@@ -5,6 +5,7 @@
 
 #include "points/base/error.h"
 #include "points/base/simd.h"
+#include "points/pointset/points.h"
 #include "points/pointset/set.h"
 #include "points/sphere/map.h"
 #include "points/sphere/native.h"
@@ -24,7 +25,7 @@ struct aur_rotations {
 static aur_result open_set(const char *set, const aur_rotations_options *options, aur_rotations *rotations,
                            aur_error *error) {
     aur_result result = aur_set_check_name(set, error);
-    if (result != AUR_OK && !aur_set_is_file(set))
+    if (result != AUR_OK && !aur_set_is_user(set))
         return result;
     rotations->turned = options->scramble == AUR_SCRAMBLE_ROTATE3D;
     const aur_scramble scramble = rotations->turned ? AUR_SCRAMBLE_NONE : options->scramble;

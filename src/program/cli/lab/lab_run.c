@@ -3,11 +3,14 @@
 #include <aureole/ranks.h>
 #include <aureole/sphere.h>
 #include <errno.h>
+#include <glob.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "program/cli/points/point_source.h"
 
 /* What is run, and how far it is. */
 typedef struct schedule {
@@ -137,6 +140,19 @@ static const lab_experiment *find(const char *name) {
     return NULL;
 }
 
+/* Whether there is a file of any size of file:NAME-%d.csv; of a folder nothing is said. */
+static bool has_some_size(const char *set) {
+    const char *const mark = strstr(set, "%d");
+    char pattern[AUR_ERROR_FILE_CAPACITY];
+    if (mark == NULL)
+        return true;
+    snprintf(pattern, sizeof pattern, "%.*s[0-9]*%s", (int)(mark - set - 5), set + 5, mark + 2);
+    glob_t found = {0};
+    const bool some = glob(pattern, 0, NULL, &found) == 0;
+    globfree(&found);
+    return some;
+}
+
 /* A set that there is not, or whose file cannot be read, is found before an hour of work. */
 static int check_set(const char *set) {
     aur_error error;
@@ -149,7 +165,10 @@ static int check_set(const char *set) {
     aur_points_request_init(&some, &request, NULL);
     const aur_result result = aur_points_generate(set, &request, &points, &error);
     aur_points_destroy(points);
-    const bool wrong = result == AUR_ERROR_NAME || result == AUR_ERROR_FORMAT || result == AUR_ERROR_OPEN;
+    /* There need not be a file of this size. */
+    const bool sized = cli_is_sized_file(set) && has_some_size(set);
+    const bool wrong =
+        result == AUR_ERROR_NAME || result == AUR_ERROR_FORMAT || (result == AUR_ERROR_OPEN && !sized);
     return wrong ? cli_fail(&error) : CLI_SUCCESS;
 }
 

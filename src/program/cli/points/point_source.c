@@ -4,6 +4,7 @@
 #include <aureole/text.h>
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
@@ -55,8 +56,15 @@ bool cli_is_file(const char *text) {
     return exists;
 }
 
+bool cli_is_sized_file(const char *text) {
+    struct stat status;
+    if (strncmp(text, "file:", 5) != 0)
+        return false;
+    return stat(text + 5, &status) == 0 ? S_ISDIR(status.st_mode) : strstr(text, "%d") != NULL;
+}
+
 bool cli_has_size(const char *text) {
-    return cli_is_file(text) || strncmp(text, "file:", 5) == 0;
+    return cli_is_file(text) || (strncmp(text, "file:", 5) == 0 && !cli_is_sized_file(text));
 }
 
 /* Weights of 1/N say nothing. */

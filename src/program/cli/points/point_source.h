@@ -19,7 +19,9 @@ extern const cli_option cli_points_options[], cli_dimension_option[], cli_cap_op
 
 /* Whether `text` names a file rather than a set: no set is called so, and there is such a file or "-". */
 bool cli_is_file(const char *text);
-/* The same, or file:PATH, whose points need no number. */
+/* Whether it is file:NAME-%d.csv or file:FOLDER, a file for each number of points. */
+bool cli_is_sized_file(const char *text);
+/* Whether it is a file or file:PATH, whose points need no number. */
 bool cli_has_size(const char *text);
 
 /* Warns where nothing but the numbers says what domain the points of a file are of. */

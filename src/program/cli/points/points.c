@@ -82,7 +82,7 @@ static bool choose_format(points_command *wanted, bool told) {
 static bool complete(const cli_call *call) {
     points_command *const wanted = call->options;
     bool domain_given = cli_given(call, "domain") != NULL;
-    if (cli_given(call, "size") == NULL && strncmp(call->operands[0], "file:", 5) != 0) {
+    if (cli_given(call, "size") == NULL && !cli_has_size(call->operands[0])) {
         cli_bad_usage("points: the size of the set is missing: give -n N");
         return false;
     }
