@@ -46,8 +46,9 @@ typedef struct aur_facets_options {
 AUR_EXPERIMENTAL aur_result aur_facets_options_init(aur_facets_options *options, aur_error *error)
     AUR_NONNULL(1);
 
-/* Reads an OBJ, a PLY or a scene (.xml). `options` may be NULL. Errors: OPEN, FORMAT (with file and line),
- * UNSUPPORTED (other files; shapes that are no meshes, or instances), those of aur_scene_load, MEMORY. */
+/* Reads an OBJ, a PLY, STL or OFF, an input of View3D (.vs3; its surfaces, combined as it says, are the rows)
+ * or a scene (.xml, .rad). `options` may be NULL. Errors: OPEN, FORMAT (with file and line), UNSUPPORTED
+ * (other files; shapes that are no meshes, or instances), those of aur_scene_load, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_facets_load(const char *path, const aur_facets_options *options,
                                             aur_facets **facets, aur_error *error) AUR_NONNULL(1, 3);
 AUR_EXPERIMENTAL void aur_facets_destroy(aur_facets *facets); /* NULL is allowed */
@@ -56,6 +57,10 @@ AUR_EXPERIMENTAL size_t aur_facets_rows(const aur_facets *facets) AUR_NONNULL(1)
 AUR_EXPERIMENTAL const double *aur_facets_areas(const aur_facets *facets) AUR_NONNULL(1);
 /* The name of the row's group, owned by the facets; NULL when rows are single facets. */
 AUR_EXPERIMENTAL const char *aur_facets_name(const aur_facets *facets, size_t row) AUR_NONNULL(1);
+
+/* The emittance of each row, in [0,1], where the file has them (.vs3); NULL elsewhere. Owned by the facets.
+ */
+AUR_EXPERIMENTAL const double *aur_facets_emittances(const aur_facets *facets) AUR_NONNULL(1);
 
 /* --- the matrix */
 
@@ -73,6 +78,9 @@ typedef struct aur_view_factors_options {
     aur_warnings warnings; /* backs that are seen, rows that cannot be made to add up */
     size_t half_planes;    /* for the sky, from each facet and side, all randomisations together; 0: three
                               for two rays */
+    /* Rays and half planes are doubled until no half width of a factor, and of the sky, is larger; above 0.
+     * 0: once. A warning says when the most rays do not suffice. */
+    double error;
 } aur_view_factors_options;
 
 AUR_EXPERIMENTAL aur_result aur_view_factors_options_init(aur_view_factors_options *options, aur_error *error)
@@ -135,7 +143,9 @@ AUR_EXPERIMENTAL aur_result aur_view_factors_get_description(const aur_view_fact
 
 /* Writes the matrix. Formats: "npz" (scipy.sparse.load_npz reads it; the other arrays stand beside it),
  * "csv" (one line an entry; the sky has the column -1, backs -2), "view3d" (the text of View3D's output: all
- * rows * rows factors). Errors: NAME, WRITE, MEMORY. */
+ * rows * rows factors), "udales" (uDALES's vfsparse.inp.NNN, which the path must be named, without factors
+ * below 5e-7; svf.inp.NNN and facetarea.inp.NNN go beside it). Errors: NAME, ARGUMENT (another name), WRITE,
+ * MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_view_factors_write(const aur_view_factors *factors, const char *format,
                                                    const char *path, aur_error *error) AUR_NONNULL(1, 2, 3);
 /* Writes the facets as an input of View3D (.vs3), with its groups as combined surfaces. Errors: WRITE,
@@ -144,15 +154,28 @@ AUR_EXPERIMENTAL aur_result aur_view_factors_write(const aur_view_factors *facto
 AUR_EXPERIMENTAL aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
 
+/* Script F (Hottel; View3D's emit=1): what leaves row i as its own emission and is absorbed by row k, over
+ * all reflections, is area_i script_ik times the radiosity of a black row at the temperature of i.
+ * `emittances` [rows] are in [0,1]. Row i adds up to its emittance, with the sky as a black row. The matrix
+ * has an entry for all pairs, but for rows of emittance 0. Intervals are from the solutions of single
+ * randomisations. Errors: ARGUMENT (an emittance out of range; no row absorbs and none sees the sky), MEMORY.
+ */
+AUR_EXPERIMENTAL aur_result aur_view_factors_script(const aur_view_factors *factors, const double *emittances,
+                                                    double confidence, aur_view_factors **script,
+                                                    aur_error *error) AUR_NONNULL(1, 2, 4);
+
 /* --- radiosities */
 
-/* Light on facets that all reflect the same part of it, diffusely. At least one source is not 0. */
+/* Light on facets that reflect a part of it, diffusely. At least one source is not 0. */
 typedef struct aur_facets_light {
     size_t size;        /* of the caller's struct, so that it can grow */
     double reflectance; /* in [0,1] */
     double sky;         /* the sky's radiosity, the same from everywhere */
     double emission;    /* of every facet, where it sees */
     double sun[3];      /* to the sun; the length is the irradiance of what faces it; 0: none */
+    /* Of each row, in place of the two numbers above; NULL: those. A grey body of emittance e at T kelvin has
+     * the reflectance 1 - e and the emission e 5.670374419e-8 T^4. */
+    const double *reflectances, *emissions;
 } aur_facets_light;
 
 AUR_EXPERIMENTAL aur_result aur_facets_light_init(aur_facets_light *light, aur_error *error) AUR_NONNULL(1);
@@ -173,6 +196,26 @@ AUR_EXPERIMENTAL aur_result aur_view_factors_radiosity(const aur_facets *facets,
                                                        const aur_facets_light *light, double *radiosity,
                                                        double *half_widths, double *sky, aur_error *error)
     AUR_NONNULL(1, 4, 5);
+
+/* What is wanted of the rows: arrays of the caller's, [rows] each, or NULL. */
+typedef struct aur_facets_radiosities {
+    size_t size;         /* of the caller's struct, so that it can grow */
+    double *radiosity;   /* what leaves a row */
+    double *half_widths; /* of the radiosity */
+    double *sky;         /* sky factors */
+    double *incoming;    /* what arrives at a row: sun + sky + F B */
+    double *incoming_half_widths;
+} aur_facets_radiosities;
+
+AUR_EXPERIMENTAL aur_result aur_facets_radiosities_init(aur_facets_radiosities *radiosities, aur_error *error)
+    AUR_NONNULL(1);
+
+/* As aur_view_factors_radiosity, with what arrives too. Its net flux is radiosity - incoming. */
+AUR_EXPERIMENTAL aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_factors *factors,
+                                                   const aur_view_factors_options *options,
+                                                   const aur_facets_light *light,
+                                                   const aur_facets_radiosities *radiosities,
+                                                   aur_error *error) AUR_NONNULL(1, 4, 5);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "points/base/error.h"
 #include "points/base/text.h"
@@ -55,6 +56,40 @@ static aur_result load_mesh(const char *path, aur_overlap_rule rule, const aur_s
     return result;
 }
 
+/* Of the file. */
+static size_t triangles_of(const aur_mesh *mesh) {
+    return mesh->sources != NULL ? mesh->source_count : mesh->triangle_count;
+}
+
+static bool is_vs3(const char *path) {
+    const char *const dot = strrchr(path, '.');
+    return dot != NULL && strcasecmp(dot, ".vs3") == 0;
+}
+
+/* Surfaces that View3D combines, or single ones, are groups. */
+static aur_result take_vs3_groups(aur_facets *facets, aur_vs3 *from, aur_error *error) {
+    const size_t shapes = facets->scene->shape_count;
+    if (shapes != from->shape_count)
+        return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_FORMAT,
+                           "%zu of %zu surfaces are there", shapes, from->shape_count);
+    for (size_t i = 0, facet = 0, source = 0; i < shapes; ++i) {
+        const aur_mesh *const mesh = &facets->scene->shapes[i]->mesh;
+        for (size_t k = 0; k < mesh->triangle_count; ++k)
+            facets->groups[facet++] = from->groups[i];
+        for (size_t k = triangles_of(mesh); k > 0; --k)
+            facets->source_groups[source++] = from->groups[i];
+    }
+    for (size_t i = from->group_count; i < from->name_count; ++i)
+        free(from->names[i]);
+    facets->group_count = from->group_count;
+    facets->names = from->names;
+    facets->emittances = from->emittances;
+    from->names = NULL;
+    from->emittances = NULL;
+    from->name_count = 0;
+    return AUR_OK;
+}
+
 static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
     for (size_t i = 0; i < scene->shape_count; ++i) {
         const aur_shape *const shape = scene->shapes[i];
@@ -68,11 +103,6 @@ static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
                                shape->descriptor->row.name);
     }
     return AUR_OK;
-}
-
-/* Of the file. */
-static size_t triangles_of(const aur_mesh *mesh) {
-    return mesh->sources != NULL ? mesh->source_count : mesh->triangle_count;
 }
 
 /* Facets in the order of the scene's shapes. */
@@ -173,6 +203,22 @@ static aur_result make_rows(aur_facets *facets, const aur_facets_options *option
     return AUR_OK;
 }
 
+static aur_result load_scene(const char *path, aur_overlap_rule rule, const aur_facets_options *options,
+                             bool mesh, const aur_vs3 *surfaces, aur_scene **made, aur_error *error) {
+    aur_scene_options scene = {.size = sizeof scene};
+    aur_scene_options_init(&scene, NULL);
+    scene.warnings = options->warnings;
+    scene.definition_count = options->definition_count;
+    scene.confine = options->confine;
+    scene.diffuse = options->diffuse;
+    scene.definitions = options->definitions;
+    scene.further_count = options->further_count;
+    scene.further = options->further;
+    return mesh ? load_mesh(path, rule, &scene, made, error)
+                : aur_scene_load_with_points(path, surfaces->length, surfaces->text, rule, &scene, made,
+                                             error);
+}
+
 static aur_result load(const char *path, const aur_facets_options *given, bool uncut, aur_facets **made,
                        aur_error *error) {
     *made = NULL;
@@ -182,8 +228,9 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
     const aur_overlap_rule rule = uncut                ? AUR_OVERLAPS_STAY
                                   : options.both_sides ? AUR_OVERLAPS_CUT
                                                        : AUR_OVERLAPS_OF_FRONTS;
-    const bool mesh = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT;
-    if (result == AUR_OK && mesh && options.further_count > 0)
+    const bool vs3 = is_vs3(path), mesh = aur_mesh_format_of_name(path) < AUR_MESH_FORMAT_COUNT;
+    options.group = options.group || vs3;
+    if (result == AUR_OK && (mesh || vs3) && options.further_count > 0)
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
                              "a mesh is one file: only scenes go on in '%s'", options.further[0]);
     if (result != AUR_OK)
@@ -193,17 +240,10 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
         free(facets);
         return aur_fail_memory(error);
     }
-    aur_scene_options scene = {.size = sizeof scene};
-    aur_scene_options_init(&scene, NULL);
-    scene.warnings = options.warnings;
-    scene.definition_count = options.definition_count;
-    scene.confine = options.confine;
-    scene.diffuse = options.diffuse;
-    scene.definitions = options.definitions;
-    scene.further_count = options.further_count;
-    scene.further = options.further;
-    result = !mesh ? aur_scene_load_with_points(path, 0, NULL, rule, &scene, &facets->scene, error)
-                   : load_mesh(path, rule, &scene, &facets->scene, error);
+    aur_vs3 surfaces = {0};
+    result = vs3 ? aur_vs3_read(path, &surfaces, error) : AUR_OK;
+    if (result == AUR_OK)
+        result = load_scene(path, rule, &options, mesh, &surfaces, &facets->scene, error);
     if (result == AUR_OK)
         result = check_shapes(facets->scene, error);
     if (result == AUR_OK)
@@ -212,6 +252,9 @@ static aur_result load(const char *path, const aur_facets_options *given, bool u
         leave_out_slivers(facets);
     if (result == AUR_OK && mesh)
         result = aur_facets_read_places(facets, error);
+    if (result == AUR_OK && vs3)
+        result = take_vs3_groups(facets, &surfaces, error);
+    aur_vs3_release(&surfaces);
     if (result == AUR_OK && facets->names == NULL)
         result = name_shapes(facets, error);
     if (result == AUR_OK)
@@ -262,6 +305,7 @@ void aur_facets_destroy(aur_facets *facets) {
     free(facets->lines);
     free(facets->groups);
     free(facets->row_areas);
+    free(facets->emittances);
     free(facets);
 }
 
@@ -275,6 +319,10 @@ const double *aur_facets_areas(const aur_facets *facets) {
 
 const char *aur_facets_name(const aur_facets *facets, size_t row) {
     return facets->grouped && row < facets->row_count ? facets->names[row % facets->group_count] : NULL;
+}
+
+const double *aur_facets_emittances(const aur_facets *facets) {
+    return facets->emittances;
 }
 
 void aur_patch_corners(const aur_facets *facets, size_t patch, double corners[3][3]) {

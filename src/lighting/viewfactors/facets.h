@@ -41,7 +41,22 @@ struct aur_facets {
     char **names;     /* of groups */
     size_t row_count;
     double *row_areas;
+    double *emittances; /* of rows, where the file has them; else NULL */
 };
+
+/* View3D's input as one of Radiance's scenes: a polygon for each surface. */
+typedef struct aur_vs3 {
+    size_t length;
+    char *text;
+    size_t shape_count, group_count, name_count;
+    uint32_t *groups;   /* of shapes */
+    char **names;       /* of groups, and behind them further ones */
+    double *emittances; /* of groups */
+} aur_vs3;
+
+/* Errors: OPEN, FORMAT, UNSUPPORTED, MEMORY, with the file's line. */
+aur_result aur_vs3_read(const char *path, aur_vs3 *made, aur_error *error);
+void aur_vs3_release(aur_vs3 *self);
 
 static inline size_t aur_facet_of(const aur_facets *facets, size_t patch) {
     return patch < facets->count ? patch : patch - facets->count;

@@ -30,14 +30,16 @@ typedef struct solution {
     double smallest; /* part of the light at which the sum ends */
     /* Of rows; what one randomisation has found, and the sums over them. */
     double *now, *next, *sky, *found, *total, *squares, *sky_total;
+    double *reflectances, *emissions; /* of rows */
+    double highest;                   /* of the reflectances */
     double *sun; /* [randomizations + 1][rows]: irradiances, the last ones their mean; NULL: there is none */
 } solution;
 
 /* The next product takes `work` after `done` of its randomisation, in units of the first one. The sun's takes
  * about one too, and those with fewer rays, which the light shrinks to, come to as much as that. */
 static void place_product(const solution *s, size_t randomization, bool of_sun, double done, double work) {
-    const double sun = s->sun != NULL ? 1.0 : 0.0,
-                 others = 1.0 + 1.0 / fmax(1.0 - s->light->reflectance, 0.1), each = of_sun ? sun : others,
+    const double sun = s->sun != NULL ? 1.0 : 0.0, others = 1.0 + 1.0 / fmax(1.0 - s->highest, 0.1),
+                 each = of_sun ? sun : others,
                  first = (of_sun ? 0.0 : sun * (double)s->randomizations) + each * (double)randomization,
                  all = (sun + others) * (double)s->randomizations;
     s->span->from = (first + fmin(done, each)) / all;
@@ -93,20 +95,19 @@ static aur_result apply(const solution *s, size_t level, size_t randomization, s
     return AUR_OK;
 }
 
-/* What comes from the sun, the sky and the facets' own light after one reflection. */
+/* What comes first from the sun, the sky and the facets' own light. */
 static aur_result first_light(const solution *s, size_t randomization, aur_error *error) {
     const aur_facets_light *const light = s->light;
-    for (size_t i = 0; i < s->rows; ++i)
-        s->now[i] = s->facets->row_areas[i] > 0.0 ? light->emission : 0.0;
-    memcpy(s->found, s->now, s->rows * sizeof *s->found);
+    memcpy(s->now, s->emissions, s->rows * sizeof *s->now);
+    memset(s->found, 0, s->rows * sizeof *s->found);
     place_product(s, randomization, false, 0.0, 1.0);
     aur_result result = apply(s, 0, randomization, 0, s->now, s->next, s->sky, error);
     if (result != AUR_OK)
         return result;
     for (size_t i = 0; i < s->rows; ++i)
-        s->next[i] = light->reflectance * (s->next[i] + light->sky * s->sky[i]);
+        s->next[i] += light->sky * s->sky[i];
     for (size_t i = 0; i < s->rows && s->sun != NULL; ++i)
-        s->next[i] += light->reflectance * s->sun[s->rows * randomization + i];
+        s->next[i] += s->sun[s->rows * randomization + i];
     return AUR_OK;
 }
 
@@ -126,13 +127,16 @@ static aur_result trace_sun(solution *s, aur_error *error) {
     return result;
 }
 
+/* s->found is what arrives at each row, over all reflections. */
 static aur_result solve_once(const solution *s, size_t randomization, aur_error *error) {
     aur_result result = first_light(s, randomization, error);
-    const double first = mean(s, s->next);
-    double before = 0.0, done = 1.0;
+    double before = 0.0, done = 1.0, first = 0.0, whole = mean(s, s->emissions);
     for (size_t k = 1; result == AUR_OK && k < MOST_REFLECTIONS; ++k) {
-        const double part = mean(s, s->next), ratio = k > 1 && before > 0.0 ? part / before : 1.0;
-        const double whole = mean(s, s->found) + part;
+        for (size_t i = 0; i < s->rows; ++i)
+            s->now[i] = s->reflectances[i] * s->next[i];
+        const double part = mean(s, s->now), ratio = k > 1 && before > 0.0 ? part / before : 1.0;
+        first = k == 1 ? part : first;
+        whole += part;
         for (size_t i = 0; i < s->rows; ++i)
             s->found[i] += s->next[i];
         if (part == 0.0 || (ratio < 1.0 && part * ratio / (1.0 - ratio) <= s->smallest * whole)) {
@@ -145,13 +149,10 @@ static aur_result solve_once(const solution *s, size_t randomization, aur_error 
         size_t level = 0;
         while (level + 1 < s->level_count && part <= first / (double)(UINT64_C(2) << level))
             ++level;
-        memcpy(s->now, s->next, s->rows * sizeof *s->now);
         const double work = 1.0 / (double)(UINT64_C(1) << level);
         place_product(s, randomization, false, done, work);
         done += work;
         result = apply(s, level, randomization, k, s->now, s->next, NULL, error);
-        for (size_t i = 0; i < s->rows; ++i)
-            s->next[i] *= s->light->reflectance;
     }
     return result != AUR_OK ? result
                             : aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -187,15 +188,22 @@ static aur_result solve(solution *s, bool intervals, aur_error *error) {
 static aur_result check(const aur_facets *facets, const aur_view_factors *factors,
                         const aur_facets_light *light, aur_error *error) {
     const double sun = aur_length3(light->sun);
-    if (!(light->reflectance >= 0.0 && light->reflectance <= 1.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the reflectance must be in [0,1], not %g",
-                        light->reflectance);
-    if (!(light->sky >= 0.0 && light->emission >= 0.0 && light->sky < INFINITY &&
-          light->emission < INFINITY && sun < INFINITY))
+    double emission = light->emission;
+    for (size_t i = 0; i < facets->row_count; ++i) {
+        const double reflectance = light->reflectances != NULL ? light->reflectances[i] : light->reflectance,
+                     own = light->emissions != NULL ? light->emissions[i] : light->emission;
+        if (!(reflectance >= 0.0 && reflectance <= 1.0))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "the reflectance must be in [0,1], not %g",
+                            reflectance);
+        if (!(own >= 0.0 && own < INFINITY))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "emissions must be finite and not negative, not %g",
+                            own);
+        emission = fmax(emission, own);
+    }
+    if (!(light->sky >= 0.0 && light->sky < INFINITY && sun < INFINITY))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the radiosities of sky and facets and the sun's irradiance must be finite and not "
-                        "negative");
-    if (light->sky + light->emission + sun == 0.0)
+                        "the radiosity of the sky and the sun's irradiance must be finite and not negative");
+    if (light->sky + emission + sun == 0.0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no light: give sky, emission or sun");
     if (factors != NULL && factors->rows != facets->row_count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the view factors are of %zu rows, the facets have %zu",
@@ -205,9 +213,17 @@ static aur_result check(const aur_facets *facets, const aur_view_factors *factor
 
 static aur_result prepare(solution *s, const aur_view_factors_options *options, double *numbers,
                           aur_error *error) {
-    double **const parts[] = {&s->now, &s->next, &s->sky, &s->found, &s->total, &s->squares, &s->sky_total};
+    double **const parts[] = {&s->now,     &s->next,      &s->sky,          &s->found,    &s->total,
+                              &s->squares, &s->sky_total, &s->reflectances, &s->emissions};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
         *parts[i] = numbers + i * s->rows;
+    for (size_t i = 0; i < s->rows; ++i) {
+        const aur_facets_light *const light = s->light;
+        const double own = light->emissions != NULL ? light->emissions[i] : light->emission;
+        s->reflectances[i] = light->reflectances != NULL ? light->reflectances[i] : light->reflectance;
+        s->emissions[i] = s->facets->row_areas[i] > 0.0 ? own : 0.0;
+        s->highest = fmax(s->highest, s->reflectances[i]);
+    }
     s->smallest =
         s->factors != NULL ? SMALLEST_CHANGE : fmax(SMALLEST_CHANGE, 0.02 / sqrt((double)options->rays));
     size_t rays = options->rays / s->randomizations;
@@ -225,15 +241,35 @@ static aur_result prepare(solution *s, const aur_view_factors_options *options, 
     return result;
 }
 
-aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_factors *factors,
-                                      const aur_view_factors_options *given, const aur_facets_light *sources,
-                                      double *radiosity, double *half_widths, double *sky, aur_error *error) {
+static void write(const solution *s, double student, const aur_facets_radiosities *made) {
+    const double n = (double)s->randomizations;
+    for (size_t i = 0; i < s->rows; ++i) {
+        const double half_width = student * sqrt(s->squares[i] / (n * (n - 1.0)));
+        if (made->radiosity != NULL)
+            made->radiosity[i] = s->emissions[i] + s->reflectances[i] * s->total[i];
+        if (made->half_widths != NULL)
+            made->half_widths[i] = s->reflectances[i] * half_width;
+        if (made->sky != NULL)
+            made->sky[i] = s->sky_total[i];
+        if (made->incoming != NULL)
+            made->incoming[i] = s->total[i];
+        if (made->incoming_half_widths != NULL)
+            made->incoming_half_widths[i] = half_width;
+    }
+}
+
+aur_result aur_view_factors_solve(const aur_facets *facets, const aur_view_factors *factors,
+                                  const aur_view_factors_options *given, const aur_facets_light *sources,
+                                  const aur_facets_radiosities *wanted, aur_error *error) {
     aur_view_factors_options options;
     aur_facets_light light = {.size = sizeof light};
+    aur_facets_radiosities made = {.size = sizeof made};
     aur_facets_light_init(&light, NULL);
     aur_result result = aur_view_factors_read_options(given, &options, error);
     if (result == AUR_OK)
         result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
+    if (result == AUR_OK)
+        result = aur_options_read(wanted, sizeof made, &made, "aur_facets_radiosities", error);
     if (result == AUR_OK)
         result = check(facets, factors, &light, error);
     if (result != AUR_OK)
@@ -246,29 +282,35 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
                   .span = &span,
                   .rows = facets->row_count,
                   .randomizations = factors != NULL ? factors->randomizations : options.randomizations};
-    double *const numbers = calloc(7 * s.rows + 1, sizeof *numbers);
+    double *const numbers = calloc(9 * s.rows + 1, sizeof *numbers);
     result = numbers != NULL ? prepare(&s, &options, numbers, error) : aur_fail_memory(error);
     if (result == AUR_OK)
         result = trace_sun(&s, error);
     if (result == AUR_OK)
-        result = solve(&s, half_widths != NULL, error);
-    if (result == AUR_OK && !(mean(&s, s.total) > 0.0) && light.reflectance > 0.0)
+        result = solve(&s, made.half_widths != NULL || made.incoming_half_widths != NULL, error);
+    if (result == AUR_OK && !(mean(&s, s.total) + mean(&s, s.emissions) > 0.0))
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "no row sees the sky or the sun: there is no light");
-    const double n = (double)s.randomizations;
-    const double student = aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence);
-    for (size_t i = 0; i < s.rows && result == AUR_OK; ++i) {
-        radiosity[i] = s.total[i];
-        if (half_widths != NULL)
-            half_widths[i] = student * sqrt(s.squares[i] / (n * (n - 1.0)));
-        if (sky != NULL)
-            sky[i] = s.sky_total[i];
-    }
+    if (result == AUR_OK)
+        write(&s, aur_student_quantile(s.randomizations - 1, 0.5 + 0.5 * options.confidence), &made);
     for (size_t i = 0; i < s.level_count; ++i)
         aur_facet_pattern_release(&s.patterns[i]);
     aur_facet_pattern_release(&s.sun_places);
     free(s.sun);
     free(numbers);
     return result;
+}
+
+aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_factors *factors,
+                                      const aur_view_factors_options *options, const aur_facets_light *light,
+                                      double *radiosity, double *half_widths, double *sky, aur_error *error) {
+    const aur_facets_radiosities wanted = {
+        .size = sizeof wanted, .radiosity = radiosity, .half_widths = half_widths, .sky = sky};
+    return aur_view_factors_solve(facets, factors, options, light, &wanted, error);
+}
+
+aur_result aur_facets_radiosities_init(aur_facets_radiosities *radiosities, aur_error *error) {
+    static const aur_facets_radiosities defaults = {.size = sizeof defaults};
+    return aur_description_write(&defaults, sizeof defaults, radiosities, "aur_facets_radiosities", error);
 }
 
 aur_result aur_facets_light_init(aur_facets_light *light, aur_error *error) {

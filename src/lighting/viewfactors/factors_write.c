@@ -68,12 +68,59 @@ static void write_view3d(const aur_view_factors *f, FILE *stream) {
     fputc('\n', stream);
 }
 
+/* One of uDALES's files, with the ending that the first one has. */
+static aur_result write_beside(const aur_view_factors *f, const char *path, const char *ending,
+                               const char *name, const char *head, const double *numbers, aur_error *error) {
+    const char *const slash = strrchr(path, '/');
+    const int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
+    const size_t size = strlen(path) + strlen(name) + 1;
+    char *const beside = malloc(size);
+    if (beside == NULL)
+        return aur_fail_memory(error);
+    snprintf(beside, size, "%.*s%s%s", folder, path, name, ending);
+    aur_file_writer writer;
+    aur_result result = aur_file_open(beside, &writer, error);
+    free(beside);
+    if (result != AUR_OK)
+        return result;
+    fprintf(writer.stream, "# %s\n", head);
+    for (size_t i = 0; i < f->rows; ++i)
+        aur_print(writer.stream, "%.8f\n", numbers[i]);
+    return aur_file_commit(&writer, error);
+}
+
+/* As uDALES's preprocessing writes them: rows and columns from 1, and no factor below 5e-7. */
+static aur_result write_udales(const aur_view_factors *f, const char *path, aur_error *error) {
+    static const char first[] = "vfsparse.inp";
+    const char *const slash = strrchr(path, '/'), *const name = slash != NULL ? slash + 1 : path;
+    if (strncmp(name, first, sizeof first - 1) != 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "for uDALES a file named vfsparse.inp.NNN expected, not '%s'", path);
+    aur_file_writer writer;
+    aur_result result = aur_file_open(path, &writer, error);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; i < f->rows; ++i)
+        for (uint64_t e = f->starts[i]; e < f->starts[i + 1]; ++e)
+            if (f->values[e] >= 5e-7)
+                aur_print(writer.stream, "%zu %" PRIu32 " %.8f\n", i + 1, f->columns[e] + 1, f->values[e]);
+    result = aur_file_commit(&writer, error);
+    const char *const ending = name + sizeof first - 1;
+    if (result == AUR_OK)
+        result = write_beside(f, path, ending, "svf.inp", "sky view factors", f->sky, error);
+    if (result == AUR_OK)
+        result = write_beside(f, path, ending, "facetarea.inp", "area of facets", f->areas, error);
+    return result;
+}
+
 aur_result aur_view_factors_write(const aur_view_factors *factors, const char *format, const char *path,
                                   aur_error *error) {
     static const struct {
         const char *name;
         void (*write)(const aur_view_factors *factors, FILE *stream);
     } formats[] = {{"npz", write_npz}, {"csv", write_csv}, {"view3d", write_view3d}};
+    if (strcmp(format, "udales") == 0)
+        return write_udales(factors, path, error);
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i) {
         if (strcmp(format, formats[i].name) != 0)
             continue;
@@ -84,5 +131,5 @@ aur_result aur_view_factors_write(const aur_view_factors *factors, const char *f
         formats[i].write(factors, writer.stream);
         return aur_file_commit(&writer, error);
     }
-    return aur_fail(error, AUR_ERROR_NAME, "no format '%s': npz, csv and view3d are known", format);
+    return aur_fail(error, AUR_ERROR_NAME, "no format '%s': npz, csv, view3d and udales are known", format);
 }

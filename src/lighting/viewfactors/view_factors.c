@@ -47,6 +47,8 @@ aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
             "there must be 1 to %d rays for each of %zu randomisations, %zu to %zu in all, not %zu",
             MOST_RAYS, options->randomizations, options->randomizations, MOST_RAYS * options->randomizations,
             options->rays);
+    if (!(options->error >= 0.0 && options->error < INFINITY))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the error must be above 0, not %g", options->error);
     if (options->half_planes == 0)
         options->half_planes = usual_half_planes(options);
     if (options->half_planes > MOST_RAYS * options->randomizations)
@@ -203,6 +205,16 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     return result;
 }
 
+/* Of the intervals of factors and sky. */
+static double find_widest(const aur_view_factors *made) {
+    double widest = 0.0;
+    for (uint64_t e = 0; e < made->starts[made->rows]; ++e)
+        widest = fmax(widest, made->half_widths[e]);
+    for (size_t i = 0; i < made->rows; ++i)
+        widest = fmax(widest, made->sky_half_widths[i]);
+    return widest;
+}
+
 aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_factors_options *given,
                                    aur_view_factors **factors, aur_error *error) {
     *factors = NULL;
@@ -210,16 +222,33 @@ aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_fact
     aur_result result = aur_view_factors_read_options(given, &options, error);
     if (result != AUR_OK)
         return result;
-    aur_view_factors *const made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return aur_fail_memory(error);
-    result = compute(facets, &options, made, error);
-    if (result != AUR_OK) {
+    for (;;) {
+        aur_view_factors *const made = calloc(1, sizeof *made);
+        result = made != NULL ? compute(facets, &options, made, error) : aur_fail_memory(error);
+        if (result != AUR_OK) {
+            aur_view_factors_destroy(made);
+            return result;
+        }
+        const double widest = options.error > 0.0 ? find_widest(made) : 0.0;
+        const bool more = 2 * options.rays <= MOST_RAYS * options.randomizations;
+        if (widest <= options.error || !more) {
+            if (widest > options.error)
+                aur_warn_at(&options.warnings, (aur_location){.file = facets->path},
+                            "%zu rays are the most, and half widths are up to %.3g: the error of %g is not "
+                            "reached",
+                            options.rays, widest, options.error);
+            *factors = made;
+            return AUR_OK;
+        }
         aur_view_factors_destroy(made);
-        return result;
+        /* Errors of rays fall with the root of their number. */
+        for (double lack = widest;
+             lack > options.error && 2 * options.rays <= MOST_RAYS * options.randomizations;
+             lack *= 0.70710678118654752) {
+            options.rays *= 2;
+            options.half_planes = usual_half_planes(&options);
+        }
     }
-    *factors = made;
-    return AUR_OK;
 }
 
 void aur_view_factors_destroy(aur_view_factors *factors) {

@@ -2,6 +2,7 @@
 #include <aureole-lighting/view_factors.h>
 #include <aureole/text.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "program/cli/lighting/viewfactors.h"
@@ -12,9 +13,9 @@ typedef struct factor_command {
     aur_view_factors_options factors;
     cli_definitions definitions;
     const char *output, *format;
-    bool matrix_free;
+    bool matrix_free, script;
     aur_facets_light light;
-    const char *sun;
+    const char *sun, *surfaces;
     cli_common common;
 } factor_command;
 
@@ -22,11 +23,11 @@ static const cli_option options[] = {
     {CLI_TEXT(
          factor_command, output, "output", "FILE", "a summary is printed",
          ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
-         "View3D's input)"),
+         "View3D's input), vfsparse.inp.NNN (uDALES's, with svf.inp.NNN and facetarea.inp.NNN beside it)"),
      .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(factor_command, format, "to", "FORMAT", NULL,
               "the format, where the name of FILE does not tell"),
-     .key.words = (const char *const[]){"npz", "csv", "view3d", "vs3", NULL}},
+     .key.words = (const char *const[]){"npz", "csv", "view3d", "vs3", "udales", NULL}},
     {CLI_FLAG(factor_command, facets.group, "group",
               "a row for each group of an OBJ, or each shape of a scene")},
     {CLI_FLAG(factor_command, facets.both_sides, "both-sides",
@@ -43,18 +44,27 @@ static const cli_option options[] = {
     {CLI_INTEGER(factor_command, factors.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
     {CLI_REAL(factor_command, factors.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
               "of the intervals")},
+    {CLI_REAL(factor_command, factors.error, "error", "E", 1e-6, 1, NULL,
+              "double rays and half planes until no half width, of factors and sky, is larger")},
     {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms and no half planes")},
     {CLI_REAL(
         factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
         "instead of factors each row's area, sky factor and radiosity, with half of its interval, when all "
         "facets reflect RHO: CSV or, with --json, JSON, to FILE or printed")},
-    {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun or --emission",
+    {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun, --emission or --surfaces",
               "for --radiosity: of the sky"),
      .key.computed = true},
     {CLI_TEXT(factor_command, sun, "sun", "X,Y,Z", NULL,
               "for --radiosity: the direction to the sun; its length is the irradiance of what faces it")},
     {CLI_REAL(factor_command, light.emission, "emission", "B", 0, 1e30, "0",
               "for --radiosity: what every facet sends out by itself")},
+    {CLI_TEXT(factor_command, surfaces, "surfaces", "FILE", NULL,
+              "radiosities with a table of CSV: name (of a group, or *) or row, reflectance or emittance, "
+              "emission "
+              "or temperature in kelvin; prints what arrives and the net flux too"),
+     .content = "file"},
+    {CLI_FLAG(factor_command, script, "script-f",
+              "the matrix is Hottel's script F, with the emittances of --surfaces or of a .vs3 file")},
     {CLI_FLAG(factor_command, matrix_free, "matrix-free",
               "for --radiosity: rays are traced anew for each reflection, and no matrix is kept")},
     {.key = {0}}};
@@ -65,7 +75,10 @@ static bool find_format(factor_command *given) {
         return true;
     const char *const dot = strrchr(given->output, '.');
     const char *const ending = dot != NULL ? dot + 1 : "";
-    if (strcmp(ending, "npz") == 0 || strcmp(ending, "csv") == 0 || strcmp(ending, "vs3") == 0)
+    const char *const slash = strrchr(given->output, '/');
+    if (strncmp(slash != NULL ? slash + 1 : given->output, "vfsparse.inp", 12) == 0)
+        given->format = "udales";
+    else if (strcmp(ending, "npz") == 0 || strcmp(ending, "csv") == 0 || strcmp(ending, "vs3") == 0)
         given->format = ending;
     else if (strcmp(ending, "txt") == 0 || strcmp(ending, "vf") == 0)
         given->format = "view3d";
@@ -77,18 +90,31 @@ static bool find_format(factor_command *given) {
     return false;
 }
 
+/* Whether radiosities are printed, and no matrix is. */
+static bool is_radiosity(const cli_call *call) {
+    const factor_command *const given = call->options;
+    return cli_given(call, "radiosity") != NULL || (given->surfaces != NULL && !given->script);
+}
+
 static bool options_fit(const cli_call *call) {
     factor_command *const given = call->options;
-    const bool radiosity = cli_given(call, "radiosity") != NULL;
-    if (given->matrix_free && !radiosity) {
-        cli_bad_usage("viewfactors: --matrix-free makes no matrix: ask for what it is for, --radiosity RHO");
-        return false;
-    }
-    if (radiosity && given->format != NULL) {
-        cli_bad_usage("viewfactors: --radiosity writes a table of CSV, no matrix: leave --to out");
-        return false;
-    }
-    return radiosity || find_format(given);
+    const bool radiosity = is_radiosity(call);
+    const char *wrong = NULL;
+    if (given->matrix_free && !radiosity)
+        wrong = "--matrix-free makes no matrix: ask for what it is for, --radiosity RHO";
+    else if (given->matrix_free && given->factors.error > 0.0)
+        wrong = "--error is of the matrix, which --matrix-free does not make";
+    else if (given->script && cli_given(call, "radiosity") != NULL)
+        wrong = "--script-f is a matrix, and --radiosity writes none: leave one out";
+    else if (given->surfaces != NULL && cli_given(call, "radiosity") != NULL)
+        wrong = "--surfaces has the reflectances: leave --radiosity out";
+    else if (given->surfaces != NULL && cli_given(call, "emission") != NULL)
+        wrong = "--surfaces has the emissions: leave --emission out";
+    else if (radiosity && given->format != NULL)
+        wrong = "--radiosity and --surfaces write a table of CSV, no matrix: leave --to out";
+    if (wrong != NULL)
+        cli_bad_usage("viewfactors: %s", wrong);
+    return wrong == NULL && (radiosity || find_format(given));
 }
 
 /* The sources of light: the sky where no other is named. */
@@ -97,9 +123,9 @@ static bool read_light(const cli_call *call) {
     const bool other = given->sun != NULL || cli_given(call, "emission") != NULL;
     given->light.size = sizeof given->light;
     if (cli_given(call, "sky") == NULL)
-        given->light.sky = other ? 0.0 : 1.0;
-    if ((other || cli_given(call, "sky") != NULL) && cli_given(call, "radiosity") == NULL) {
-        cli_bad_usage("viewfactors: --sky, --sun and --emission are for --radiosity RHO");
+        given->light.sky = other || given->surfaces != NULL ? 0.0 : 1.0;
+    if ((other || cli_given(call, "sky") != NULL) && !is_radiosity(call)) {
+        cli_bad_usage("viewfactors: --sky, --sun and --emission are for --radiosity RHO or --surfaces");
         return false;
     }
     if (given->sun == NULL)
@@ -149,11 +175,16 @@ static int print_summary(const aur_view_factors *factors, report_format format) 
     return cli_finish(table, format);
 }
 
-static int write_matrix(const aur_facets *facets, const factor_command *given) {
+static int write_matrix(const aur_facets *facets, const factor_command *given, const double *emittances) {
     aur_error error;
-    aur_view_factors *factors = NULL;
+    aur_view_factors *factors = NULL, *script = NULL;
     aur_result result = aur_view_factors_create(facets, &given->factors, &factors, &error);
     cli_progress_clear();
+    if (result == AUR_OK && given->script) {
+        result = aur_view_factors_script(factors, emittances, given->factors.confidence, &script, &error);
+        aur_view_factors_destroy(factors);
+        factors = script;
+    }
     if (result == AUR_OK && given->format != NULL)
         result = aur_view_factors_write(factors, given->format, given->output != NULL ? given->output : "-",
                                         &error);
@@ -182,6 +213,25 @@ static void plan(const factor_command *given) {
         cli_progress_plan(sizeof phases / sizeof phases[0], phases);
 }
 
+static int write_results(const cli_call *call, const aur_facets *facets, const cli_surfaces *surfaces) {
+    factor_command *const given = call->options;
+    aur_error error;
+    if (is_radiosity(call)) {
+        given->light.reflectances = surfaces->reflectances;
+        given->light.emissions = surfaces->emissions;
+        return cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, given->surfaces != NULL,
+                                         &given->light, given->common.format, given->output);
+    }
+    if (given->format != NULL && strcmp(given->format, "vs3") == 0)
+        return cli_status(aur_facets_write_vs3(facets, given->output != NULL ? given->output : "-", &error),
+                          &error);
+    const double *const emittances =
+        surfaces->emittances != NULL ? surfaces->emittances : aur_facets_emittances(facets);
+    if (given->script && emittances == NULL)
+        return cli_bad_usage("viewfactors: --script-f needs emittances: give --surfaces FILE");
+    return write_matrix(facets, given, emittances);
+}
+
 static int run(const cli_call *call) {
     factor_command *const given = call->options;
     if (!options_fit(call) || !read_light(call))
@@ -202,15 +252,12 @@ static int run(const cli_call *call) {
     aur_facets *facets = NULL;
     if (aur_facets_load(call->operands[0], &given->facets, &facets, &error) != AUR_OK)
         return cli_fail(&error);
-    int status;
-    if (cli_given(call, "radiosity") != NULL)
-        status = cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, &given->light,
-                                           given->common.format, given->output);
-    else if (given->format != NULL && strcmp(given->format, "vs3") == 0)
-        status = cli_status(aur_facets_write_vs3(facets, given->output != NULL ? given->output : "-", &error),
-                            &error);
-    else
-        status = write_matrix(facets, given);
+    cli_surfaces surfaces = {NULL, NULL, NULL};
+    int status =
+        given->surfaces != NULL ? cli_surfaces_read(given->surfaces, facets, &surfaces) : CLI_SUCCESS;
+    if (status == CLI_SUCCESS)
+        status = write_results(call, facets, &surfaces);
+    free(surfaces.emittances);
     aur_facets_destroy(facets);
     return status;
 }
@@ -226,7 +273,9 @@ const cli_command cli_command_viewfactors = {
         "docs/view-factors.md.",
     .too_few = "a mesh or scene is needed",
     .operands = {{"MESH",
-                  "an OBJ, a PLY or a scene (.xml, .rad, .glb, ...); further files go on with a scene",
+                  "a mesh (.obj, .ply, .stl, .off), View3D's input (.vs3) or a scene (.xml, .rad, .glb, "
+                  "...); further files go "
+                  "on with a scene",
                   .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_definitions_option, offsetof(factor_command, definitions)},

@@ -5,18 +5,26 @@
 #include "program/cli/cli.h"
 #include "program/cli/lighting/viewfactors.h"
 
-/* `numbers` are sky factors, radiosities and half widths: [3][rows]. */
-static aur_result write_rows(const aur_facets *facets, const double *numbers, report_format format,
+enum { SKY, RADIOSITY, HALF_WIDTH, INCOMING, INCOMING_HALF_WIDTH, NUMBERS };
+
+/* `numbers` are [NUMBERS][rows]. */
+static aur_result write_rows(const aur_facets *facets, const double *numbers, bool net, report_format format,
                              const char *output, aur_error *error) {
+    static const char *const columns[] = {"row",        "area",     "sky", "radiosity",
+                                          "half_width", "incoming", "net", "incoming_half_width"};
     const size_t rows = aur_facets_rows(facets);
     const double *const areas = aur_facets_areas(facets);
-    report_table *const table =
-        report_create(5, (const char *const[]){"row", "area", "sky", "radiosity", "half_width"});
+    report_table *const table = report_create(net ? 8 : 5, columns);
     for (size_t i = 0; i < rows; ++i) {
         report_integer(table, i);
         report_number(table, areas[i], 17);
-        for (size_t k = 0; k < 3; ++k)
+        for (size_t k = 0; k <= HALF_WIDTH; ++k)
             report_number(table, numbers[rows * k + i], 17);
+        if (!net)
+            continue;
+        report_number(table, numbers[rows * INCOMING + i], 17);
+        report_number(table, numbers[rows * RADIOSITY + i] - numbers[rows * INCOMING + i], 17);
+        report_number(table, numbers[rows * INCOMING_HALF_WIDTH + i], 17);
     }
     char *text = NULL;
     size_t size = 0;
@@ -32,21 +40,29 @@ static aur_result write_rows(const aur_facets *facets, const double *numbers, re
 }
 
 int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_options *options,
-                              bool matrix_free, const aur_facets_light *light, report_format format,
+                              bool matrix_free, bool net, const aur_facets_light *light, report_format format,
                               const char *output) {
     aur_error error;
     const size_t rows = aur_facets_rows(facets);
-    double *const numbers = calloc(3 * rows, sizeof *numbers);
+    double *const numbers = calloc(NUMBERS * rows, sizeof *numbers);
     aur_view_factors *factors = NULL;
     aur_result result = numbers != NULL ? AUR_OK : aur_fail(&error, AUR_ERROR_MEMORY, "out of memory");
     if (result == AUR_OK && !matrix_free)
         result = aur_view_factors_create(facets, options, &factors, &error);
-    if (result == AUR_OK)
-        result = aur_view_factors_radiosity(facets, factors, options, light, numbers + rows,
-                                            numbers + 2 * rows, numbers, &error);
+    if (result == AUR_OK) {
+        aur_facets_radiosities wanted = {.size = sizeof wanted};
+        aur_facets_radiosities_init(&wanted, NULL);
+        wanted.sky = numbers + SKY * rows;
+        wanted.radiosity = numbers + RADIOSITY * rows;
+        wanted.half_widths = numbers + HALF_WIDTH * rows;
+        wanted.incoming = numbers + INCOMING * rows;
+        wanted.incoming_half_widths = numbers + INCOMING_HALF_WIDTH * rows;
+        result = aur_view_factors_solve(facets, factors, options, light, &wanted, &error);
+    }
     cli_progress_clear();
     if (result == AUR_OK)
-        result = write_rows(facets, numbers, format == REPORT_TABLE ? REPORT_CSV : format, output, &error);
+        result =
+            write_rows(facets, numbers, net, format == REPORT_TABLE ? REPORT_CSV : format, output, &error);
     aur_view_factors_destroy(factors);
     free(numbers);
     return cli_status(result, &error);

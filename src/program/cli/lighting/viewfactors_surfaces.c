@@ -1,0 +1,152 @@
+/* Reflectances, emittances and temperatures of rows, from a table. */
+#include <aureole/text.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/cli/cli.h"
+#include "program/cli/lighting/viewfactors.h"
+
+static const double STEFAN_BOLTZMANN = 5.670374419e-8;
+
+enum { MOST_COLUMNS = 16 };
+
+typedef enum column { ROW, NAME, REFLECTANCE, EMITTANCE, TEMPERATURE, EMISSION, COLUMNS } column;
+
+static const char *const names[COLUMNS] = {"row",       "name",        "reflectance",
+                                           "emittance", "temperature", "emission"};
+
+typedef struct table_reading {
+    const char *path;
+    size_t line, columns;
+    column order[MOST_COLUMNS];
+    bool has[COLUMNS];
+} table_reading;
+
+static int fail(const table_reading *self, const char *what, const char *found) {
+    cli_bad_usage("%s:%zu: %s (%s)", self->path, self->line, what, found);
+    return CLI_BAD_INPUT;
+}
+
+/* The next field of a line, without blanks about it; NULL at the end. */
+static char *next_field(char **at) {
+    char *field = *at;
+    if (field == NULL)
+        return NULL;
+    char *const comma = strchr(field, ',');
+    *at = comma != NULL ? comma + 1 : NULL;
+    if (comma != NULL)
+        *comma = '\0';
+    field += strspn(field, " \t\"");
+    size_t length = strlen(field);
+    while (length > 0 && strchr(" \t\r\n\"", field[length - 1]) != NULL)
+        field[--length] = '\0';
+    return field;
+}
+
+static int read_header(table_reading *self, char *text) {
+    for (char *at = text, *field; (field = next_field(&at)) != NULL;) {
+        size_t i = 0;
+        while (i < COLUMNS && strcmp(field, names[i]) != 0)
+            ++i;
+        if (i == COLUMNS || self->columns == MOST_COLUMNS || self->has[i])
+            return fail(self,
+                        "a header of name or row, reflectance or emittance, temperature or emission expected",
+                        field);
+        self->has[i] = true;
+        self->order[self->columns++] = (column)i;
+    }
+    if (self->has[ROW] == self->has[NAME] || (self->has[REFLECTANCE] == self->has[EMITTANCE]) ||
+        (self->has[TEMPERATURE] && self->has[EMISSION]) || (self->has[TEMPERATURE] && !self->has[EMITTANCE]))
+        return fail(
+            self,
+            "columns expected: name or row; reflectance or emittance; at most one of emission and, with "
+            "emittance, temperature",
+            "header");
+    return CLI_SUCCESS;
+}
+
+/* Whether a line of this name is of the row. */
+static bool is_of_row(const table_reading *self, const aur_facets *facets, const char *field, size_t row) {
+    if (strcmp(field, "*") == 0)
+        return true;
+    double number;
+    if (self->has[ROW])
+        return aur_parse_double(field, &number) && number == (double)row;
+    const char *const name = aur_facets_name(facets, row);
+    return name != NULL && strcmp(name, field) == 0;
+}
+
+/* The line's numbers go to every row that it is of. */
+static int use_line(const table_reading *self, const aur_facets *facets, const char *key,
+                    const double values[COLUMNS], cli_surfaces *made) {
+    const double emittance = self->has[EMITTANCE] ? values[EMITTANCE] : 1.0 - values[REFLECTANCE];
+    const double kelvin = self->has[TEMPERATURE] ? values[TEMPERATURE] : 0.0;
+    if (!(emittance >= 0.0 && emittance <= 1.0))
+        return fail(self, "a reflectance or emittance from 0 to 1 expected", key);
+    if (!(kelvin >= 0.0 && kelvin < 1e6) || !(values[EMISSION] >= 0.0))
+        return fail(self, "a temperature in kelvin, or an emission, that is not negative expected", key);
+    size_t count = 0;
+    for (size_t i = 0; i < aur_facets_rows(facets); ++i) {
+        if (!is_of_row(self, facets, key, i))
+            continue;
+        made->emittances[i] = emittance;
+        made->reflectances[i] = 1.0 - emittance;
+        made->emissions[i] = self->has[TEMPERATURE]
+                                 ? emittance * STEFAN_BOLTZMANN * kelvin * kelvin * kelvin * kelvin
+                                 : values[EMISSION];
+        ++count;
+    }
+    return count > 0 ? CLI_SUCCESS : fail(self, "the mesh has no row of this name", key);
+}
+
+static int read_line(table_reading *self, const aur_facets *facets, char *text, cli_surfaces *made) {
+    double values[COLUMNS] = {0.0};
+    const char *key = "";
+    for (size_t i = 0; i < self->columns; ++i) {
+        const char *const field = next_field(&text);
+        if (field == NULL)
+            return fail(self, "fewer fields than the header has", key);
+        if (self->order[i] == NAME || self->order[i] == ROW)
+            key = field;
+        else if (!aur_parse_double(field, &values[self->order[i]]) || !isfinite(values[self->order[i]]))
+            return fail(self, "a number expected", field);
+    }
+    return use_line(self, facets, key, values, made);
+}
+
+static int check_rows(const table_reading *self, const aur_facets *facets, const cli_surfaces *made) {
+    for (size_t i = 0; i < aur_facets_rows(facets); ++i)
+        if (isnan(made->emittances[i])) {
+            const char *const name = aur_facets_name(facets, i);
+            return cli_bad_usage("%s: no line is of row %zu%s%s: name it, or '*' for all others first",
+                                 self->path, i, name != NULL ? ", " : "", name != NULL ? name : "");
+        }
+    return CLI_SUCCESS;
+}
+
+int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *made) {
+    const size_t rows = aur_facets_rows(facets);
+    table_reading self = {.path = path};
+    FILE *const file = fopen(path, "r");
+    if (file == NULL)
+        return cli_bad_usage("%s: cannot be opened", path);
+    made->emittances = malloc((3 * rows + 1) * sizeof *made->emittances);
+    int status = made->emittances != NULL ? CLI_SUCCESS : cli_bad_usage("out of memory");
+    for (size_t i = 0; i < rows && status == CLI_SUCCESS; ++i)
+        made->emittances[i] = NAN;
+    made->reflectances = made->emittances + rows;
+    made->emissions = made->reflectances + rows;
+    char *line = NULL;
+    size_t capacity = 0;
+    while (status == CLI_SUCCESS && getline(&line, &capacity, file) >= 0) {
+        ++self.line;
+        if (line[strspn(line, " \t\r\n")] == '\0' || line[0] == '#')
+            continue;
+        status = self.columns == 0 ? read_header(&self, line) : read_line(&self, facets, line, made);
+    }
+    free(line);
+    fclose(file);
+    return status == CLI_SUCCESS ? check_rows(&self, facets, made) : status;
+}
