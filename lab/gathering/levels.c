@@ -15,7 +15,9 @@ static lab_gather_settings completed(const aur_gather_settings *given) {
     lab_gather_settings o = *(const lab_gather_settings *)given;
     o.criterion = o.criterion == LAB_CRITERION_DEFAULT ? LAB_CRITERION_VARIANCE : o.criterion;
     if (o.threshold < 0.0f) /* by measurement: see docs/papers/gathering.md */
-        o.threshold = o.criterion == LAB_CRITERION_ENTROPY ? 0.3f : 0.03f;
+        o.threshold = o.criterion == LAB_CRITERION_ENTROPY             ? 0.3f
+                      : o.criterion == LAB_CRITERION_ENTROPY_HISTOGRAM ? 1.0f
+                                                                       : 0.03f;
     o.levels = o.levels == 0 ? 2 : o.levels;
     o.level_factor = o.level_factor == 0 ? 4 : o.level_factor;
     return o;
@@ -245,23 +247,49 @@ static double relative_error(const spread *s, double count, double level_error) 
     return sqrt(variance) / mean * level_error;
 }
 
-/* Over the channels, weighted by their means. */
-static double contrast_of(const gather_levels *levels, size_t level, const spread spreads[3], double count) {
-    double weighted = 0.0, total = 0.0;
+enum { BINS = 16 };
+
+/* Which of BINS equal steps of displayed brightness a colour is in: 1 is white, gamma 2.2. */
+static size_t bin_of(double red, double green, double blue) {
+    const double luminance = fmin(1.0, fmax(0.0, 0.2126 * red + 0.7152 * green + 0.0722 * blue));
+    return (size_t)fmin(BINS - 1.0, BINS * pow(luminance, 1.0 / 2.2));
+}
+
+/* Shannon's, in nats: 0 where all samples are equally bright. */
+static double histogram_entropy(const uint32_t bins[BINS], double count) {
+    double entropy = 0.0;
+    for (size_t b = 0; b < BINS; ++b)
+        if (bins[b] > 0)
+            entropy -= (double)bins[b] / count * log((double)bins[b] / count);
+    return entropy;
+}
+
+/* Over the channels, weighted by their means: by their shares of the colour or, for entropy-brightness, as
+ * they are, so that dark places have little contrast. */
+static double contrast_of(const gather_levels *levels, size_t level, const spread spreads[3],
+                          const uint32_t bins[BINS], double count) {
+    static const double sensitivity[3] = {0.4, 0.3, 0.6}; /* Rigau 2003 */
+    if (levels->criterion == LAB_CRITERION_ENTROPY_HISTOGRAM)
+        return histogram_entropy(bins, count);
+    double weighted = 0.0, total = 0.0, bright = 0.0;
     for (size_t c = 0; c < 3; ++c) {
-        const double contrast = levels->criterion == LAB_CRITERION_ENTROPY
-                                    ? entropy_contrast(&spreads[c], count)
-                                    : relative_error(&spreads[c], count, (double)levels->errors[level]);
+        const double contrast = levels->criterion == LAB_CRITERION_VARIANCE
+                                    ? relative_error(&spreads[c], count, (double)levels->errors[level])
+                                    : entropy_contrast(&spreads[c], count);
         weighted += spreads[c].sum * contrast;
+        bright += sensitivity[c] * spreads[c].sum * contrast;
         total += spreads[c].sum;
     }
+    if (levels->criterion == LAB_CRITERION_ENTROPY_BRIGHTNESS)
+        return bright / fmax(1.0, count);
     return total > 0.0 ? weighted / total : 0.0;
 }
 
 typedef struct adaptive_state {
     spread spreads[LANES][3];
     uint32_t samples[LANES]; /* that were above the surface */
-    float *values;           /* of direction i, channel c, lane k: values[(3 * i + c) * LANES + k] */
+    uint32_t bins[LANES][BINS];
+    float *values; /* of direction i, channel c, lane k: values[(3 * i + c) * LANES + k] */
 } adaptive_state;
 
 /* Traces the directions of one level. */
@@ -274,6 +302,9 @@ static void add_level(const gather_levels *levels, size_t level, uint32_t lanes,
             if ((aimed >> lane & 1u) == 0)
                 continue;
             ++state->samples[lane];
+            if (levels->criterion == LAB_CRITERION_ENTROPY_HISTOGRAM)
+                ++state->bins[lane][bin_of((double)values[0][lane], (double)values[1][lane],
+                                           (double)values[2][lane])];
             for (size_t c = 0; c < 3; ++c)
                 add_value(&state->spreads[lane][c], (double)(values[c][lane] * levels->pattern_weights[i]));
         }
@@ -299,8 +330,8 @@ static void gather(const void *prepared, uint32_t lanes, aur_gather_sweep *sweep
             if ((lanes >> lane & 1u) == 0)
                 continue;
             if (level + 1 < levels->count &&
-                contrast_of(levels, level, state.spreads[lane], (double)state.samples[lane]) >
-                    (double)levels->threshold)
+                contrast_of(levels, level, state.spreads[lane], state.bins[lane],
+                            (double)state.samples[lane]) > (double)levels->threshold)
                 continue;
             finish_lane(levels, level, state.values, lane, sweep);
             lanes &= ~(1u << lane);

@@ -4,9 +4,13 @@
 
 #include <aureole-render/gather.h>
 
-/* How the contrast of samples is measured that decides on the next level. */
+/* How the contrast of samples is measured that decides on the next level. Marques 2019 says "color entropy"
+ * and cites Rigau 2003; the three entropies are readings of that. */
 typedef enum lab_criterion {
-    LAB_CRITERION_ENTROPY,
+    LAB_CRITERION_ENTROPY, /* 1 - H / log n of the samples' shares, over channels by their shares */
+    LAB_CRITERION_ENTROPY_BRIGHTNESS, /* the same times the mean of each channel, weighed .4, .3, .6 (Rigau)
+                                       */
+    LAB_CRITERION_ENTROPY_HISTOGRAM,  /* H of a histogram of displayed brightness, in nats */
     LAB_CRITERION_VARIANCE,
     LAB_CRITERION_DEFAULT /* variance */
 } lab_criterion;
@@ -16,7 +20,8 @@ typedef struct lab_gather_settings {
     aur_gather_settings gather;
     bool adaptive;
     lab_criterion criterion;
-    float threshold; /* contrast above which the next level is gathered: 0.3 for entropy, else 0.03 */
+    float threshold; /* contrast above which the next level is gathered: see docs/keys.md for those of each
+                        criterion */
     size_t levels, level_factor; /* extensions, each by 2 or 4 times: 2, 4 */
 } lab_gather_settings;
 

@@ -15,9 +15,9 @@ gather() {
 directions=$(either 128 2048)
 gather reference diffuse_samples=$directions,glossy_samples=$directions
 gather first diffuse_samples=40,glossy_samples=20
-for criterion in variance entropy; do
-  gather all adaptive=true,diffuse_samples=40,glossy_samples=20,criterion=$criterion,threshold=0
-  all=$rays
+gather all adaptive=true,diffuse_samples=40,glossy_samples=20,threshold=0
+all=$rays
+for criterion in variance entropy entropy-brightness entropy-histogram; do
   gather some adaptive=true,diffuse_samples=40,glossy_samples=20,criterion=$criterion
   [ "$rays" -lt "$all" ] || fail "$criterion: $rays rays, all levels take $all"
   judge -v first="$(figure rmse reference.exr first.exr)" -v some="$(figure rmse reference.exr some.exr)" \

@@ -26,7 +26,7 @@ awk -F, '/^#/ || $1 == "figure" { next }
          END { exit bad || rows != 35 || !(sum > 0) }' "$grids-statue/marques-2019-statue.csv" || fail "the figure of 2019"
 # Shares of the levels add up, and doubling in place of fewer levels is left to the full form.
 awk -F, '/^#/ || $1 == "lobe" { next } /share/ { sum[$1 $2] += $4; ++rows }
-         END { for (way in sum) if ((sum[way] - 1) ^ 2 > 1e-20) bad = 1; exit bad || rows != 12 }' \
+         END { for (way in sum) if ((sum[way] - 1) ^ 2 > 1e-20) bad = 1; exit bad || rows != 24 }' \
   "$grids-adaptive/marques-2019-adaptive.csv" || fail "shares of the levels"
-awk -F, 'NR > 1 { ++rows; if (!($(NF - 1) <= $(NF - 2) && $(NF - 2) <= $NF && $6 > 20)) bad = 1 } END { exit bad || rows != 4 }' \
+awk -F, 'NR > 1 { ++rows; if (!($11 <= $10 && $10 <= $12 && $6 > 20 && $13 < 1 && $14 > 0)) bad = 1 } END { exit bad || rows != 8 }' \
   "$grids-adaptive/marques-2019-adaptive-ways.csv" || fail "ways of adaptive gathering"
