@@ -15,7 +15,8 @@ enum {
 };
 
 extern const uint64_t keller_sizes[KELLER_SIZES]; /* of tables 2 and 3 */
-/* What the paper has for a scene of the table, one of these sizes, and one of its own sets. */
+/* What tables 2 and 3 have for a scene, one of these sizes, and one of the paper's sets. */
+double keller_table2(size_t scene, size_t size, size_t set);
 double keller_table3(size_t scene, size_t size, size_t set);
 
 /* In the order of the paper's tables 2 and 3: cube, living room, office, teapot. */

@@ -7,22 +7,6 @@
 
 enum { SIZES = KELLER_SIZES };
 
-/* [scene: cube, living room, office, teapot][N][set] */
-static const double plain_published[KELLER_SCENES][SIZES][KELLER_PUBLISHED_SETS] = {
-    {{0.0647699, 0.0469468, 0.0459244, 0.0375936, 0.0458288},
-     {0.0138841, 0.0150312, 0.015322, 0.0101492, 0.0154578},
-     {0.00416856, 0.00426497, 0.00347108, 0.00388516, 0.0139228}},
-    {{5.68352, 3.89019, 2.0911, 1.46717, 5.49831},
-     {1.87948, 1.5128, 2.15754, 1.94902, 1.51938},
-     {0.64136, 0.550875, 0.524932, 0.727295, 0.573517}},
-    {{0.46748, 0.456453, 0.399271, 0.280669, 0.431063},
-     {0.259767, 0.202392, 0.331709, 0.475231, 0.234959},
-     {0.136946, 0.127394, 0.136938, 0.136222, 0.14049}},
-    {{3.55052, 24.4236, 5.28716, 3.58575, 4.63836},
-     {1.36052, 2.67153, 0.962619, 1.01024, 0.920303},
-     {0.460942, 0.438209, 0.434956, 0.412762, 0.422177}},
-};
-
 static const char *const columns[] = {"scene", "N",        "sequence",  "rms",
                                       "least", "greatest", "published", NULL};
 
@@ -98,7 +82,7 @@ static void add_rows(lab_run *run, bool weighted, size_t scene, size_t set, cons
             keller_rms(d->variants, weighted ? d->weighted[n] : d->plain[n], &least, &greatest);
         const double paper = set >= KELLER_PUBLISHED_SETS ? NAN
                              : weighted                   ? keller_table3(scene, n, set)
-                                                          : plain_published[scene][n][set];
+                                                          : keller_table2(scene, n, set);
         lab_text(run, keller_scene_at(scene)->name);
         lab_number(run, (double)keller_sizes[n]);
         lab_text(run, name);

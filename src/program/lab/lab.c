@@ -12,6 +12,7 @@ extern const lab_experiment lab_domains_prefixes;
 extern const lab_experiment lab_factors_coverage;
 extern const lab_experiment lab_integrate_coverage;
 extern const lab_experiment lab_irradiance_coverage;
+extern const lab_experiment lab_keller_1994_boxes;
 extern const lab_experiment lab_keller_1994_features;
 extern const lab_experiment lab_keller_1994_figure1;
 extern const lab_experiment lab_keller_1994_floor;
@@ -65,6 +66,7 @@ static const lab_experiment *const experiments[] = {
     &lab_factors_coverage,
     &lab_integrate_coverage,
     &lab_irradiance_coverage,
+    &lab_keller_1994_boxes,
     &lab_keller_1994_features,
     &lab_keller_1994_figure1,
     &lab_keller_1994_floor,
