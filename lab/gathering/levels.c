@@ -1,6 +1,7 @@
 #include "levels.h"
 
 #include <aureole/quadrature.h>
+#include <aureole/sphere.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,8 +48,6 @@ static void warn_of_idle_keys(const lab_gather_settings *o, aur_warnings warning
 static aur_result begin(const aur_gather_settings *given, aur_warnings warnings, bool *asked,
                         aur_error *error) {
     const lab_gather_settings *const o = (const lab_gather_settings *)given;
-    const bool fibonacci = strcmp(given->pattern, "spherical-fibonacci") == 0 &&
-                           (given->scramble == NULL || strcmp(given->scramble, "rotate") == 0);
     const struct {
         bool excluded;
         aur_result result;
@@ -63,10 +62,6 @@ static aur_result begin(const aur_gather_settings *given, aur_warnings warnings,
          "adaptive gathering grows each lobe's pattern by itself: weights of merged samples (oswa, mis) do "
          "not "
          "go with it; take osw, ratio or equal"},
-        {!fibonacci, AUR_ERROR_UNSUPPORTED,
-         "adaptive gathering takes its patterns from extensible spherical Fibonacci grids: leave 'pattern' "
-         "and "
-         "'scramble' out"},
         {o->level_factor == 3, AUR_ERROR_ARGUMENT, "'level_factor' is 2 or 4, not 3"},
     };
     *asked = o->adaptive;
@@ -98,6 +93,16 @@ static aur_result choose(const aur_gather_settings *given, size_t base, size_t c
             "finalgather-lab: optimal weights of levels of up to %zu directions would take too long "
             "(at most %d); use fewer levels or weights=ratio",
             *count, MOST_OPTIMAL);
+    const aur_set_description *const own = aur_set_find(given->pattern);
+    if (strcmp(given->pattern, "spherical-fibonacci") != 0) { /* which stands for the grid */
+        if (own == NULL || !own->extensible)
+            return aur_fail(
+                error, AUR_ERROR_UNSUPPORTED,
+                "finalgather-lab: adaptive gathering extends its pattern, and '%s' is not extensible",
+                given->pattern);
+        snprintf(set, capacity, "%s", given->pattern);
+        return AUR_OK;
+    }
     const size_t quadruplings = o.level_factor == 4 ? o.levels : (o.levels + 1) / 2;
     snprintf(set, capacity, "esfg:base=%zu,levels=%zu,progression=%zu", base, quadruplings, o.level_factor);
     return AUR_OK;

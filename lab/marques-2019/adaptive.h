@@ -17,7 +17,7 @@ typedef struct adaptive_way {
     const char *criterion; /* NULL: a pattern of one size, the lobe's first one times `factor` */
     size_t factor, levels;
     double threshold;
-    const char *pattern; /* of one size; NULL: spherical Fibonacci */
+    const char *pattern; /* NULL: spherical Fibonacci points of one size, E-SFG of levels */
 } adaptive_way;
 
 typedef struct adaptive_study {
@@ -43,6 +43,7 @@ typedef struct adaptive_found {
     double log_rays[ADAPTIVE_SEEDS]; /* log of the directions over those of one size with this error */
 } adaptive_found;
 
+const char *adaptive_pattern(const adaptive_way *way); /* its name */
 aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed, bool picture,
                            aur_image **image, aur_error *error);
 void adaptive_count(const adaptive_study *study, const adaptive_way *way, const aur_image *image,

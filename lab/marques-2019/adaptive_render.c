@@ -8,11 +8,14 @@
 
 aur_result adaptive_render(const adaptive_study *study, const adaptive_way *way, size_t seed, bool picture,
                            aur_image **image, aur_error *error) {
-    char integrator[400], how[160];
+    char integrator[600], how[360];
     const size_t first = study->lobe->first * (way->criterion == NULL ? way->factor : 1);
     if (way->criterion != NULL)
-        snprintf(how, sizeof how, "adaptive=true,criterion=%s,threshold=%.17g,level_factor=%zu,levels=%zu",
-                 way->criterion, way->threshold, way->factor, way->levels);
+        snprintf(how, sizeof how,
+                 "adaptive=true,criterion=%s,threshold=%.17g,level_factor=%zu,levels=%zu,scramble=rotate,"
+                 "pattern=(%.160s)",
+                 way->criterion, way->threshold, way->factor, way->levels,
+                 way->pattern != NULL ? way->pattern : "spherical-fibonacci");
     else
         snprintf(how, sizeof how, "pattern=%s", way->pattern != NULL ? way->pattern : "spherical-fibonacci");
     snprintf(
@@ -52,6 +55,10 @@ void adaptive_count(const adaptive_study *study, const adaptive_way *way, const 
         counts->shares[l] /= all;
 }
 
+const char *adaptive_pattern(const adaptive_way *way) {
+    return way->pattern != NULL ? way->pattern : way->criterion != NULL ? "esfg" : "spherical-fibonacci";
+}
+
 static aur_result need_truth(adaptive_study *study, aur_error *error) {
     static const char *const patterns[] = {"spherical-fibonacci", "sobol"};
     aur_result result = AUR_OK;
@@ -65,10 +72,11 @@ static aur_result need_truth(adaptive_study *study, aur_error *error) {
 /* The mean square error of each seed, and what its gathers took. */
 static aur_result measure(adaptive_study *study, const adaptive_way *way, adaptive_found *found,
                           aur_error *error) {
-    char key[160];
+    char key[300];
     double values[5 * ADAPTIVE_SEEDS];
-    snprintf(key, sizeof key, "%s %s %zu %zu %.6g", study->lobe->name,
-             way->criterion != NULL ? way->criterion : "one size", way->factor, way->levels, way->threshold);
+    snprintf(key, sizeof key, "%s %s %zu %zu %.6g %.160s", study->lobe->name,
+             way->criterion != NULL ? way->criterion : "one size", way->factor, way->levels, way->threshold,
+             adaptive_pattern(way));
     if (!lab_recall(study->run, key, 5 * study->seeds, values)) {
         aur_result result = need_truth(study, error);
         for (size_t k = 0; k < study->seeds && result == AUR_OK; ++k) {

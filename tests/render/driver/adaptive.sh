@@ -25,6 +25,13 @@ for criterion in variance entropy entropy-brightness entropy-histogram; do
     fail "$criterion: the errors are not in order"
   grep -q 'gathers ended at level 2' some.log || fail "$criterion: --stats does not count the levels"
 done
+# Any extensible set has levels; E-SFG by its name is what stands for spherical Fibonacci, and Sobol serves as well as for one size.
+gather named "adaptive=true,diffuse_samples=40,glossy_samples=20,component=diffuse,pattern=(esfg:base=40,levels=2,progression=4)"
+gather grid adaptive=true,diffuse_samples=40,glossy_samples=20,component=diffuse
+[ "$(figure rmse named.exr grid.exr)" = 0 ] || fail "E-SFG by its name is another image"
+gather net adaptive=true,diffuse_samples=40,glossy_samples=20,pattern=sobol,scramble=rotate
+judge -v first="$(figure rmse reference.exr first.exr)" -v net="$(figure rmse reference.exr net.exr)" 'BEGIN { exit !(net < 0.8 * first) }' ||
+  fail "levels of Sobol are not better than the first level"
 gather optimal adaptive=true,diffuse_samples=40,glossy_samples=20,weights=osw
 judge -v some="$(figure rmse reference.exr some.exr)" -v optimal="$(figure rmse reference.exr optimal.exr)" \
   'BEGIN { exit !(optimal < 1.3 * some && optimal > 0) }' || fail "optimal weights of the levels are worse"
@@ -43,7 +50,7 @@ refuses() {
 }
 refuses diffuse_samples=100000,levels=7 'use fewer levels'
 refuses level_factor=3 "'level_factor' is 2 or 4"
-refuses pattern=sobol "leave 'pattern' and 'scramble' out"
+refuses pattern=hammersley "'hammersley' is not extensible"
 refuses criterion=colour entropy
 refuses weights=oswa "take osw"
 refuses weights=osw,levels=5 'weights=ratio'

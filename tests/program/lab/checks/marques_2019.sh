@@ -28,5 +28,5 @@ awk -F, '/^#/ || $1 == "figure" { next }
 awk -F, '/^#/ || $1 == "lobe" { next } /share/ { sum[$1 $2] += $4; ++rows }
          END { for (way in sum) if ((sum[way] - 1) ^ 2 > 1e-20) bad = 1; exit bad || rows != 24 }' \
   "$grids-adaptive/marques-2019-adaptive.csv" || fail "shares of the levels"
-awk -F, 'NR > 1 { ++rows; if (!($11 <= $10 && $10 <= $12 && $6 > 20 && $13 < 1 && $14 > 0)) bad = 1 } END { exit bad || rows != 8 }' \
+awk -F, 'NR > 1 { ++rows; if (!($12 <= $11 && $11 <= $13 && $7 > 20 && $14 < 1 && $15 > 0)) bad = 1; nets += $2 == "sobol" } END { exit bad || rows != 10 || nets != 2 }' \
   "$grids-adaptive/marques-2019-adaptive-ways.csv" || fail "ways of adaptive gathering"
