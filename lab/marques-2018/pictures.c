@@ -1,11 +1,18 @@
 #include "pictures.h"
 
+#include <aureole/statistics.h>
+#include <math.h>
 #include <stdio.h>
 #include <time.h>
 
 aur_result lab_gather_open(lab_gather *gather, const char *file, const char *environment, aur_error *error) {
     const aur_definition definition = {"environment", environment};
-    return lab_stage_open(gather->run, file, environment != NULL ? 1 : 0, &definition, &gather->stage, error);
+    return lab_gather_open_defined(gather, file, environment != NULL ? 1 : 0, &definition, error);
+}
+
+aur_result lab_gather_open_defined(lab_gather *gather, const char *file, size_t definition_count,
+                                   const aur_definition *definitions, aur_error *error) {
+    return lab_stage_open(gather->run, file, definition_count, definitions, &gather->stage, error);
 }
 
 void lab_gather_close(lab_gather *gather) {
@@ -69,4 +76,15 @@ void lab_gather_judge(const lab_gather *gather, const aur_image *image, double *
     }
     *both = marked > 0 ? sums[0] / (double)marked : 0.0;
     *all = sums[1] / (double)pixels;
+}
+
+lab_interval lab_gather_one_set(size_t count, const double *squares, const double *base) {
+    aur_moments logs = {0};
+    for (size_t k = 0; k < count; ++k)
+        aur_moments_add(&logs, 0.5 * log(squares[k] / base[k]));
+    if (squares == base || count < 2)
+        return (lab_interval){exp(logs.mean), exp(logs.mean), exp(logs.mean)};
+    const double half = aur_student_quantile(count - 1, 0.975) *
+                        sqrt(aur_moments_variance(&logs) * (1.0 + 1.0 / (double)count));
+    return (lab_interval){exp(logs.mean), exp(logs.mean - half), exp(logs.mean + half)};
 }

@@ -22,6 +22,9 @@ typedef struct lab_gather {
 
 /* `environment` NULL: the scene's own. Without meshes for the scene there is no renderer, and AUR_OK. */
 aur_result lab_gather_open(lab_gather *gather, const char *file, const char *environment, aur_error *error);
+/* The same of a scene with any definitions. */
+aur_result lab_gather_open_defined(lab_gather *gather, const char *file, size_t definition_count,
+                                   const aur_definition *definitions, aur_error *error);
 void lab_gather_close(lab_gather *gather);
 
 /* A picture with directions[0] diffuse and directions[1] glossy samples; `keys` say how they are weighed. */
@@ -30,5 +33,10 @@ aur_result lab_gather_render(lab_gather *gather, const char *set, const char *ke
 aur_result lab_gather_need_reference(lab_gather *gather, aur_error *error);
 /* Mean square errors over the pixels with both lobes, and over the picture. */
 void lab_gather_judge(const lab_gather *gather, const aur_image *image, double *both, double *all);
+
+/* The RMSE over that of a base for one more set of points: the interval that holds it with probability .95
+ * when logarithms of ratios are normal. The paper has one set for all shading points and images, so its
+ * figures are of one set each. */
+lab_interval lab_gather_one_set(size_t count, const double *squares, const double *base);
 
 #endif

@@ -28,11 +28,13 @@ extern const lab_experiment lab_marques_2013_fig4;
 extern const lab_experiment lab_marques_2013_gather;
 extern const lab_experiment lab_marques_2013_table1;
 extern const lab_experiment lab_marques_2018_beyond;
+extern const lab_experiment lab_marques_2018_box;
 extern const lab_experiment lab_marques_2018_fig7;
 extern const lab_experiment lab_marques_2018_fig8;
 extern const lab_experiment lab_marques_2018_functions;
 extern const lab_experiment lab_marques_2018_gains;
 extern const lab_experiment lab_marques_2018_ggx;
+extern const lab_experiment lab_marques_2018_joint;
 extern const lab_experiment lab_marques_2018_metal;
 extern const lab_experiment lab_marques_2018_rivals;
 extern const lab_experiment lab_marques_2018_sensitivity;
@@ -82,11 +84,13 @@ static const lab_experiment *const experiments[] = {
     &lab_marques_2013_gather,
     &lab_marques_2013_table1,
     &lab_marques_2018_beyond,
+    &lab_marques_2018_box,
     &lab_marques_2018_fig7,
     &lab_marques_2018_fig8,
     &lab_marques_2018_functions,
     &lab_marques_2018_gains,
     &lab_marques_2018_ggx,
+    &lab_marques_2018_joint,
     &lab_marques_2018_metal,
     &lab_marques_2018_rivals,
     &lab_marques_2018_sensitivity,

@@ -54,3 +54,15 @@ for figure in 7:9 8:2; do
     END { for (n in name) { ++count; if (!(rmse[n "," most] < rmse[n ",24"])) bad = 1 } exit bad || count != want }' \
     "$weights-fig${figure%:*}/marques-2018-fig${figure%:*}-rmse.csv" || fail "figure ${figure%:*}"
 done
+# Regression has no error where its basis holds the light; and what solves a system is below MIS under smooth light.
+awk -F, '/^# claim: .*regression.*: holds$/ { exact++ } $2 == "smooth" { rmse[$1 $3 $4] = $(NF - 1); if ($4 == "MIS balance") keys[$1 $3] }
+  END { for (k in keys) { ++views; if (!(rmse[k "optimal MIS"] < rmse[k "MIS balance"] && rmse[k "regression of degree 2"] < rmse[k "MIS balance"])) bad = 1 }
+        exit bad || exact != 2 || views != 4 }' "$weights-rivals/marques-2018-rivals.csv" || fail "control variates"
+# A box of the paper's lobes that are not given: six rows, each with the interval of one set about its mean.
+awk -F, '!/^#/ && NR > 1 { ++rows; if (!($8 <= $5 * 1.001 && $9 >= $5 * 0.8 && $10 > 1)) bad = 1 } END { exit bad || rows != 6 }' \
+  "$weights-box/marques-2018-box.csv" || fail "the box of any lobes"
+# Points that move with their weights are below the best weights of given points, and below points that move for equal weights.
+awk -F, '!/^#/ && NR > 1 { ++rows; over[$3] = $5 }
+  END { exit !(rows == 6 && over["points and weights"] < 0.99 * over["optimal density and weights"] &&
+               over["points and weights"] < over["points for equal weights"] && over["optimal density and weights"] < over["optimal weights"]) }' \
+  "$weights-joint/marques-2018-joint.csv" || fail "points and weights together"
