@@ -122,7 +122,8 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
 
 /* The side of the cells by which pixels share samples; 0 where they share none. */
 static size_t cell_of(const aur_render *render, const aur_filter *filter) {
-    if (render->integrator->pixel_centre || !aur_filter_shares_samples(filter))
+    if (render->integrator->pixel_centre || aur_camera_factor(render->renderer->scene) != 1.0f ||
+        !aur_filter_shares_samples(filter))
         return 0;
     return render->integrator->whole_tiles || render->settings.samples_per_pixel < AUR_SAMPLES_PER_PIXEL_MAX
                ? AUR_TILE_SIZE
@@ -168,9 +169,12 @@ static aur_result prepare(aur_render *render, aur_error *error) {
         result = make_film(render, filter, error);
     if (result != AUR_OK)
         return result;
+    const float factor = aur_camera_factor(scene);
+    const bool is_box = render->film->spread != NULL || factor != 1.0f;
     render->view = (aur_view){.scene = scene,
+                              .factor = factor,
                               .sampler = render->sampler,
-                              .filter = render->film->spread != NULL ? aur_filter_find("box") : filter,
+                              .filter = is_box ? aur_filter_find("box") : filter,
                               .reach = render->film->spread != NULL ? render->film->spread->reach : 0,
                               .width = s->width,
                               .height = s->height,

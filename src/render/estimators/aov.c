@@ -224,8 +224,8 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
     const bool seen = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
     if (seen)
         aur_scene_surface(integrator->scene, &sample.ray, &hit, &surface);
-    const aov_sample at = {.radiance =
-                               data->nested->descriptor->radiance(data->nested, &sample, &tile->counters),
+    const aur_vector radiance = data->nested->descriptor->radiance(data->nested, &sample, &tile->counters);
+    const aov_sample at = {.radiance = aur_tile_measured(tile, radiance),
                            .ray = &sample.ray,
                            .hit = seen ? &hit : NULL,
                            .surface = &surface,

@@ -46,8 +46,9 @@ static inline void aur_tile_add_clamped(aur_tile *tile, size_t x, size_t y, uint
         aur_tile_add(tile, x, y, index, offset, radiance);
         return;
     }
-    const aur_vector left = aur_clamped(radiance, straight, clamp);
-    const aur_vector taken = aur_vector_subtract(radiance, left);
+    const aur_vector kept = aur_clamped(radiance, straight, clamp);
+    const aur_vector left = aur_tile_measured(tile, kept);
+    const aur_vector taken = aur_tile_measured(tile, aur_vector_subtract(radiance, kept));
     const float values[] = {left.x, left.y, left.z, taken.x, taken.y, taken.z};
     aur_tile_add_channels(tile, x, y, index, offset, values);
 }

@@ -122,6 +122,7 @@ void aur_tile_add(aur_tile *tile, size_t x, size_t y, uint32_t index, const floa
         ++tile->counters.invalid;
         return;
     }
+    radiance = aur_tile_measured(tile, radiance);
     const size_t pixel = pixel_of(tile, x, y);
     ++tile->counts[pixel];
     if (tile->spread != NULL) {
@@ -174,8 +175,9 @@ void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t made, const floa
 
 void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]) {
     const size_t pixel = pixel_of(tile, x, y);
+    const double factor = (double)aur_tile_measured(tile, (aur_vector){1.0f, 1.0f, 1.0f}).x;
     for (size_t c = 0; c < 3; ++c)
-        tile->sums[pixel * tile->channel_count + c] += (double)count * mean[c];
+        tile->sums[pixel * tile->channel_count + c] += (double)count * mean[c] * factor;
     tile->counts[pixel] += count;
 }
 

@@ -41,6 +41,7 @@ enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
 /* Where camera samples come from; immutable while a picture is made. */
 typedef struct aur_view {
     const aur_scene *scene;
+    float factor; /* of radiance (aur_camera_factor); 0: 1 */
     const aur_sampler *sampler;
     const aur_filter *filter; /* that samples are drawn by: box where pixels share samples */
     size_t reach;             /* pixels around one whose samples count in it */
@@ -125,6 +126,12 @@ static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y)
     return begin < end ? end - begin : 0;
 }
 
+/* What the camera measures of a sample's radiance. */
+static inline aur_vector aur_tile_measured(const aur_tile *tile, aur_vector radiance) {
+    const float factor = tile->view != NULL ? tile->view->factor : 0.0f;
+    return factor == 0.0f || factor == 1.0f ? radiance : aur_vector_scale(radiance, factor);
+}
+
 /* Whether finite and not negative. */
 bool aur_is_radiance(aur_vector radiance);
 
@@ -132,7 +139,7 @@ bool aur_is_radiance(aur_vector radiance);
  * counted and left out. */
 void aur_tile_add(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2],
                   aur_vector radiance);
-/* One sample with all channels, the first three the radiance. */
+/* One sample with all channels, the first three what the camera measures (aur_tile_measured). */
 void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2],
                            const float *values);
 /* Where pixels share samples: what another ray of a sample met, one of 1 / `part` of them. They say where the

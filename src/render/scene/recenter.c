@@ -85,8 +85,9 @@ aur_result aur_scene_recenter(aur_scene *scene, const aur_warnings *warnings, au
         recenter_instance(scene->instances[i], scene->origin);
     for (size_t i = 0; i < scene->volume_count && result == AUR_OK; ++i)
         aur_volume_recenter(scene->volumes[i], scene->origin);
-    aur_sensor_recenter(&scene->sensor, scene->origin);
-    for (size_t i = 0; i < scene->part_count; ++i)
-        aur_sensor_recenter(scene->parts[i], scene->origin);
+    if (result == AUR_OK)
+        result = aur_sensor_recenter(&scene->sensor, scene->origin, error);
+    for (size_t i = 0; i < scene->part_count && result == AUR_OK; ++i)
+        result = aur_sensor_recenter(scene->parts[i], scene->origin, error);
     return result;
 }

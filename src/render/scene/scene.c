@@ -252,8 +252,11 @@ void aur_scene_destroy(aur_scene *scene) {
         free(scene->instances[i]);
     free(scene->groups);
     free(scene->instances);
-    for (size_t i = 0; i < scene->part_count; ++i)
+    aur_sensor_release(&scene->sensor);
+    for (size_t i = 0; i < scene->part_count; ++i) {
+        aur_sensor_release(scene->parts[i]);
         free(scene->parts[i]);
+    }
     free(scene->parts);
     free(scene->shapes);
     free(scene->emitters);

@@ -247,6 +247,8 @@ typedef struct aur_camera_lanes {
 void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const float *x, const float *y,
                      const float *lens_u, const float *lens_v, aur_camera_lanes *rays);
 
+/* What the mean radiance along rays is to be multiplied by: pi for irradiance, else 1. */
+float aur_camera_factor(const aur_scene *scene);
 /* Whether the camera's rays depend on `lens`. */
 bool aur_camera_has_lens(const aur_scene *scene);
 

@@ -44,6 +44,10 @@ void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x
     const float aspect = wide / (float)height;
     aur_ray local = {.origin = {0.0f, 0.0f, 0.0f}};
     sensor->descriptor->ray(sensor, aspect, x / wide, y / (float)height, lens, &local);
+    if (sensor->shape != NULL) { /* the shape stands in the world */
+        *ray = local;
+        return;
+    }
     const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
     ray->origin =
         aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
@@ -94,11 +98,22 @@ void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const 
     }
 }
 
+static bool has_lens(const aur_sensor *sensor) {
+    return sensor->aperture_radius > 0.0f || sensor->shape != NULL;
+}
+
 bool aur_camera_has_lens(const aur_scene *scene) {
-    bool has = scene->sensor.aperture_radius > 0.0f;
+    bool has = has_lens(&scene->sensor);
     for (size_t i = 0; i < scene->sensor.part_count; ++i)
-        has = has || scene->sensor.parts[i]->aperture_radius > 0.0f;
+        has = has || has_lens(scene->sensor.parts[i]);
     return has;
+}
+
+float aur_camera_factor(const aur_scene *scene) {
+    const aur_sensor *const sensor = &scene->sensor;
+    const aur_sensor_descriptor *const descriptor =
+        sensor->part_count > 0 ? sensor->parts[0]->descriptor : sensor->descriptor;
+    return descriptor != NULL && descriptor->factor != 0.0f ? descriptor->factor : 1.0f;
 }
 
 bool aur_camera_is_pinhole(const aur_scene *scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "points/base/keys.h"
+#include "render/scene/patches.h"
 #include "render/scene/scene.h"
 #include "render/scene/transform.h"
 
@@ -23,6 +24,10 @@ typedef struct aur_sensor_descriptor {
      * downwards. The direction is of any length; the origin is that of the camera unless it is set.
      * NULL for a batch, each part of which has its own. */
     void (*ray)(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2], aur_ray *ray);
+    /* Makes what its rays need when all shapes stand in the scene's coordinates; may be NULL. Errors: MEMORY.
+     */
+    aur_result (*prepare)(aur_sensor *sensor, aur_error *error);
+    float factor;    /* of the radiance along its rays; 0: 1, and the rays are in camera space */
     bool is_pinhole; /* all rays begin at the origin, in directions aur_sensor_direction */
 } aur_sensor_descriptor;
 
@@ -35,6 +40,8 @@ struct aur_sensor {
     aur_fov_axis axis;
     float tangent; /* of half the field of view, along `axis` */
     float aperture_radius, focus_distance;
+    const struct aur_shape *shape;   /* on which rays begin; NULL: none */
+    aur_distribution triangles;      /* of that, where it is a mesh, by area */
     const struct aur_medium *medium; /* which it stands in; NULL: none */
     size_t part_count;               /* of a batch; else 0 */
     struct aur_sensor *const *parts;
@@ -45,8 +52,10 @@ extern const aur_table aur_sensor_table;
 /* Builds the sensor that parameters->plugin names. */
 aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
 
-/* The scene's origin has been chosen. */
-void aur_sensor_recenter(aur_sensor *sensor, const double origin[3]);
+/* The scene's origin has been chosen, and all shapes count from it. Errors: MEMORY. */
+aur_result aur_sensor_recenter(aur_sensor *sensor, const double origin[3], aur_error *error);
+/* Frees what the sensor points to. */
+void aur_sensor_release(aur_sensor *sensor);
 
 /* Half the film's width at z = 1. */
 float aur_sensor_half_width(const aur_sensor *sensor, float aspect);

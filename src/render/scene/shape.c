@@ -47,6 +47,20 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     return aur_triangle_sample(mesh, triangle, u[1], u[2]);
 }
 
+aur_result aur_mesh_distribution(const aur_mesh *mesh, aur_distribution *triangles, aur_error *error) {
+    double *const areas = malloc(mesh->triangle_count * sizeof *areas);
+    if (areas == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(mesh, i, corner);
+        areas[i] = aur_triangle_area(corner);
+    }
+    const aur_result result = aur_distribution_create(triangles, mesh->triangle_count, areas, error);
+    free(areas);
+    return result;
+}
+
 aur_shape_point aur_triangle_sample(const aur_mesh *mesh, size_t triangle, float u, float v) {
     aur_vector corner[3];
     aur_mesh_corners(mesh, triangle, corner);

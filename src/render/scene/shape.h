@@ -144,6 +144,9 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
 /* A point of any shape drawn uniformly by area; u[0] chooses a triangle of a mesh by `triangles`. */
 aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles, const float u[3]);
 
+/* Its triangles by area. Errors: MEMORY. */
+aur_result aur_mesh_distribution(const aur_mesh *mesh, aur_distribution *triangles, aur_error *error);
+
 /* A point of a triangle. */
 aur_shape_point aur_triangle_sample(const aur_mesh *mesh, size_t triangle, float u, float v);
 

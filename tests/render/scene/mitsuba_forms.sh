@@ -62,6 +62,29 @@ near "a radiancemeter and a camera" "$(meter "$aimed")" \
   "$light<shape type='rectangle'/><sensor type='perspective'><float name='fov' value='1e-4'/>$turned$film</sensor>"
 refused "'origin' with 'direction'" "$(meter "<point name='origin' x='0' y='-4' z='3'/>")"
 
+# An irradiance meter: pi everywhere in light of radiance 1, and pi R^2 / (R^2 + h^2) before a disk of radius R at h.
+meters() { # meters EXACT ALLOWED BODY: all pixels are within a share of the exact value
+  render a "$3" "${@:4}"
+  python3 - "$1" "$2" <<'PY' || fail "an irradiance meter, $3"
+import struct, sys
+values = struct.unpack("<192f", open("a.pfm", "rb").read()[-768:])
+exact, allowed = float(sys.argv[1]), float(sys.argv[2])
+mean = sum(values) / len(values)
+sys.exit(abs(mean - exact) > allowed * exact or max(values) > 2 * exact or min(values) < 0)
+PY
+}
+meter="<sensor type='irradiancemeter'>$film</sensor>"
+for shape in sphere rectangle cube disk cylinder; do
+  meters 3.14159265 1e-6 "<shape type='$shape'>$meter<bsdf type='diffuse'><float name='reflectance' value='0'/></bsdf></shape><emitter type='constant'/>"
+done
+small="<transform name='to_world'><scale value='.001'/></transform>"
+lit="<shape type='disk'><transform name='to_world'><rotate x='1' angle='180'/><translate z='2'/></transform><emitter type='area'/></shape>"
+# 16 Sobol points in each of 64 pixels: all of them miss pi / 5 by less than 5 of a hundred.
+meters 0.62831853 0.05 "<shape type='rectangle'>$small$meter</shape>$lit" --sampler sobol
+meters 0.62831853 0.05 "<shape type='disk'>$small$meter</shape>$lit" --sampler sobol --integrator path:packets=false
+refused "it must stand inside a <shape>" "<sensor type='irradiancemeter'/>"
+refused "takes no 'to_world'" "<shape type='sphere'><sensor type='irradiancemeter'><transform name='to_world'/></sensor></shape>"
+
 # A texture may be called a spectrum; the shapes of a `merge` stand in its place.
 check="name='reflectance'><float name='color0' value='.2'/>"
 floor() { echo "$camera$light<shape type='rectangle'><bsdf type='diffuse'>$1</bsdf></shape>"; }

@@ -36,21 +36,6 @@ static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
     return fabsf(aur_vector_dot(rectangle->x, rectangle->y)) < 1e-4f;
 }
 
-static aur_result find_triangles(area_light *light, aur_error *error) {
-    const aur_mesh *const mesh = &light->shape->mesh;
-    double *const areas = malloc(mesh->triangle_count * sizeof *areas);
-    if (areas == NULL)
-        return aur_fail_memory(error);
-    for (size_t i = 0; i < mesh->triangle_count; ++i) {
-        aur_vector corner[3];
-        aur_mesh_corners(mesh, i, corner);
-        areas[i] = aur_triangle_area(corner);
-    }
-    const aur_result result = aur_distribution_create(&light->triangles, mesh->triangle_count, areas, error);
-    free(areas);
-    return result;
-}
-
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     const aur_shape *const shape = emitter->scene->shapes[emitter->shape];
     if (shape->curved != NULL && shape->curved->sample == NULL)
@@ -75,7 +60,7 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     light->rectangle.area = (float)shape->area;
     light->rectangle.radiance = emitter->radiance.constant;
     light->kernels = &AUR_KERNEL_HERE(aur_rectangle_kernels);
-    return light->is_mesh ? find_triangles(light, error) : AUR_OK;
+    return light->is_mesh ? aur_mesh_distribution(&shape->mesh, &light->triangles, error) : AUR_OK;
 }
 
 static double triangle_area(const area_light *light, size_t triangle) {

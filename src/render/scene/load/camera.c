@@ -212,6 +212,9 @@ static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, 
         if (i > 0 && here != scene->sensor.medium)
             return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
                                        "its sensors must stand in one medium, not in several");
+        if (i > 0 && scene->parts[i]->descriptor->factor != scene->parts[0]->descriptor->factor)
+            return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
+                                       "irradiance meters cannot stand beside other sensors");
         scene->sensor.medium = here;
     }
     return AUR_OK;

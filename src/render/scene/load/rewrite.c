@@ -141,8 +141,33 @@ static void splice_merge(aur_xml_node *parent, aur_xml_node *before, aur_xml_nod
         parent->last_child = node->last_child;
 }
 
+/* A sensor inside a shape is one of the scene that refers to the shape. */
+static void move_sensors(aur_nodes *nodes, aur_xml_node *shape) {
+    const char *const type = aur_xml_attribute_value(shape, "type");
+    if (strcmp(shape->tag, "shape") != 0 || type == NULL || aur_is_shape_of_shapes(type))
+        return;
+    aur_xml_node *before = NULL, *next;
+    for (aur_xml_node *child = shape->first_child; child != NULL; child = next) {
+        next = child->next;
+        if (strcmp(child->tag, "sensor") != 0) {
+            before = child;
+            continue;
+        }
+        if (before != NULL)
+            before->next = next;
+        else
+            shape->first_child = next;
+        if (next == NULL)
+            shape->last_child = before;
+        nodes->location = child->location;
+        aur_node_refer(nodes, child, shape);
+        add_part(nodes->tree->root, child);
+    }
+}
+
 aur_result aur_loader_rewrite(aur_nodes *nodes, aur_xml_node *node) {
-    aur_result result = AUR_OK;
+    move_sensors(nodes, node);
+    aur_result result = nodes->result;
     const char *const type = aur_xml_attribute_value(node, "type");
     for (size_t i = 0; i < sizeof forms / sizeof forms[0] && result == AUR_OK; ++i)
         if (strcmp(forms[i].tag, node->tag) == 0 &&

@@ -6,6 +6,7 @@
     ROW(thinlens)                                                                                            \
     ROW(orthographic)                                                                                        \
     ROW(radiancemeter)                                                                                       \
+    ROW(irradiancemeter)                                                                                     \
     ROW(batch)
 
 #define DECLARE(name) extern const aur_sensor_descriptor aur_sensor_##name;
@@ -58,9 +59,16 @@ static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, au
     return AUR_OK;
 }
 
-void aur_sensor_recenter(aur_sensor *sensor, const double origin[3]) {
+aur_result aur_sensor_recenter(aur_sensor *sensor, const double origin[3], aur_error *error) {
     for (size_t i = 0; i < 3; ++i)
         sensor->to_world[4 * i + 3] = (float)(sensor->place[i] - origin[i]);
+    return sensor->descriptor != NULL && sensor->descriptor->prepare != NULL
+               ? sensor->descriptor->prepare(sensor, error)
+               : AUR_OK;
+}
+
+void aur_sensor_release(aur_sensor *sensor) {
+    aur_distribution_release(&sensor->triangles);
 }
 
 aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
