@@ -1,4 +1,4 @@
-/* The first part of the bench `ask`, alone. */
+/* Images to a target error: what they cost. */
 #include "adaptive_speed.h"
 
 static bool run(const bench_options *options) {
@@ -10,4 +10,4 @@ static bool run(const bench_options *options) {
 }
 
 const bench bench_adaptive_speed_alone = {"ask-speed",
-                                          "what pictures to an error cost, beside other renderers", run};
+                                          "what images to a target error cost, next to other renderers", run};

@@ -13,7 +13,6 @@
 /* A line a bench. */
 /* clang-format off */
 extern const bench bench_ao;
-extern const bench bench_adaptive;
 extern const bench bench_adaptive_calibration_alone;
 extern const bench bench_adaptive_speed_alone;
 extern const bench bench_defaults;
@@ -41,7 +40,6 @@ extern const bench bench_weights;
 
 static const bench *const benches[] = {
     &bench_ao,
-    &bench_adaptive,
     &bench_adaptive_calibration_alone,
     &bench_adaptive_speed_alone,
     &bench_defaults,
