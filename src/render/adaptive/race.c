@@ -12,12 +12,13 @@
 
 enum {
     PIXELS = AUR_RACE_BLOCK * AUR_RACE_BLOCK,
-    FIRST_BLOCKS = 54, /* 864 pixels */
+    FIRST_BLOCKS = 18, /* 288 pixels */
     MAP_PHOTONS = 50000,
     RESAMPLINGS = 300
 };
-/* Of the work that the best candidate needs, what the race may take. */
-static const double PART = 0.05;
+/* Of the work that the best candidate needs, what the race may take; and the first blocks of all candidates.
+ */
+static const double PART = 0.05, FIRST_PART = 0.1;
 /* A candidate is dropped that is worse than the best in so many resamplings of the blocks. */
 static const double CONFIDENCE = 0.95;
 /* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
@@ -72,6 +73,24 @@ static void add_spent(const aur_replicas *replicas, uint64_t prepared, aur_race_
     }
 }
 
+/* Films whose pixels share samples give cells alone, to all candidates alike. */
+static bool reads_neighbours(size_t row, const aur_replicas *replicas) {
+    return row == AUR_RACE_SHARED && aur_render_film(replicas->renders[0])->layout.cell == 0;
+}
+
+/* Of a block's pixels, and of those that are at most `border` away from it. */
+static void set_targets(const aur_race *race, size_t block, size_t border, uint32_t samples,
+                        uint32_t *targets) {
+    size_t pixels[PIXELS];
+    const size_t count = aur_race_pixels(race->width, race->height, block, pixels);
+    for (size_t p = 0; p < count; ++p) {
+        const size_t x = pixels[p] % race->width, y = pixels[p] / race->width;
+        for (size_t j = y > border ? y - border : 0; j <= y + border && j < race->height; ++j)
+            for (size_t i = x > border ? x - border : 0; i <= x + border && i < race->width; ++i)
+                targets[j * race->width + i] = samples;
+    }
+}
+
 /* Renders the blocks of `order` from those that the candidate has up to `count`. */
 static aur_result render_blocks(aur_race *race, size_t row, size_t count, const size_t *order,
                                 aur_error *error) {
@@ -89,12 +108,9 @@ static aur_result render_blocks(aur_race *race, size_t row, size_t count, const 
                             ? aur_replicas_create(race->renderer, &own, race->replica_count, &replicas, error)
                             : aur_fail_memory(error);
     const uint64_t prepared = aur_rays_traced - before;
-    for (size_t b = entry->blocks; b < count && result == AUR_OK; ++b) {
-        size_t pixels[PIXELS];
-        const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
-        for (size_t p = 0; p < pixel_count; ++p)
-            targets[pixels[p]] = samples_of[row];
-    }
+    const bool around = result == AUR_OK && reads_neighbours(row, &replicas);
+    for (size_t b = entry->blocks; b < count && result == AUR_OK; ++b)
+        set_targets(race, order[b], around ? 1 : 0, samples_of[row], targets);
     for (size_t r = 0; r < replicas.count && result == AUR_OK; ++r)
         result = atomic_load(race->cancelled)
                      ? AUR_ERROR_CANCELLED
@@ -283,43 +299,36 @@ static double whole_work(const aur_race *race, size_t best) {
     return race->seconds * rays_per_second;
 }
 
+/* Without the photon map, which the first blocks pay for whatever follows. */
 static double spent_work(const aur_race *race) {
-    double work = aur_photon_work(MAP_PHOTONS);
+    double work = 0.0;
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
         work += race->entries[i].rays;
     return work;
 }
 
-/* The first rung of a row, as that of the middle one took: neighbours that share render whole tiles. */
-static double first_rung(const aur_race *race, size_t row, size_t blocks) {
-    const double tile = 256.0,
-                 per_sample = race->entries[AUR_RACE_MIDDLE].rays / race->entries[AUR_RACE_MIDDLE].samples;
-    const double pixels = row == AUR_RACE_SHARED
-                              ? fmin((double)blocks * tile, (double)(race->width * race->height))
-                              : (double)(blocks * PIXELS);
-    return per_sample * pixels * (double)samples_of[row] * (double)race->replica_count;
+/* The first rung of a row, as that of the middle one took; a neighbour's border doubles a block. */
+static double first_rung(const aur_race *race, size_t row) {
+    const aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
+    const double border = row == AUR_RACE_SHARED ? 2.0 : 1.0;
+    return border * middle->rays * (double)samples_of[row] / (double)samples_of[AUR_RACE_MIDDLE];
 }
 
-/* The other rows render the first blocks, where their work is small next to that of the image. */
+/* Other rows render the first blocks, those that differ most first, while their work is small next to that of
+ * the image. */
 static aur_result run_others(aur_race *race, const size_t *order, size_t blocks, aur_error *error) {
-    static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_LIGHTS, AUR_RACE_LONG};
-    const double most = PART * whole_work(race, AUR_RACE_MIDDLE);
-    double work = spent_work(race);
-    for (size_t k = 0; k < 3; ++k)
-        work += first_rung(race, others[k], blocks);
+    static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_LONG, AUR_RACE_LIGHTS};
+    const double most = FIRST_PART * whole_work(race, AUR_RACE_MIDDLE);
     /* Where a first pattern and its photons are most of the work, path tracing may need less than they do. */
-    const bool races = work <= most;
-    const bool path = races || 2.0 * least_work(race, AUR_RACE_MIDDLE) > race->entries[AUR_RACE_MIDDLE].need;
+    const bool path = 2.0 * least_work(race, AUR_RACE_MIDDLE) > race->entries[AUR_RACE_MIDDLE].need;
     aur_result result = AUR_OK;
-    for (size_t k = 0; k < 3 && result == AUR_OK; ++k) {
-        if (races || (path && others[k] == AUR_RACE_PATH))
-            result = render_blocks(race, others[k], blocks, order, error);
+    for (size_t k = 0; k < sizeof others / sizeof others[0] && result == AUR_OK; ++k) {
+        const size_t row = others[k];
+        if (spent_work(race) + first_rung(race, row) <= most || (path && row == AUR_RACE_PATH))
+            result = render_blocks(race, row, blocks, order, error);
         else
-            say(&race->entries[others[k]], true, "not tried: a race costs more than 5 % of the image");
+            say(&race->entries[row], true, "not tried: its first blocks cost more than 10 % of the image");
     }
-    if (result == AUR_OK && spent_work(race) + first_rung(race, AUR_RACE_SHARED, blocks) <= most)
-        return render_blocks(race, AUR_RACE_SHARED, blocks, order, error);
-    say(&race->entries[AUR_RACE_SHARED], true, "not tried: its first blocks cost more than 5 % of the image");
     return result;
 }
 

@@ -55,12 +55,12 @@ void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
             values[i][c] = deviations_at(replicas, i, c, deviations);
 }
 
-/* The replicas' deviations d[channel][replica] from `mean` become those of a pixel's differences. Differences
- * that are not linear are taken over steps with the variance of the mean's error: deviations over the root of
- * count - 1. */
+/* The replicas' deviations d[channel][replica] from `mean` become those of a pixel's differences. Where these
+ * are not linear, they are the differences to the means of the other replicas (jackknife, Efron and Stein
+ * 1981), scaled back: longer steps overestimate the error of skewed values. */
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
                         double d[3][AUR_REPLICAS_MAX]) {
-    const double part = 1.0 / sqrt((double)(count - 1));
+    const double part = 1.0 / (double)(count - 1);
     double sums[3] = {0.0};
     if (weighing.weights == NULL)
         return;

@@ -59,8 +59,9 @@ static inline void aur_stopwatch_add(const aur_stopwatch *start, double *wall, d
 
 /* aur_render_step pixel by pixel: pixel i of the film, row by row, gets the samples that it lacks up to
  * targets[i], so that samples can go where they are needed. Where pixels share what they find (`radiosity`,
- * finalgather's `share`), all of a tile of 16 x 16 pixels get as many as the one that is to have most. Errors
- * as above; ARGUMENT when the film has not `pixel_count` pixels, or a target is beyond samples_per_pixel. */
+ * finalgather's `share=true`), all of a tile of 16 x 16 pixels get as many as the one that is to have most.
+ * Errors as above; ARGUMENT when the film has not `pixel_count` pixels, or a target is beyond
+ * samples_per_pixel. */
 aur_result aur_render_step_pixels(aur_render *render, size_t pixel_count, const uint32_t *targets,
                                   aur_error *error);
 /* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render

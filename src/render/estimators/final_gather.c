@@ -105,7 +105,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result != AUR_OK)
         return result;
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
-    integrator->whole_tiles = p->share != AUR_SHARE_NONE;
+    integrator->whole_tiles = p->share == AUR_SHARE_BLOCKS;
     integrator->refines_lamp_edges = p->edge_samples > 0;
     integrator->samples_a_pattern = (uint32_t)p->split;
     static const char *const directions[] = {"directions"};

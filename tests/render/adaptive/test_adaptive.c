@@ -259,7 +259,7 @@ static void test_rounds_and_rays(void **state) {
 }
 
 /* For as many rays final gathering is chosen and told how large it is to be: path tracing has an error of 3.2
- * % then, final gathering at most 1.8 % with its bias. */
+ * % then, final gathering at most 2 % with its bias. */
 static void test_rays_make_the_pattern(void **state) {
     const fixture *const f = *state;
     aur_render_options chosen = small(0), paths = small(0);
@@ -277,7 +277,8 @@ static void test_rays_make_the_pattern(void **state) {
                   aur_adaptive_integrator(a), path.error_low, path.error_high);
     assert_non_null(strstr(aur_adaptive_integrator(a), "finalgather:"));
     assert_true(own.error_high < path.error_low);
-    assert_in_range(own.statistics.rays, target.rays, target.rays * 3 / 2);
+    /* A twentieth is kept for corrections, which may take less. */
+    assert_in_range(own.statistics.rays, target.rays * 19 / 20, target.rays * 3 / 2);
     /* Maps that are there already change no decision, and are not traced. */
     aur_adaptive *const again = adaptive(&fresh, &chosen, &target);
     assert_same_picture(a, again);

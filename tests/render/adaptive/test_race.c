@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "render/adaptive/race.h"
+#include "render/driver/renderer.h"
+#include "render/film/film.h"
 
 static const char head[] =
     "<scene version='3.0.0'><integrator type='path'><integer name='max_depth' value='8'/></integrator>"
@@ -122,6 +124,63 @@ static void test_no_choice(void **state) {
     end(&f);
 }
 
+/* Candidates share pixels by blocks of 4 x 4 alone, so that a small image to a coarse error has a race. */
+static void test_small_race(void **state) {
+    (void)state;
+    fixture f;
+    run(indirect, 0.3, 96, 96, &f);
+    double rays = 0.0;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        rays += f.race.entries[i].rays;
+    assert_true(f.race.entries[AUR_RACE_SHARED].blocks > 0 && f.race.entries[AUR_RACE_PATH].blocks > 0);
+    assert_true(rays < 0.2 * f.race.entries[f.race.order[0]].need);
+    assert_true(f.race.entries[AUR_RACE_SHARED].rays < 2.0 * f.race.entries[AUR_RACE_MIDDLE].rays);
+    end(&f);
+}
+
+/* Neighbours that share render some pixels of a tile alone, with the values of whole tiles where the pixels
+ * around are rendered too. */
+static void test_shared_block(void **state) {
+    (void)state;
+    enum { WIDTH = 64, HEIGHT = 48, X0 = 7, Y0 = 9, SIDE = 6 };
+    fixture f;
+    char text[4096];
+    snprintf(text, sizeof text, "%s%s", head, indirect);
+    assert_int_equal(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &f.scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f.scene, &f.renderer, NULL), AUR_OK);
+    aur_render_options options = {.size = sizeof options};
+    aur_render_options_init(&options, NULL);
+    options.filter = "box";
+    options.sampler = "sobol";
+    options.use_cache = 0;
+    options.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    options.integrator = "finalgather:split=1,diffuse_samples=8,photons=5000,edges=0,share=near";
+    static uint32_t targets[2][WIDTH * HEIGHT];
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
+        const size_t x = i % WIDTH, y = i / WIDTH;
+        targets[0][i] = 2;
+        targets[1][i] = x >= X0 && x < X0 + SIDE && y >= Y0 && y < Y0 + SIDE ? 2 : 0;
+    }
+    aur_render *renders[2];
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(aur_render_create(f.renderer, &options, &renders[k], NULL), AUR_OK);
+        assert_int_equal(aur_render_step_pixels(renders[k], WIDTH * HEIGHT, targets[k], NULL), AUR_OK);
+    }
+    const aur_film *const whole = aur_render_film(renders[0]), *const block = aur_render_film(renders[1]);
+    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
+        const size_t x = i % WIDTH, y = i / WIDTH;
+        assert_int_equal(block->given[i], targets[1][i]);
+        if (x > X0 && x + 1 < X0 + SIDE && y > Y0 && y + 1 < Y0 + SIDE)
+            for (size_t c = 0; c < 3; ++c)
+                assert_true(aur_film_mean(block, i, c) == aur_film_mean(whole, i, c));
+    }
+    assert_true(aur_film_counted(block).rays * 20 < aur_film_counted(whole).rays);
+    aur_render_destroy(renders[0]);
+    aur_render_destroy(renders[1]);
+    aur_renderer_destroy(f.renderer);
+    aur_scene_destroy(f.scene);
+}
+
 /* Each block once, and the first ones spread over the image. */
 static void test_blocks(void **state) {
     (void)state;
@@ -144,7 +203,8 @@ static void test_blocks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
-                                       cmocka_unit_test(test_no_race), cmocka_unit_test(test_no_choice),
-                                       cmocka_unit_test(test_blocks)};
+                                       cmocka_unit_test(test_no_race),     cmocka_unit_test(test_no_choice),
+                                       cmocka_unit_test(test_blocks),      cmocka_unit_test(test_small_race),
+                                       cmocka_unit_test(test_shared_block)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
