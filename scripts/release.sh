@@ -41,6 +41,9 @@ echo "== tests"
 ctest --preset release -j "$(nproc)" ${TESTS:+-R "$TESTS"} </dev/null
 [ -z "${TESTS:-}" ] || said+=("only the tests '$TESTS' were run: this is no release")
 
+outdated=$(python3 scripts/lab_stamps.py --stale)
+[ -z "$outdated" ] || said+=("sources have changed since these tables of the lab were kept (aureole lab check): ${outdated//$'\n'/ }")
+
 echo "== source"
 # The same bytes wherever it is made: git sorts the files and gives them the commit's time, and gzip keeps no name and no time.
 git archive --prefix="aureole-$version/" HEAD | gzip -n -9 >"$folder/aureole-$version.tar.gz"

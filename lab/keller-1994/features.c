@@ -121,14 +121,23 @@ static aur_result render_setting(const feature_study *s, const char *keys, size_
     return render(s, integrator, samples, seed, rays, taken, image, error);
 }
 
+/* The references, and the solution of each seed: the first render of a seed traces and counts the particles,
+ * which all settings share, and so no setting must pay for. */
 static aur_result need_references(feature_study *s, aur_error *error) {
     const bool quick = lab_run_options(s->run)->quick;
     const size_t samples = quick ? s->feature->quick_reference_samples : s->feature->reference_samples;
     double rays, taken;
     aur_result result = AUR_OK;
-    for (size_t k = 0; k < 2 && result == AUR_OK && s->references[k] == NULL; ++k)
+    if (s->references[0] != NULL)
+        return AUR_OK;
+    for (size_t k = 0; k < 2 && result == AUR_OK; ++k)
         result = render_setting(s, s->feature->reference, samples, 1000 + k, &rays, &taken, &s->references[k],
                                 error);
+    for (size_t k = 0; k < s->seeds && result == AUR_OK; ++k) {
+        aur_image *image = NULL;
+        result = render_setting(s, s->feature->settings[0].keys, 1, 1 + k, &rays, &taken, &image, error);
+        aur_image_destroy(image);
+    }
     return result;
 }
 

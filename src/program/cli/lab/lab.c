@@ -8,7 +8,7 @@
 #include "program/lab/lab.h"
 
 static const cli_option options[] = {
-    {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results, and lab-report for report",
+    {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results; lab-check for check, lab-report for report",
               "folder of the results, or of the report"),
      .letter = 'o', .key.computed = true, .content = "folder"},
     {CLI_FLAG(cli_lab, all, "all", "every experiment; those that are finished are kept as they are")},
@@ -26,6 +26,9 @@ static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, else those of the source tree",
               "the bundled scenes"),
      .key.computed = true, .content = "folder"},
+    {CLI_TEXT(cli_lab, kept, "kept", "DIR", "./docs/report/results, else those of the source tree",
+              "the kept tables that check compares with"),
+     .key.computed = true, .content = "folder"},
     {.key = {0}}};
 
 static const char *experiment_name(unsigned index) {
@@ -34,8 +37,8 @@ static const char *experiment_name(unsigned index) {
 }
 
 static const char *action_name(unsigned index) {
-    static const char *const names[] = {"list", "run", "report"};
-    return index < 3 ? names[index] : NULL;
+    static const char *const names[] = {"list", "run", "check", "report"};
+    return index < sizeof names / sizeof names[0] ? names[index] : NULL;
 }
 
 static int list(report_format format) {
@@ -72,8 +75,12 @@ static int report(const char *results, const char *folder, bool small) {
 static int run(const cli_call *call) {
     cli_lab *const command = call->options;
     const char *const action = call->operands[0], *const folder = command->lab.folder;
-    command->lab.folder = folder != NULL ? folder : "lab-results";
-    if (strcmp(action, "run") == 0)
+    command->check = strcmp(action, "check") == 0;
+    command->lab.folder = folder != NULL ? folder : command->check ? "lab-check" : "lab-results";
+    if (command->check && (command->lab.set != NULL || command->lab.rows != NULL))
+        return cli_bad_usage("lab check: kept tables have every row and no further set: leave out --set and "
+                             "--rows");
+    if (strcmp(action, "run") == 0 || command->check)
         return cli_lab_run(command, call->operand_count - 1, call->operands + 1);
     if (strcmp(action, "report") == 0) {
         if (call->operand_count > 2)
@@ -96,11 +103,14 @@ const cli_command cli_command_lab = {
         "folder "
         "of its name with its tables (NAME.csv), pictures, and timings.csv, the only file that differs from "
         "run to run. docs/lab.md says more.",
-    .too_few = "expected 'list', 'run' or 'report'",
+    .too_few = "expected 'list', 'run', 'check' or 'report'",
     .operands =
         {{"ACTION",
           "list: the experiments, what each reproduces, and the processor time that it took; run: run "
-          "experiments, write CSV and pictures, print the tables; report: make a page of the results in the "
+          "experiments, write CSV and pictures, print the tables; check: run experiments (all without a "
+          "NAME) "
+          "and compare with the kept tables, exit status 1 when one differs; report: make a page of the "
+          "results in the "
           "folder NAME (lab-results), "
           "DIR/index.html (lab-report), with plots, a viewer of the pictures, and PDFs of the plots beside "
           "it",

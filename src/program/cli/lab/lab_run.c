@@ -11,6 +11,11 @@
 #include <unistd.h>
 
 #include "program/cli/points/point_source.h"
+#include "program/lab/check.h"
+
+#ifndef AUR_SCENES_FOLDER
+#define AUR_SCENES_FOLDER "scenes"
+#endif
 
 /* What is run, and how far it is. */
 typedef struct schedule {
@@ -40,7 +45,7 @@ static double expected_of(const schedule *plan, const lab_experiment *experiment
 /* Whether the results that are there are taken as they are. */
 static bool is_kept(const schedule *plan, const lab_experiment *experiment) {
     const cli_lab *const command = plan->command;
-    return command->all && !command->again && lab_is_finished(experiment, &command->lab);
+    return command->all && !command->check && !command->again && lab_is_finished(experiment, &command->lab);
 }
 
 /* Indents the lines of a text. */
@@ -98,6 +103,30 @@ static void summarize(schedule *plan, const lab_experiment *experiment, const la
     report_number(plan->summary, result->seconds, 3);
 }
 
+/* Whether the run has the kept tables: a row of the summary. */
+static int check_one(schedule *plan, const lab_experiment *experiment, const lab_result *result) {
+    const cli_lab *const command = plan->command;
+    lab_comparison found;
+    aur_error error = {0};
+    const char *const of_tree = AUR_SCENES_FOLDER "/../docs/report/results";
+    const char *const here = access("docs/report/results", R_OK) == 0 ? "docs/report/results" : of_tree;
+    int status = cli_status(lab_compare(experiment, command->kept != NULL ? command->kept : here,
+                                        command->lab.folder, command->lab.quick, &found, &error),
+                            &error);
+    const bool missing = result->notes != NULL && strstr(result->notes, "scripts/scenes.sh") != NULL;
+    report_text(plan->summary, experiment->name);
+    report_text(plan->summary, status != CLI_SUCCESS    ? "not kept"
+                               : found.where[0] == '\0' ? "identical"
+                               : found.same             ? "within tolerance"
+                               : missing                ? "meshes missing"
+                                                        : "DIFFERS");
+    report_number(plan->summary, found.largest, 2);
+    report_text(plan->summary, found.where);
+    report_number(plan->summary, result->seconds, 3);
+    return status == CLI_FAILURE || (status == CLI_SUCCESS && (missing || found.same)) ? status
+                                                                                       : CLI_DIFFERENCE;
+}
+
 static int run_one(schedule *plan, const lab_experiment *experiment) {
     const cli_lab *const command = plan->command;
     lab_result result = {0};
@@ -113,7 +142,9 @@ static int run_one(schedule *plan, const lab_experiment *experiment) {
         fputs("aureole: what was measured is kept: the same command goes on\n", stderr);
     plan->spent += result.seconds;
     plan->spent_expected += expected_of(plan, experiment);
-    if (command->all)
+    if (command->check && outcome == AUR_OK)
+        status = check_one(plan, experiment, &result);
+    else if (command->all)
         summarize(plan, experiment, &result, outcome == AUR_OK ? "done" : "failed");
     else if (outcome == AUR_OK)
         status = print_result(experiment, &result, command->common.format);
@@ -121,11 +152,11 @@ static int run_one(schedule *plan, const lab_experiment *experiment) {
     return status;
 }
 
-/* With --all an experiment that fails does not keep the others from being run. */
+/* With --all, and in checks, an experiment that fails does not keep the others from being run. */
 static int run_all(schedule *plan) {
+    const bool go_on = plan->command->all || plan->command->check;
     int worst = CLI_SUCCESS;
-    for (size_t i = 0; i < plan->count && (plan->command->all ? worst != CLI_FAILURE : worst == CLI_SUCCESS);
-         ++i) {
+    for (size_t i = 0; i < plan->count && (go_on ? worst != CLI_FAILURE : worst == CLI_SUCCESS); ++i) {
         announce(plan, i);
         const int status = run_one(plan, plan->experiments[i]);
         worst = status > worst ? status : worst;
@@ -196,15 +227,16 @@ static int choose(schedule *plan, size_t count, char **names) {
     const bool all = plan->command->all;
     if (all && count > 0)
         return cli_bad_usage("lab run: --all is every experiment, and takes no names");
-    if (!all && count == 0)
+    if (!all && count == 0 && !plan->command->check)
         return cli_bad_usage("lab run: an experiment is missing: 'aureole lab list' names them, --all is "
                              "every one");
-    plan->count = all ? lab_experiment_count() : count;
+    const bool every = count == 0;
+    plan->count = every ? lab_experiment_count() : count;
     plan->experiments = malloc(plan->count * sizeof *plan->experiments);
     if (plan->experiments == NULL)
         return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY});
     for (size_t i = 0; i < plan->count; ++i) {
-        plan->experiments[i] = all ? lab_experiment_at(i) : find(names[i]);
+        plan->experiments[i] = every ? lab_experiment_at(i) : find(names[i]);
         if (plan->experiments[i] == NULL)
             return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", names[i]);
         if (plan->command->lab.rows != NULL && plan->experiments[i]->rows == NULL)
@@ -217,6 +249,9 @@ static int choose(schedule *plan, size_t count, char **names) {
 int cli_lab_run(cli_lab *command, size_t count, char **names) {
     static const char *const columns[] = {"experiment", "state",  "rows", "agree",      "within",
                                           "differ",     "claims", "hold", "cpu_seconds"};
+    static const char *const of_check[] = {"experiment", "tables", "largest_difference", "where",
+                                           "cpu_seconds"};
+    const bool summed = command->all || command->check;
     lab_options *const lab = &command->lab;
     schedule plan = {.command = command};
     int status = choose(&plan, count, names);
@@ -230,9 +265,11 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
     if (status == CLI_SUCCESS) {
         plan.phases = calloc(plan.count, sizeof *plan.phases);
         estimate(&plan);
-        plan.summary = command->all ? report_create(sizeof columns / sizeof columns[0], columns) : NULL;
+        plan.summary = command->check ? report_create(sizeof of_check / sizeof of_check[0], of_check)
+                       : summed       ? report_create(sizeof columns / sizeof columns[0], columns)
+                                      : NULL;
         status = run_all(&plan);
-        const int printed = command->all ? cli_finish(plan.summary, command->common.format) : CLI_SUCCESS;
+        const int printed = summed ? cli_finish(plan.summary, command->common.format) : CLI_SUCCESS;
         status = status == CLI_SUCCESS ? printed : status;
     }
     cli_progress_plan(0, NULL);

@@ -7,10 +7,12 @@
 typedef struct cli_lab {
     lab_options lab;
     bool all, again, small;
+    bool check;       /* compare what is run with the tables that are kept */
+    const char *kept; /* the folder of those; NULL: ./docs/report/results, else that of the source tree */
     cli_common common;
 } cli_lab;
 
 /* "8 s", "12 min", "1 h 5 min". */
 void cli_lab_duration(double seconds, char text[32]);
-/* Returns the exit status. */
+/* Runs experiments, and compares their tables with the kept ones with `check`. Returns the exit status. */
 int cli_lab_run(cli_lab *command, size_t count, char **names);
