@@ -66,3 +66,6 @@ awk -F, '!/^#/ && NR > 1 { ++rows; over[$3] = $5 }
   END { exit !(rows == 6 && over["points and weights"] < 0.99 * over["optimal density and weights"] &&
                over["points and weights"] < over["points for equal weights"] && over["optimal density and weights"] < over["optimal weights"]) }' \
   "$weights-joint/marques-2018-joint.csv" || fail "points and weights together"
+# Merged weights of three lobes, GGX among them, and of levels of one grid leave less than half of p/q's error under smooth light.
+awk -F, '!/^#/ && NR > 1 { ++rows; if ($4 == "p/q" && $6 != 1) bad = 1; if ($3 == "smooth" && $4 == "OSWA") { ++merged; if (!($6 < 0.5)) bad = 1 } }
+  END { exit !(rows == 32 && merged == 4 && !bad) }' "$weights-lobes/marques-2018-lobes.csv" || fail "merged lobes"
