@@ -6,7 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double TOLERANCE = 1e-2, ROUNDING = 1e-7; /* of rays: see check.h */
+/* Where rays are traced: see check.h. */
+static const double TOLERANCE = 1e-2, ROUNDING = 1e-7, ZERO = 1e-14;
 
 enum { PATH = 2 * AUR_ERROR_FILE_CAPACITY };
 
@@ -102,7 +103,7 @@ static void compare_cell(comparing *c, size_t row, size_t column) {
         return;
     }
     const double by = fabs(x - y) / fmax(fmax(fabs(x), fabs(y)), width_of(c, row, column));
-    const bool rounded = fabs(x - y) <= ROUNDING * largest_in(c->before, column);
+    const bool rounded = fabs(x - y) <= fmax(ROUNDING * largest_in(c->before, column), ZERO);
     c->found->same = c->found->same && c->found->traces_rays && (by <= TOLERANCE || rounded);
     if (!rounded || !c->found->traces_rays)
         differ(c, by, what, before, now);

@@ -16,7 +16,8 @@ typedef struct lab_comparison {
  * Processors round rays differently, because Embree has kernels for each. An image of single precision with
  * a relative error r has that error to 2^-24 / r, and the smallest r here are near 1e-5: so where rays are
  * traced, numbers may differ by a hundredth of their value or of their interval's width, or by 1e-7 of the
- * largest in their column. The kernels of AUREOLE_ISA=portable, avx2 and avx512 differ by .0035 at most.
- * Errors: OPEN when nothing is kept, FORMAT, MEMORY. */
+ * largest in their column, or by 1e-14, which is zero to the rounding of doubles near 1. The kernels of
+ * AUREOLE_ISA=portable, avx2 and avx512 differ by .0035 at most. Errors: OPEN when nothing is kept, FORMAT,
+ * MEMORY. */
 aur_result lab_compare(const lab_experiment *experiment, const char *kept, const char *folder, bool quick,
                        lab_comparison *comparison, aur_error *error);
