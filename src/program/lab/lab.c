@@ -35,6 +35,7 @@ extern const lab_experiment lab_marques_2018_functions;
 extern const lab_experiment lab_marques_2018_gains;
 extern const lab_experiment lab_marques_2018_ggx;
 extern const lab_experiment lab_marques_2018_joint;
+extern const lab_experiment lab_marques_2018_learned;
 extern const lab_experiment lab_marques_2018_lobes;
 extern const lab_experiment lab_marques_2018_metal;
 extern const lab_experiment lab_marques_2018_rivals;
@@ -92,6 +93,7 @@ static const lab_experiment *const experiments[] = {
     &lab_marques_2018_gains,
     &lab_marques_2018_ggx,
     &lab_marques_2018_joint,
+    &lab_marques_2018_learned,
     &lab_marques_2018_lobes,
     &lab_marques_2018_metal,
     &lab_marques_2018_rivals,
