@@ -129,16 +129,35 @@ for name, set_, light, degrees in (("Sobol, smooth, 0 degrees", "sobol", "smooth
     line(page, f"| {name} | " + " | ".join(
         value(t, "relative_to_equal", set=set_, light=light, degrees=degrees, method=m) for m in METHODS) + " |")
 t = "marques-2018-table1"
+_, agree, _, differ = verdicts(t)
+line(page, f"{agree} of 9 published values agree, {differ} differ")
 for begin, scene, set_, ends in (
-        ("box, 40 + 20 | random", "Cornell box", "random", (" [67]", " [47]", " [84.9]")),
-        ("| Sobol", "Cornell box", "sobol", (" [15.4]", " [43.1]", " [57.9]")),
-        ("figure under sun and sky, 50 + 25 | Sobol", "figure", "sobol", ("", "", "")),
+        ("box, 40 + 20 | random", "Cornell box", "random", (" [1.67]", " [1.47]", " [1.85]")),
+        ("| Sobol", "Cornell box", "sobol", (" [1.15]", " [1.43]", " [1.58]")),
         ("figure in the studio, 50 + 25 | random", "figure in the studio", "random", ("", "", "")),
-        ("| Sobol", "figure in the studio", "sobol", (" [7.5]", " [8.6]", " [18.6]")),
+        ("| Sobol", "figure in the studio", "sobol", (" [1.075]", " [1.09]", " [1.19]")),
         ("| spherical Fibonacci", "figure in the studio", "spherical-fibonacci", ("", "", ""))):
     line(page, f"| {begin} | " + " | ".join(
         cell(t, "{over_oswa} ({over_low}..{over_high})", scene=scene, set=set_, weights=w) + end
         for w, end in zip(("OSWA as published", "MIS", "OSW", "equal"), ("", *ends))) + " |")
+t = "marques-2018-box"
+of = {s: [value(t, "over_oswa", exponent=5, share=0.8, set=s, weights=w) for w in ("MIS", "OSW", "equal")] for s in ("sobol", "random")}
+line(page, f"have {', '.join(of['sobol'])}\n  (Sobol) and {', '.join(of['random'])} (random)")
+most = max(float(row["over_oswa"]) for row in rows(t, set="random", weights="MIS"))
+line(page, f"has {put(most)} at most on average")
+line(page, "one set has " + cell(t, "{set_low} to {set_high}", exponent=5, share=0.8, set="random", weights="MIS") + " there")
+t = "marques-2018-lobes"
+merged = {light: [float(row["over_plain"]) for row in rows(t, light=light, method="OSWA")] for light in ("smooth", "hard edges")}
+line(page, f"RMSE {put(min(merged['smooth']))} to {put(max(merged['smooth']))} of p/q under smooth light, "
+           f"{put(min(merged['hard edges']))} to {put(max(merged['hard edges']))} with hard edges")
+t = "marques-2018-learned"
+learned = [float(row["over_fixed"]) for row in rows(t, light="smooth", way="s learned")]
+places = [[float(row["over_fixed"]) for row in rows(t, way="half placed by spread", set=s)] for s in ("random", lambda text: text != "random")]
+line(page, f"s: RMSE {put(min(learned))} to {put(max(learned))} under smooth light")
+line(page, f"places: {put(min(places[0]))} to {put(max(places[0]))} of random points', up to {put(max(places[1]))} of others'")
+t = "marques-2018-joint"
+less = [100 * (1 - float(row["over_dense"])) for row in rows(t, points="points and weights")]
+line(page, f"| {put(min(less))} to {put(max(less))} % smaller worst-case error than optimal density and weights")
 t = "marques-2018-metal"
 less = [cell(t, "{over_ratio*-1} % ({over_high*-1} to {over_low*-1})", light="indirect", set=s, weights="osw") for s in ("spherical-fibonacci", "sobol")]
 line(page, f"the RMSE falls by {less[0]} and {less[1]}")
@@ -157,6 +176,13 @@ for lobe in ("diffuse", "glossy"):
             set="esfg", levels=2, threshold=fitted, **where) + " |")
     published = [float(row["published"]) for row in rows(t, lobe=lobe, criterion="entropy", what=lambda text: text.startswith("share"))]
     line(page, f"| {lobe} | published | " + ", ".join(put(100 * p) for p in published) + "\n".join([" | 70.5 % | | |" if lobe == "diffuse" else " | 53.6 % | | |", *block]))
+for begin, set_, criterion, factor, threshold in (("`entropy`, 4 times x2, 0.3", "esfg", "entropy", 2, 0.3), ("`variance`, 2 times x4, 0.03", "esfg", "variance", 4, 0.03),
+                                                  ("`variance`, 2 times x4, 0.03, Sobol", "sobol", "variance", 4, 0.03),
+                                                  ("the same, Faure in base 3", "faure:base=3", "variance", 4, 0.03),
+                                                  ("`variance`, 4 times x2, 0.02", "esfg", "variance", 2, 0.02)):
+    line(page, f"| {begin} | " + " | ".join(
+        cell("marques-2019-adaptive/ways", "{over_fixed} ({over_fixed_low} to {over_fixed_high})", lobe=lobe, set=set_, criterion=criterion,
+             factor=factor, threshold=threshold) for lobe in ("diffuse", "glossy")) + " |")
 t = "marques-2019-shifts"
 for base in (8, 20, 33, 64, 100):
     last = max(float(row["points"]) for row in rows(t, base=base))
