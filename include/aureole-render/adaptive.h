@@ -122,6 +122,21 @@ AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptiv
 AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                                  aur_error *error) AUR_NONNULL(1, 3);
 
+/* The mean of the replicas with even (half 0) or odd numbers (half 1): channels and errors as
+ * aur_adaptive_develop. The halves are independent of each other. Errors: ARGUMENT for another half,
+ * UNSUPPORTED while there is no image yet, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_develop_half(const aur_adaptive *adaptive, size_t half,
+                                                      aur_image **image, aur_error *error) AUR_NONNULL(1, 3);
+/* The error of what a denoiser made of each half alone, by the measure of the options: `made[h]` has R, G and
+ * B of half h as its first channels. Each is compared with the other half, whose independent noise averages
+ * out, so the estimate needs no reference. Noise of the estimate is in the interval, taken over blocks of 8 x
+ * 8 pixels. A denoised image of all replicas has about half of the halves' variance. Errors: ARGUMENT for
+ * images of another size, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive,
+                                                        const aur_image *const made[2],
+                                                        aur_error_figures *figures, aur_error *error)
+    AUR_NONNULL(1, 2, 3);
+
 #ifdef __cplusplus
 }
 #endif

@@ -202,6 +202,11 @@ static void adaptive_renders(const aur_scene *scene) {
     accept(aur_adaptive_develop(adaptive, true, &image, &error), &error);
     require(aur_image_channel_count(image) == 6, "aur_adaptive_develop");
     aur_image_destroy(image);
+    accept(aur_adaptive_develop_half(adaptive, 1, &image, &error), &error);
+    aur_error_figures halves;
+    accept(aur_adaptive_compare_halves(adaptive, (const aur_image *const[2]){image, image}, &halves, &error),
+           &error);
+    aur_image_destroy(image);
     aur_adaptive_destroy(adaptive);
     aur_renderer_destroy(renderer);
 }

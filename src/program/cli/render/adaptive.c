@@ -130,6 +130,14 @@ static void say(const aur_adaptive *adaptive, const cli_target *target, const ch
                   100.0 * report.errors[m].high);
 }
 
+void cli_say_denoised(const aur_error_figures *figures, aur_error_measure measure) {
+    aur_print(
+        stderr,
+        "aureole: the error above is of the noisy image; denoised, half of the samples have %.3g %% %s, at "
+        "most %.3g (95 %%)\n",
+        100.0 * figures->error, measure_words[measure], 100.0 * figures->high);
+}
+
 static aur_result print_json(const aur_adaptive *adaptive, const char *output, aur_error *error) {
     aur_adaptive_report report = {.size = sizeof report};
     aur_adaptive_get_report(adaptive, &report, NULL);

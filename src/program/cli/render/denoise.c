@@ -68,21 +68,55 @@ static aur_result put_together(const aur_image *image, const aur_image *features
     return result;
 }
 
-aur_result cli_denoise_picture(const cli_denoise *denoise, aur_renderer *renderer,
-                               const aur_render_options *options, aur_image **image, aur_error *error) {
-    if (!denoise->wanted)
+/* Into the first channels of `out`. */
+static aur_result denoise(const cli_denoise *denoise, const aur_image *image, aur_image *features,
+                          aur_image *out, aur_error *error) {
+    aur_image *rest = NULL;
+    aur_result result = cli_known_take(image, features, &rest, error);
+    if (result == AUR_OK)
+        result = cli_oidn_run(denoise->library, rest, features, out, error);
+    if (result == AUR_OK)
+        result = cli_known_restore(image, features, out, error);
+    aur_image_destroy(rest);
+    return result;
+}
+
+/* The error of what the denoiser makes of half of the samples. */
+static aur_result denoise_halves(const cli_denoise *wanted, const aur_adaptive *adaptive, aur_image *features,
+                                 aur_error_figures *figures, aur_error *error) {
+    aur_image *made[2] = {NULL, NULL};
+    aur_result result = AUR_OK;
+    for (size_t h = 0; h < 2 && result == AUR_OK; ++h) {
+        aur_image *half = NULL;
+        result = aur_adaptive_develop_half(adaptive, h, &half, error);
+        if (result == AUR_OK)
+            result = aur_image_create(aur_image_width(half), aur_image_height(half), 3, &made[h], error);
+        if (result == AUR_OK)
+            result = denoise(wanted, half, features, made[h], error);
+        aur_image_destroy(half);
+    }
+    if (result == AUR_OK)
+        result = aur_adaptive_compare_halves(adaptive, (const aur_image *const[2]){made[0], made[1]}, figures,
+                                             error);
+    aur_image_destroy(made[0]);
+    aur_image_destroy(made[1]);
+    return result;
+}
+
+aur_result cli_denoise_picture(const cli_denoise *wanted, aur_renderer *renderer,
+                               const aur_render_options *options, const aur_adaptive *adaptive,
+                               aur_image **image, aur_error_figures *figures, aur_error *error) {
+    *figures = (aur_error_figures){.error = 0.0};
+    if (!wanted->wanted)
         return AUR_OK;
-    aur_image *features = NULL, *whole = NULL, *rest = NULL;
+    aur_image *features = NULL, *whole = NULL;
     aur_result result = render_features(renderer, options, &features, error);
     if (result == AUR_OK)
         result = put_together(*image, features, &whole, error);
     if (result == AUR_OK)
-        result = cli_known_take(*image, features, &rest, error);
-    if (result == AUR_OK)
-        result = cli_oidn_run(denoise->library, rest, features, whole, error);
-    if (result == AUR_OK)
-        cli_known_restore(*image, features, whole);
-    aur_image_destroy(rest);
+        result = denoise(wanted, *image, features, whole, error);
+    if (result == AUR_OK && adaptive != NULL)
+        result = denoise_halves(wanted, adaptive, features, figures, error);
     aur_image_destroy(features);
     if (result != AUR_OK) {
         aur_image_destroy(whole);

@@ -1,6 +1,7 @@
 /* `aureole render --denoise`: Open Image Denoise (Intel), where its library is found when it is asked for. */
 #pragma once
 
+#include <aureole-render/adaptive.h>
 #include <aureole-render/image.h>
 #include <aureole-render/render.h>
 
@@ -18,11 +19,13 @@ extern const cli_option cli_denoise_options[]; /* cli_denoise */
 aur_result cli_denoise_begin(cli_denoise *denoise, aur_error *error);
 void cli_denoise_end(cli_denoise *denoise);
 
-/* Takes the noise out of R, G and B of the picture that was rendered with `options`, by albedo and normals
- * that are rendered for it. What they were becomes noisy.R, noisy.G, noisy.B beside the albedo and normals.
- * Errors: INTERNAL with the library's words, and those of aur_renderer_render. */
+/* Takes the noise out of R, G and B of the image that was rendered with `options`, by albedo and normals that
+ * are rendered for it. What they were becomes noisy.R, noisy.G, noisy.B next to the albedo and normals. The
+ * halves of `adaptive`, which may be NULL, are denoised too, and `figures` get their error; they are zero
+ * without. Errors: INTERNAL with the library's words, and those of aur_renderer_render. */
 aur_result cli_denoise_picture(const cli_denoise *denoise, aur_renderer *renderer,
-                               const aur_render_options *options, aur_image **image, aur_error *error);
+                               const aur_render_options *options, const aur_adaptive *adaptive,
+                               aur_image **image, aur_error_figures *figures, aur_error *error);
 
 /* A format that has R, G and B alone leaves the noisy picture out: it goes beside, as OUT.noisy.exr. */
 aur_result cli_denoise_keep(const cli_denoise *denoise, const char *output, const aur_image *image,
@@ -36,10 +39,13 @@ aur_result cli_denoise_keep(const cli_denoise *denoise, const char *output, cons
 aur_result cli_known_take(const aur_image *image, const aur_image *lights, aur_image **rest,
                           aur_error *error);
 
-/* In `out`, what the denoiser made of that: pixels that see bright light are those of `image` again, and
- * where this has standard errors (channels error.R, error.G and error.B) no value is further than twice its
- * own from where it was. All pictures are of one size. */
-void cli_known_restore(const aur_image *image, const aur_image *lights, aur_image *out);
+/* In `out`, what the denoiser made of that: pixels that see bright light are those of `image` again. Where
+ * this has standard errors (channels error.R, error.G and error.B), the change of a pixel is scaled down by
+ * what the changes in the 5 x 5 pixels around it are, as a root mean square, over twice the standard errors
+ * there. The limit is of neighbourhoods, because replicas may agree by chance in single pixels. All images
+ * are of one size. */
+aur_result cli_known_restore(const aur_image *image, const aur_image *lights, aur_image *out,
+                             aur_error *error);
 
 /* Open Image Denoise, loaded while the program runs: its C interface, version 1.4 or 2. */
 

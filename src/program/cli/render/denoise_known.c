@@ -1,11 +1,12 @@
 #include "program/cli/render/denoise.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Light is bright from so many times the picture's mean on. Chosen: reflected light is rarely brighter, and
  * what is less bright denoisers keep well. */
 static const double BRIGHT = 4.0;
-static const float STANDARD_ERRORS = 2.0f;
+static const double STANDARD_ERRORS = 2.0;
 
 static const float *pixel_of(const aur_image *image, size_t pixel) {
     return aur_image_data(image) + pixel * aur_image_channel_count(image);
@@ -59,18 +60,57 @@ aur_result cli_known_take(const aur_image *image, const aur_image *lights, aur_i
     return AUR_OK;
 }
 
-void cli_known_restore(const aur_image *image, const aur_image *lights, aur_image *out) {
-    const size_t errors = aur_image_find_channel(image, "error.R");
-    const float bright = bright_from(image);
+/* The sum of `values` over the pixels at most REACH away. */
+static double sum_around(const double *values, size_t width, size_t height, size_t pixel) {
+    enum { REACH = 2 };
+    const size_t x = pixel % width, y = pixel / width;
+    double sum = 0.0;
+    for (size_t v = y > REACH ? y - REACH : 0; v < height && v <= y + REACH; ++v)
+        for (size_t u = x > REACH ? x - REACH : 0; u < width && u <= x + REACH; ++u)
+            sum += values[v * width + u];
+    return sum;
+}
+
+/* Squares of the changes that the denoiser made, and of the standard errors; both zero where light is seen.
+ */
+static void measure_changes(const aur_image *image, const aur_image *out, const bool *sees, double *changes,
+                            double *errors) {
+    const size_t first = aur_image_find_channel(image, "error.R");
     for (size_t i = 0; i < pixel_count(image); ++i) {
-        const bool sees = sees_bright_light(image, lights, i, bright);
-        const float *const was = pixel_of(image, i);
-        float *const is = aur_image_data(out) + i * aur_image_channel_count(out);
-        for (size_t c = 0; c < 3; ++c) {
-            const float most = sees                 ? 0.0f
-                               : errors != SIZE_MAX ? STANDARD_ERRORS * was[errors + c]
-                                                    : INFINITY;
-            is[c] = fminf(fmaxf(is[c], was[c] - most), was[c] + most);
+        changes[i] = errors[i] = 0.0;
+        for (size_t c = 0; c < 3 && !sees[i]; ++c) {
+            const double change = (double)pixel_of(out, i)[c] - (double)pixel_of(image, i)[c];
+            const double error = first != SIZE_MAX ? (double)pixel_of(image, i)[first + c] : INFINITY;
+            changes[i] += change * change;
+            errors[i] += error * error;
         }
     }
+}
+
+aur_result cli_known_restore(const aur_image *image, const aur_image *lights, aur_image *out,
+                             aur_error *error) {
+    const size_t width = aur_image_width(image), height = aur_image_height(image), count = width * height;
+    const float bright = bright_from(image);
+    double *const changes = malloc(2 * count * sizeof *changes), *const errors = changes + count;
+    bool *const sees = malloc(count * sizeof *sees);
+    if (changes == NULL || sees == NULL) {
+        free(changes);
+        free(sees);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; i < count; ++i)
+        sees[i] = sees_bright_light(image, lights, i, bright);
+    measure_changes(image, out, sees, changes, errors);
+    for (size_t i = 0; i < count; ++i) {
+        const double change = sqrt(sum_around(changes, width, height, i));
+        const double most = STANDARD_ERRORS * sqrt(sum_around(errors, width, height, i));
+        const double part = sees[i] ? 0.0 : change > most ? most / change : 1.0;
+        const float *const was = pixel_of(image, i);
+        float *const is = aur_image_data(out) + i * aur_image_channel_count(out);
+        for (size_t c = 0; c < 3; ++c)
+            is[c] = part < 1.0 ? was[c] + (float)part * (is[c] - was[c]) : is[c];
+    }
+    free(changes);
+    free(sees);
+    return AUR_OK;
 }

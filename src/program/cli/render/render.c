@@ -265,6 +265,16 @@ static aur_result begin(render_command *command, aur_error *error) {
     return result;
 }
 
+static aur_result denoise(const render_command *command, aur_renderer *renderer, const aur_adaptive *adaptive,
+                          aur_image **image, aur_error *error) {
+    aur_error_figures halves;
+    const aur_result result =
+        cli_denoise_picture(&command->denoise, renderer, &command->options, adaptive, image, &halves, error);
+    if (result == AUR_OK && !command->common.quiet && halves.high > 0.0)
+        cli_say_denoised(&halves, command->target.measure);
+    return result;
+}
+
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
     aur_result result = begin(command, &error);
@@ -299,7 +309,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                                          &adaptive, &image, &error)
                      : render_samples(renderer, command, errors, &work, &image, &error);
     if (result == AUR_OK)
-        result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
+        result = denoise(command, renderer, adaptive, &image, &error);
     cli_progress_clear();
     if (result == AUR_ERROR_CANCELLED && image != NULL)
         cli_write_partial(command->output, image);

@@ -135,6 +135,9 @@ typedef struct cli_surroundings {
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
  * NULL; *made is to be destroyed in every case. The last line, unless `quiet`, says how good it is; where
  * `json` is asked for, standard output does so for programs. */
+/* The error of an image of half of the samples, denoised. */
+void cli_say_denoised(const aur_error_figures *figures, aur_error_measure measure);
+
 aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *options,
                              const cli_target *target, const cli_surroundings *beside, aur_adaptive **made,
                              aur_image **image, aur_error *error);
