@@ -45,10 +45,11 @@ static void check_parts(const aur_model_files *files) {
 }
 
 static void check_format(aur_mesh_format format, char *text, size_t size, library *materials) {
+    aur_model_stage stage = {0};
     const aur_model_source source = {.name = "a",
                                      .size = size,
                                      .data = text,
-                                     .alone = size % 2 == 0,
+                                     .stage = size % 2 == 0 ? &stage : NULL,
                                      .location = {.file = "a"},
                                      .find = find,
                                      .state = materials};

@@ -22,10 +22,11 @@ static bool converse(const uint8_t *data, size_t size, aur_model_files *files, a
     const bool sent = send(ends[1], data, size, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)size;
     shutdown(ends[1], SHUT_WR);
     aur_child child = {.program = "fuzz", .socket = ends[0], .seconds = 0.1, .patience = 1.0, .status = -1};
+    aur_model_stage stage = {0};
     const aur_model_source source = {.name = "a.fbx",
                                      .size = 4,
                                      .data = "FBX",
-                                     .alone = true,
+                                     .stage = &stage,
                                      .location = {.file = "a.fbx"},
                                      .find = find};
     const aur_error *const error = nodes->error;
@@ -85,14 +86,14 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     /* with the zero byte of the last one */
     static const char records[] = "<shape\0=type\0sphere\0=id\0a\0<float\0=name\0radius\0=value\0"
                                   "1\0>\0>\0<ref\0>";
-    aur_import_scene scene = {.upper = {1.0, 2.0, 3.0}};
+    aur_import_camera scene = {.aspect = 1.0};
     uint8_t last[sizeof scene + sizeof records];
     uint8_t *at = data;
     if (index > 1)
         return 0;
     fuzz_require(capacity >= 1024, "a seed is too large");
     if (index == 1) {
-        scene.camera = (aur_import_camera){.is_there = 1, .direction = {0.0, 1.0, 0.0}, .aspect = 1.5};
+        scene = (aur_import_camera){.is_there = 1, .direction = {0.0, 1.0, 0.0}, .aspect = 1.5};
         at = put(at, AUR_IMPORT_FAIL, 20, 9, "no\nfile\0!");
     }
     at = put(at, AUR_IMPORT_OPEN, 0, 5, "a.fbx");

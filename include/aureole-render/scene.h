@@ -20,8 +20,7 @@ typedef struct aur_definition {
     const char *value;
 } aur_definition;
 
-/* Which light is added to a model that is the whole scene: light from all sides, radiance 0.5, and more from
- * above and the left, irradiance 1.5. */
+/* Whether a model that is the whole scene is lit by the environment "studio" (aur_scene_stage). */
 typedef enum aur_model_light {
     AUR_MODEL_LIGHT_AUTO,   /* added unless the model has a light source that is no emitting surface */
     AUR_MODEL_LIGHT_ALWAYS, /* added to what the model has */
@@ -58,6 +57,47 @@ typedef struct aur_scene_lamp {
     double turn;        /* degrees about that direction; 0: C 0 lies along +x where it points down */
 } aur_scene_lamp;
 
+/* Moves all that one file of a scene has: it is scaled, turned about the upward axis and shifted, in this
+ * order. */
+typedef struct aur_scene_placement {
+    size_t file;        /* 0: the scene's own; i: `further` file i, counted from 1 */
+    double position[3]; /* the shift, scene units */
+    double turn;        /* degrees, counter-clockwise seen from above */
+    double scale;       /* above 0; 0 stands for 1 */
+} aur_scene_placement;
+
+/* What models stand on: a surface that shows their shadows, at the height of their lowest point. */
+typedef enum aur_scene_ground {
+    AUR_SCENE_GROUND_AUTO, /* there is one in the environments "studio" and "sky" */
+    AUR_SCENE_GROUND_SHADOW,
+    AUR_SCENE_GROUND_NONE
+} aur_scene_ground;
+
+enum { AUR_SCENE_GROUND_COUNT = AUR_SCENE_GROUND_NONE + 1 };
+
+/* How a scene is seen and lit, in place of what its files say. Up is +y, or +z for .stl and Radiance's files.
+ * All zero keeps the scene as it is; a model without a camera or light source gets the camera "corner" and
+ * the environment "studio". */
+typedef struct aur_scene_stage {
+    /* Views that show all of the scene as large as the image allows: "front" (from +z, or -y where +z is up),
+     * "back", "left", "right", "top", "bottom", "corner" (26.6 degrees to the right of the front and 17.4
+     * above it), "iso" (45 and 35.3), or "AZIMUTH,ELEVATION" in degrees. "X,Y,Z,X,Y,Z" is a camera at the
+     * first point that looks at the second; a seventh number is the field of view across the height, degrees.
+     * NULL: the camera of the scene. */
+    const char *camera;
+    /* "studio": light boxes around the front of the camera, before a plain background; "sky" or
+     * "sky:TURBIDITY" (1 to 10): sun and clear sky (Hosek and Wilkie 2012), scaled so that white is about 1;
+     * "none"; else the path of an image of radiance in latitude and longitude. It replaces environments and
+     * other light sources at infinity; NULL keeps them. */
+    const char *environment;
+    aur_scene_ground ground;
+    bool has_background;
+    double background[3]; /* radiance, RGB, of what the camera sees where there is no surface */
+    double aspect;        /* width over height of the image that is framed; 0: the film's */
+    size_t placement_count;
+    const aur_scene_placement *placements;
+} aur_scene_stage;
+
 /* All zero but `size`, as aur_scene_options_init fills it, takes the scene as it stands. */
 typedef struct aur_scene_options {
     size_t size; /* of the caller's struct, so that it can grow */
@@ -83,6 +123,7 @@ typedef struct aur_scene_options {
     aur_scene_sky sky;
     size_t lamp_count;
     const aur_scene_lamp *lamps;
+    aur_scene_stage stage;
 } aur_scene_options;
 
 AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)

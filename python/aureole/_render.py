@@ -138,8 +138,8 @@ class Scene(Rebuilt):
     """A scene: Mitsuba 3's XML, Radiance's .rad, or a model (.glb, .obj, ...); loaded once, for any number of pictures.
 
     `definitions`: values for the scene's <default>s. `confine`: no file outside of the scene's folder is read. `text`: the
-    scene itself; `path` is then its name in messages, and where its files are looked for. `model_light`: whether light from all
-    sides is added to a model: "auto" where it has no light source but emitting surfaces, "always", "none".
+    scene itself; `path` is then its name in messages, and where its files are looked for. `model_light`: whether a
+    studio's light is added to a model: "auto" where it has no light source but emitting surfaces, "always", "none".
     """
 
     def __init__(

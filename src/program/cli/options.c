@@ -57,7 +57,7 @@ const cli_option cli_definitions_option[] = {
 const cli_option cli_model_light_option[] = {
     {CLI_CHOICE(
          cli_definitions, model_light, "model-light", "WHEN", "auto",
-         "add light from all sides to a model: auto where it has no light source but emitting surfaces"),
+         "light a model by the environment studio: auto where it has no light source but emitting surfaces"),
      .key.words = (const char *const[]){"auto", "always", "none", NULL}},
     {.key = {0}}};
 

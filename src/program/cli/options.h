@@ -10,7 +10,7 @@
 
 #include "program/cli/cli.h"
 
-enum { CLI_OPTION_LIMIT = 64, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
+enum { CLI_OPTION_LIMIT = 96, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
 
 /* One option. The key has its long name without the dashes (one letter alone stands for an option that has
  * no long name), type, range, default and line of help. */
@@ -75,7 +75,7 @@ typedef struct cli_command {
     const char *notes;                /* what is to be said after the options; or NULL */
     const char *too_few, *too_many;   /* what is wrong with such operands; NULL where it is not said so */
     const cli_operand operands[3];    /* end with one without a word */
-    const cli_group groups[12];       /* end with one without options */
+    const cli_group groups[16];       /* end with one without options */
     size_t size;                      /* of the struct that the options write to */
     int (*run)(const cli_call *call); /* returns the exit status */
     bool ranks;                       /* several processes that mpirun starts share the work */

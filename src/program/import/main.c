@@ -5,7 +5,6 @@
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -53,7 +52,7 @@ static void write_scene(writer *self) {
     const bool written = ferror(self->records) == 0;
     if (fclose(self->records) != 0 || !written)
         stream_fail_memory();
-    stream_send_two(AUR_IMPORT_SCENE, sizeof self->made, &self->made, size, records);
+    stream_send_two(AUR_IMPORT_SCENE, sizeof self->camera, &self->camera, size, records);
 }
 
 int main(int argc, char **argv) {
@@ -68,10 +67,7 @@ int main(int argc, char **argv) {
         stream_fail(AUR_ERROR_UNSUPPORTED,
                     "the library is of version %s, but the program aureole-import of %s", start,
                     aur_version());
-    writer self = {
-        .is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb"),
-        .first = first,
-        .made = {.lower = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .upper = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}};
+    writer self = {.is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb"), .first = first};
     self.scene = read_scene(name, self.is_gltf);
     if (self.is_gltf)
         gltf_read(&self, name);

@@ -67,17 +67,6 @@ static void copy(double to[3], triple from) {
 
 /* --- shapes */
 
-static void widen(writer *self, const struct aiMesh *mesh, const writer_matrix *to_world) {
-    for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
-        const triple p = apply_vector(to_world, mesh->mVertices[i], 1.0);
-        const double at[3] = {p.x, p.y, p.z};
-        for (size_t k = 0; k < 3; ++k) {
-            self->made.lower[k] = fmin(self->made.lower[k], at[k]);
-            self->made.upper[k] = fmax(self->made.upper[k], at[k]);
-        }
-    }
-}
-
 static void put_reference(writer *self, const char *kind, unsigned index) {
     writer_open(self, "ref", NULL);
     writer_set(self, "id", "%s-%u-%u", kind, self->first, index);
@@ -105,12 +94,8 @@ static bool is_group(writer *self, unsigned mesh) {
 }
 
 static void place_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
-    const struct aiMesh *const mesh = self->scene->mMeshes[index];
     if (self->mesh_file[index] == NO_FILE)
         return;
-    widen(self, mesh, to_world);
-    if (writer_shines(self, mesh->mMaterialIndex))
-        self->made.emits = 1;
     if (!is_group(self, index)) {
         put_mesh(self, index, to_world);
         return;
@@ -197,7 +182,6 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
         return;
     }
     writer_close(self);
-    self->made.has_light = 1;
 }
 
 /* --- cameras */
@@ -212,7 +196,7 @@ static double angle_across(const writer *self, const struct aiCamera *camera) {
 
 /* Without a ratio of sides the angle is that of the height. */
 static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
-    aur_import_camera *const made = &self->made.camera;
+    aur_import_camera *const made = &self->camera;
     if (made->is_there != 0) {
         writer_note("the camera '%s' is left out: the first one is taken", camera->mName.data);
         return;

@@ -28,7 +28,7 @@ typedef struct writer {
         *image_file; /* of each picture that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
     struct json_value *gltf;         /* the JSON of a glTF file, or NULL */
     struct writer_picture *pictures; /* beside the model, that were asked for */
-    aur_import_scene made;
+    aur_import_camera camera;
 } writer;
 
 #define NO_FILE UINT32_MAX

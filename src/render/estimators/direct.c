@@ -85,7 +85,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     aur_ray ray = sample->ray;
     aur_surface surface;
     if (!aur_visible_surface(scene, data->hide_emitters, &ray, &surface, counters))
-        return data->hide_emitters ? (aur_vector){0} : aur_scene_environment(scene, ray.direction);
+        return data->hide_emitters ? (aur_vector){0} : aur_scene_background(scene, ray.direction);
     const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
     aur_vector sum = aur_surface_emission(scene, &surface, view);
     if (aur_scene_emitter_count(scene) == 0)

@@ -168,12 +168,12 @@ static void count_seen(gather_tile *work, uint32_t found) {
 /* Light from beyond the scene, for lanes whose ray left it. */
 static void add_sky(gather_tile *work, uint32_t lanes) {
     const aur_gather_plan *const plan = work->surface_points.plan;
-    if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_environment(plan->scene))
+    if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_background(plan->scene))
         return;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         aur_gather_add(&work->sums, &work->surface_points, lane,
-                       aur_scene_environment(plan->scene, work->samples[lane].ray.direction));
+                       aur_scene_background(plan->scene, work->samples[lane].ray.direction));
     }
 }
 

@@ -94,7 +94,10 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
     aur_environment_lanes(g->scene, lanes, &directions, &radiance, light_pdfs);
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
-        const aur_vector sky = aur_lane_vector(&radiance, k);
+        const bool unscattered = aur_has_lane(g->sensor.unscattered, k);
+        const aur_vector sky = g->background && unscattered
+                                   ? aur_scene_background(g->scene, aur_lane_vector(&directions, k))
+                                   : aur_lane_vector(&radiance, k);
         if (aur_vector_is_zero(sky))
             continue;
         const float weight =
@@ -104,7 +107,7 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
                      aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight, light));
         if (g->sensor.from_sky != NULL)
             g->sensor.from_sky(g->sensor.from_sky_user, k, aur_lane_vector(&directions, k),
-                               aur_vector_scale(light, weight), aur_has_lane(g->sensor.unscattered, k));
+                               aur_vector_scale(light, weight), unscattered);
     }
 }
 
@@ -162,13 +165,6 @@ static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) 
                  aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), shadow.radiance));
 }
 
-/* Straight on through a pane the ray is the same one, which rays to lights find as well. */
-static bool goes_through(const aur_path_group *g, const aur_surface *surface, const aur_walk *before,
-                         const aur_walk *walk) {
-    return g->sensor.panes && surface->bsdf->passes && walk->bounce.specular_bounce &&
-           aur_vector_dot(walk->ray.direction, before->ray.direction) > 1.0f - 1e-6f;
-}
-
 /* Of a lane that is not plain, on the path `before`. */
 static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, bool unscattered,
                         bool roulette) {
@@ -179,10 +175,13 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, boo
     if (!aur_walk_scatter(&shading, AUR_VERTEX_ALL, u, &walk) ||
         (roulette && !aur_vertex_survives(aur_survival(walk.beta), g->lanes.roulette[k], &walk.beta)))
         return false;
-    if (goes_through(g, surface, before, &walk)) {
+    const bool through = aur_walk_passed(surface, before->ray.direction, &walk);
+    if (through && (g->sensor.panes || g->background))
+        g->sensor.unscattered |= (uint32_t)unscattered << k;
+    /* Straight on through a pane the ray is the same one, which rays to lights find as well. */
+    if (through && g->sensor.panes) {
         walk.bounce = before->bounce;
         walk.ray = aur_surface_ray(surface, before->ray.direction);
-        g->sensor.unscattered |= (uint32_t)unscattered << k;
     }
     aur_lane_set(&g->lanes.throughput, k, walk.beta);
     aur_lane_set(&g->lanes.from, k, walk.bounce.from.position);
@@ -395,7 +394,7 @@ void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const 
     g->sampler = sampler;
     g->stopped = false;
     g->has_lights = aur_scene_emitter_count(scene) > 0;
-    g->has_sky = aur_scene_has_environment(scene);
+    g->has_sky = aur_scene_has_background(scene);
     g->chooses = aur_light_chooses(scene);
     g->candidates = data->candidates > 1 ? data->candidates : 1;
     aur_packet_clear(&g->packet);

@@ -36,6 +36,7 @@ typedef struct aur_path_group {
     uint32_t alive;      /* a bit a lane, as in all masks */
     uint32_t specular;   /* lanes whose ray no light sample could have found */
     uint32_t plain;      /* lanes whose surface the kernels can do */
+    bool background;     /* lanes that nothing has scattered see that of the scene: they are the camera's */
     uint32_t told;       /* lanes whose sums have the light already that their first rays meet */
     aur_path_sensor sensor;
     aur_stream shared; /* interleaved: of all lanes */

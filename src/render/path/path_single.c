@@ -65,6 +65,7 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
                      .beta = {1.0f, 1.0f, 1.0f},
                      .ray = sample->ray,
                      .bounce = {.specular_bounce = true}};
+    bool scattered = false; /* not only gone straight through surfaces */
     float ahead[AUR_STREAM_BLOCK][2];
     for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
         /* Before the ray, so that the processor works at both. */
@@ -75,13 +76,19 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
         aur_surface surface;
         const bool hide = data->hide_emitters && depth == 1, told = seen != NULL && depth == 1;
         const bool met = aur_visible_surface(scene, hide, &walk.ray, &surface, counters);
-        if (!told && (met || !hide))
+        if (!met && !scattered && !told && !hide)
+            walk.radiance = aur_vector_add(
+                walk.radiance,
+                aur_vector_multiply(walk.beta, aur_scene_background(scene, walk.ray.direction)));
+        else if (!told && (met || !hide))
             aur_walk_add_emission(scene, met ? &surface : NULL, &walk);
         if (depth == 1)
             *straight = walk.radiance;
+        const aur_vector before = walk.ray.direction;
         if (!met || depth == data->max_depth || aur_path_stops(depth, &counters->stopped) ||
             !scatter(data, scene, &surface, depth, pairs, &walk))
             break;
+        scattered = scattered || !aur_walk_passed(&surface, before, &walk);
     }
     return walk.radiance;
 }

@@ -31,7 +31,8 @@ static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size
         aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
     }
     look(g, tile, x, y, wanted);
-    g->alive = lanes;
+    g->alive = g->sensor.unscattered = lanes;
+    g->background = true;
     g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
 }
 

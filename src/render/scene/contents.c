@@ -8,6 +8,24 @@
 #include "points/base/words.h"
 #include "render/scene/scene_data.h"
 
+/* What the stage has in place of the scene's own. */
+static void write_stage(const aur_scene_stage *stage, FILE *stream) {
+    const double *const b = stage->background;
+    if (stage->camera != NULL)
+        fprintf(stream, "camera %s aspect %.17g\n", stage->camera, stage->aspect);
+    if (stage->environment != NULL)
+        fprintf(stream, "environment %s\n", stage->environment);
+    if (stage->ground != AUR_SCENE_GROUND_AUTO)
+        fprintf(stream, "ground %u\n", (unsigned)stage->ground);
+    if (stage->has_background)
+        fprintf(stream, "background %.17g %.17g %.17g\n", b[0], b[1], b[2]);
+    for (size_t i = 0; i < stage->placement_count; ++i) {
+        const aur_scene_placement *const p = &stage->placements[i];
+        fprintf(stream, "place %zu %.17g %.17g %.17g %.17g %.17g\n", p->file, p->position[0], p->position[1],
+                p->position[2], p->turn, p->scale);
+    }
+}
+
 char *aur_definitions_text(const aur_scene_options *options) {
     char *text = NULL;
     size_t size = 0;
@@ -18,6 +36,8 @@ char *aur_definitions_text(const aur_scene_options *options) {
             fputc(*c == '\n' ? ' ' : *c, stream);
         fputc('\n', stream);
     }
+    if (stream != NULL)
+        write_stage(&options->stage, stream);
     return stream != NULL && fclose(stream) == 0 ? text : NULL;
 }
 

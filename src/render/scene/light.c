@@ -88,6 +88,16 @@ aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction) {
     return sum;
 }
 
+bool aur_scene_has_background(const aur_scene *scene) {
+    return scene->has_background || scene->environment_count > 0;
+}
+
+aur_vector aur_scene_background(const aur_scene *scene, aur_vector direction) {
+    const float *const color = scene->background;
+    return scene->has_background ? (aur_vector){color[0], color[1], color[2]}
+                                 : aur_scene_environment(scene, direction);
+}
+
 float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction) {
     float sum = 0.0f;
     for (size_t i = 0; i < scene->environment_count; ++i) {

@@ -181,7 +181,7 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     result = made->definitions != NULL ? aur_xml_read(path, bytes, data, &options, &made->document, error)
                                        : aur_fail_memory(error);
     if (result == AUR_OK)
-        result = aur_scene_build(made, &options.warnings, error);
+        result = aur_scene_build(made, &options, error);
     if (result == AUR_OK)
         result = aur_scene_cut_overlaps(made, options.threads, error);
     if (result == AUR_OK && !keep_points)

@@ -184,6 +184,10 @@ float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction);
 /* Both at once. */
 aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, float *pdf);
 
+/* The same for rays of the camera: a scene may have another background than its light. */
+bool aur_scene_has_background(const aur_scene *scene);
+aur_vector aur_scene_background(const aur_scene *scene, aur_vector direction);
+
 /* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
  * distributed direction. *power is the light's power: each of n particles carries 1/n of it, in watts (RGB).
  * `hidden`: no ray meets the light, which is a point or a single direction. False when the scene has no

@@ -86,6 +86,8 @@ struct aur_scene {
     aur_light_choice choice; /* of a point on a light that is seen from a reference */
     size_t environment_count, environment_capacity;
     const aur_emitter **environments; /* those of them whose radiance_from is for rays that hit nothing */
+    bool has_background;
+    float background[3]; /* radiance, RGB, where camera rays meet nothing, in place of the environments' */
     bool has_sensor, has_integrator;
     aur_sensor sensor;
     size_t part_count, part_capacity;
@@ -115,7 +117,7 @@ AUR_INTERNAL aur_result aur_scene_load_with_points(const char *path, size_t byte
                                                    aur_overlap_rule rule, const aur_scene_options *options,
                                                    aur_scene **scene, aur_error *error);
 /* Builds the objects of the document into the empty scene (loader.c). */
-aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
+aur_result aur_scene_build(aur_scene *scene, const aur_scene_options *options, aur_error *error);
 /* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */
 char *aur_definitions_text(const aur_scene_options *options);
 /* One counted warning for each flaw of polygons, and of the faces of each file (flaws.c). */

@@ -52,7 +52,7 @@ static void make_pixel_rays(const aur_view *view, const aur_stream *stream, size
 static aur_vector emission_at(const aur_scene *scene, const aur_packet *packet, size_t lane, bool hits) {
     const aur_ray ray = aur_packet_ray(packet, lane);
     if (!hits)
-        return aur_scene_environment(scene, ray.direction);
+        return aur_scene_background(scene, ray.direction);
     const aur_hit hit = aur_packet_hit(scene, packet, lane);
     if (aur_shape_emitter(scene, hit.shape) == AUR_NO_EMITTER)
         return (aur_vector){0};

@@ -131,6 +131,13 @@ void aur_walk_add_emission(const aur_scene *scene, const aur_surface *surface, a
 /* Goes on by a direction that u in [0,1)^3 draws; false where the path ends. */
 bool aur_walk_scatter(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3], aur_walk *walk);
 
+/* Whether the walk, which came in `direction`, has gone straight on through a surface that lets light pass.
+ */
+static inline bool aur_walk_passed(const aur_surface *surface, aur_vector direction, const aur_walk *walk) {
+    return surface->bsdf->passes && walk->bounce.specular_bounce &&
+           aur_vector_dot(walk->ray.direction, direction) > 1.0f - 1e-6f;
+}
+
 /* The surface that a camera ray sees. */
 
 /* The nearest surface along *ray, which begins anew behind each light that it passes when lights are hidden;

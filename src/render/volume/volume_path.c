@@ -88,9 +88,11 @@ static void add_light(volume_walk *walk, aur_vector radiance, float light_pdf) {
 }
 
 static void add_emission(const aur_scene *scene, const aur_surface *surface, volume_walk *walk) {
-    float light_pdf;
+    float light_pdf = 0.0f;
     const aur_vector emission =
-        aur_vertex_emission(scene, &walk->bounce, walk->ray.direction, surface, &light_pdf);
+        surface == NULL && walk->depth == 1
+            ? aur_scene_background(scene, walk->ray.direction)
+            : aur_vertex_emission(scene, &walk->bounce, walk->ray.direction, surface, &light_pdf);
     const aur_vector before = walk->sum;
     add_light(walk, emission, light_pdf);
     if (walk->depth == 1)

@@ -15,7 +15,7 @@ expect() { # STATUS TEXT ARGUMENT...: the exit status, and what the output must 
   grep -qF -- "$text" <<<"$output" || fail "aureole $*: no '$text' in: $output"
 }
 expect 0 "aureole help KIND NAME" help
-expect 0 "aureole render SCENE [OPTION...]" help render
+expect 0 "aureole render SCENE [MODEL...] [OPTION...]" help render
 expect 0 "quality figures of points" help measure # the verb: its measures are listed by --list
 expect 0 "final gathering over a photon map" help integrator
 expect 0 "diffuse_samples" help integrator finalgather

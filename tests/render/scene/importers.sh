@@ -48,8 +48,8 @@ end_header
 def records(*texts):
     return b"".join(text + b"\0" for text in texts)
 shape = records(b"<shape", b"=type", b"ply", b"<string", b"=name", b"filename", b"=value", b"*0", b">", b">")
-def scene(elements=shape, bounds=(0, 0, 0, 1, 1, 0)):
-    return struct.pack("=6d2I12d2I", *bounds, 0, 0, *[0.0] * 12, 0, 0) + elements
+def scene(elements=shape):
+    return struct.pack("=12d2I", *[0.0] * 12, 0, 0) + elements
 PYTHON
     cat
   } >"$1"
@@ -125,7 +125,7 @@ importer many <<<'send(SCENE, scene(records(b"<shape", *[b"=type", b"ply"] * 4, 
 told many 2 'too many attributes'
 importer outside <<<'send(SCENE, scene(records(b"<include", b"=filename", b"model.fbx", b">")))'
 told outside 2 'unknown element <include>'
-importer nowhere <<<'send(SCENE, scene(bounds=(float("nan"),) * 6))'
+importer nowhere <<<'send(SCENE, scene(b""))'
 AUREOLE_IMPORT=$PWD/nowhere "$aureole" info model.fbx >said 2>&1
 [ $? = 2 ] || fail "a scene without a camera and mesh is no error: $(cat said)"
 told ./none 2 'cannot start'
@@ -223,23 +223,20 @@ def read(data):
             sys.exit(data_read)
         elif kind == 9:
             program.wait()
-            bounds = struct.unpack_from("=6d", data_read)
-            lower, upper = bounds[:3], bounds[3:]
-            origin = struct.unpack_from("=3d", data_read, 48 + 8)
+            origin = struct.unpack_from("=3d", data_read)
             matrices = [[float(v) for v in m.split()] for m in re.findall(rb"<matrix\0=value\0([^\0]*)", data_read)]
-            return lower, upper, origin, matrices
+            return origin, matrices
 at = [500000.3, 5400000.7, 412.15]
 # Several roots, nested nodes, one node as a matrix.
 nodes = [{"translation": at, "children": [1]}, child, {"camera": 0, "translation": [500001.1, 5400002.2, 415.3]},
          {"mesh": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 2600000.1, 1200000.9, 500.7, 1]}]
-lower, upper, origin, matrices = read(model(nodes, [0, 2, 3]))
+origin, matrices = read(model(nodes, [0, 2, 3]))
 where = [[m[3], m[7], m[11]] for m in matrices]
 assert [a + b for a, b in zip(at, child["translation"])] in where, where
 assert [2600000.1, 1200000.9, 500.7] in where, where
 assert list(origin) == [500001.1, 5400002.2, 415.3], origin
-assert lower[0] == min(500000.3 + 0.1, 2600000.1 - 1) and upper[1] == 5400000.7 + 0.2 + 1, (lower, upper)
 # One root is assimp's own.
-lower, upper, origin, matrices = read(model([{"translation": at, "children": [1]}, child], [0]))
+origin, matrices = read(model([{"translation": at, "children": [1]}, child], [0]))
 assert [matrices[0][i] for i in (3, 7, 11)] == [a + b for a, b in zip(at, child["translation"])], matrices
 PYTHON
 fi

@@ -244,6 +244,7 @@ static aur_scene_options loading(const cli_call *call) {
     load.confine = given->definitions.confine;
     load.diffuse = given->definitions.diffuse;
     load.model_light = given->definitions.model_light;
+    load.stage.ground = AUR_SCENE_GROUND_NONE;
     load.progress = given->estimate.progress;
     load.further_count = call->operand_count - 1;
     load.further = (const char *const *)call->operands + 1;

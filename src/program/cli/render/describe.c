@@ -17,6 +17,7 @@ static int describe_scene(const cli_info_input *input, const cli_info_options *o
                                              .confine = options->definitions.confine,
                                              .diffuse = options->definitions.diffuse,
                                              .model_light = options->definitions.model_light,
+                                             .stage.ground = AUR_SCENE_GROUND_NONE,
                                              .warnings = cli_warnings(options->common.quiet)};
     const aur_result loaded =
         input->data != NULL

@@ -11,6 +11,7 @@
 #include "program/cli/options.h"
 #include "program/cli/render/denoise.h"
 #include "program/cli/render/render_result.h"
+#include "program/cli/render/stage.h"
 #include "program/lab/gather.h"
 
 typedef struct render_command {
@@ -18,6 +19,9 @@ typedef struct render_command {
     cli_definitions definitions;
     aur_render_options options;
     const char *reference, *errors;
+    cli_stage stage;
+    cli_display display;
+    size_t file_count;
     cli_target target;
     cli_checkpoint checkpoint;
     cli_watch watch;
@@ -88,6 +92,8 @@ static const cli_option options[] = {
     {CLI_INTEGER(render_command, options.samples_per_pixel, "spp", "N", 1, 1 << 30, "the scene's",
                  "samples a pixel"),
      .key.computed = true},
+    {CLI_INTEGER(render_command, options.samples_per_pixel, "samples", "N", 1, 1 << 30, NULL,
+                 "the same as --spp")},
     {CLI_INTEGER(render_command, options.width, "width", "N", 1, LARGEST_SIDE, "the scene's",
                  "of the whole picture in pixels; the height alone or the width alone keeps its shape"),
      .key.computed = true},
@@ -275,20 +281,27 @@ static aur_result denoise(const render_command *command, aur_renderer *renderer,
     return result;
 }
 
+static aur_scene_options loading(const render_command *command) {
+    return (aur_scene_options){.size = sizeof(aur_scene_options),
+                               .definition_count = command->definitions.count,
+                               .definitions = command->definitions.items,
+                               .confine = command->definitions.confine,
+                               .diffuse = command->definitions.diffuse,
+                               .further_count = command->file_count - 1,
+                               .further = command->stage.further,
+                               .stage = command->stage.stage,
+                               .model_light = command->definitions.model_light,
+                               .progress = command->options.progress,
+                               .threads = command->common.threads,
+                               .warnings = command->options.warnings};
+}
+
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
     aur_result result = begin(command, &error);
     if (result != AUR_OK)
         return cli_fail(&error);
-    const aur_scene_options scene_options = {.size = sizeof scene_options,
-                                             .definition_count = command->definitions.count,
-                                             .definitions = command->definitions.items,
-                                             .confine = command->definitions.confine,
-                                             .diffuse = command->definitions.diffuse,
-                                             .model_light = command->definitions.model_light,
-                                             .progress = command->options.progress,
-                                             .threads = command->common.threads,
-                                             .warnings = command->options.warnings};
+    const aur_scene_options scene_options = loading(command);
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
     aur_render *work = NULL;
@@ -314,7 +327,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     if (result == AUR_ERROR_CANCELLED && image != NULL)
         cli_write_partial(command->output, image);
     if (result == AUR_OK && command->options.shard_count == 0)
-        result = aur_image_write(command->output, image, NULL, &error);
+        result = cli_display_write(&command->display, command->output, image, &error);
     cli_checkpoint_end(&command->checkpoint, true); /* the image is safe now, or only this is left of it */
     if (result == AUR_OK)
         result = cli_denoise_keep(&command->denoise, command->output, image, &error);
@@ -359,23 +372,16 @@ static const char *conflict(const cli_call *call, const render_command *command)
                                          : NULL;
     if (command->reference != NULL)
         return "render: '--errors' does not go with '--error', '--time', '--rays' or '--rounds'";
-    if (cli_given(call, "spp") != NULL)
+    if (cli_given(call, "spp") != NULL || cli_given(call, "samples") != NULL)
         return "render: '--spp' does not go with '--error', '--time', '--rays' or '--rounds', which choose "
                "the "
                "samples";
     return NULL;
 }
 
-static int run(const cli_call *call) {
-    render_command *const command = call->options;
-    const char *const scene = call->operands[0];
-    char output[PATH_MAX];
-    const char *const wrong = conflict(call, command);
-    if (wrong != NULL)
-        return cli_bad_usage("%s", wrong);
-    if (command->denoise.wanted) /* which may change no pixel by much more than its error */
-        command->target.error_map = true;
-    default_output(scene, &command->options, sizeof output, output);
+/* Where the image goes is checked before anything is computed. */
+static int announce(const cli_call *call, render_command *command, char output[PATH_MAX]) {
+    default_output(call->operands[0], &command->options, PATH_MAX, output);
     if (command->output == NULL) {
         aur_error error;
         command->output = output;
@@ -384,6 +390,28 @@ static int run(const cli_call *call) {
     }
     if (command->options.shard_count == 0 && !check_output(command->output))
         return CLI_BAD_INPUT;
+    const char *const unfit = cli_display_conflict(&command->display, command->output);
+    return unfit != NULL ? cli_bad_usage("%s", unfit) : CLI_SUCCESS;
+}
+
+static int run(const cli_call *call) {
+    render_command *const command = call->options;
+    const char *const scene = call->operands[0];
+    char output[PATH_MAX];
+    const char *const wrong = conflict(call, command);
+    aur_error bad = {0};
+    if (wrong != NULL)
+        return cli_bad_usage("%s", wrong);
+    command->file_count = call->operand_count;
+    if (cli_stage_read_files(&command->stage, call, &bad) != AUR_OK)
+        return cli_fail(&bad);
+    if (command->denoise.wanted) /* which may change no pixel by much more than its error */
+        command->target.error_map = true;
+    const int status = announce(call, command, output);
+    if (status != CLI_SUCCESS)
+        return status;
+    if (command->options.width > 0 && command->options.height > 0)
+        command->stage.stage.aspect = (double)command->options.width / (double)command->options.height;
     command->options.size = sizeof command->options;
     command->options.threads = command->common.threads;
     command->options.resumable = command->checkpoint.path != NULL || command->options.shard_count > 0;
@@ -393,19 +421,24 @@ static int run(const cli_call *call) {
     if (command->reference == NULL)
         return render(scene, command, NULL);
     cli_errors *const errors = cli_errors_create(command->reference);
-    const int status = errors != NULL ? render(scene, command, errors) : CLI_BAD_INPUT;
+    const int ended = errors != NULL ? render(scene, command, errors) : CLI_BAD_INPUT;
     cli_errors_destroy(errors);
-    return status;
+    return ended;
 }
 
 const cli_command cli_command_render = {
     .name = "render",
     .summary = "render a picture of a scene",
     .too_few = "a scene is missing",
-    .too_many = "one scene at a time",
     .operands = {{"SCENE", "the scene's file: Mitsuba's XML, .rad, or a model such as .glb",
-                  .content = "file"}},
+                  .content = "file"},
+                 {"MODEL",
+                  "more files of the scene; FILE@X,Y,Z[,TURN[,SCALE]] shifts one, turns it by degrees "
+                  "about the upward axis, and scales it",
+                  .optional = true, .repeated = true, .content = "file"}},
     .groups = {{options, 0},
+               {cli_stage_options, offsetof(render_command, stage)},
+               {cli_display_options, offsetof(render_command, display)},
                {cli_target_options, offsetof(render_command, target)},
                {cli_checkpoint_options, offsetof(render_command, checkpoint)},
                {cli_watch_options, offsetof(render_command, watch)},

@@ -3,6 +3,7 @@
 
 #include "render/scene/load/loader.h"
 #include "render/scene/load/spectrum.h"
+#include "render/scene/load/stage.h"
 
 static const aur_object_kind kinds[] = {
     {"shape", aur_build_shape, &aur_shape_table},       {"bsdf", aur_build_bsdf, &aur_bsdf_table},
@@ -51,7 +52,7 @@ static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
     if (strcmp(node->tag, "emitter") != 0)
         return AUR_OK;
     const aur_emitter *const emitter = node->object;
-    if (!emitter->descriptor->needs_shape || emitter->shape != UINT32_MAX)
+    if (emitter == NULL || !emitter->descriptor->needs_shape || emitter->shape != UINT32_MAX)
         return AUR_OK;
     return aur_xml_fail(node, self->error, "emitter '%s' must stand inside a <shape>, or a shape refer to it",
                         emitter->descriptor->row.name);
@@ -109,9 +110,18 @@ static void refuse_unknown(const aur_loader *self, const aur_xml_node *node, siz
     }
 }
 
-aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
+/* All children of <scene> from `node` on. */
+static aur_result build_all(aur_loader *self, const aur_scene_stage *stage, aur_xml_node *node) {
+    aur_result result = AUR_OK;
+    for (; result == AUR_OK && node != NULL; node = node->next)
+        if (!aur_stage_replaces(stage, node))
+            result = build_top(self, node);
+    return result;
+}
+
+aur_result aur_scene_build(aur_scene *scene, const aur_scene_options *options, aur_error *error) {
     aur_loader self = {.scene = scene,
-                       .warnings = warnings,
+                       .warnings = &options->warnings,
                        .kind_count = sizeof kinds / sizeof kinds[0],
                        .kinds = kinds,
                        .error = error};
@@ -127,8 +137,13 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
     if (left_out->result != AUR_OK)
         return aur_fail_at(error, (aur_location){left_out->file, left_out->line, left_out->column},
                            left_out->result, "%s", left_out->message);
-    for (aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
-        result = build_top(&self, node);
+    const aur_scene_stage *const stage = &options->stage;
+    result = build_all(&self, stage, root->first_child);
+    aur_xml_node *const last = root->last_child;
+    if (result == AUR_OK)
+        result = aur_stage_set(&self, options);
+    if (result == AUR_OK)
+        result = build_all(&self, &(aur_scene_stage){0}, last != NULL ? last->next : root->first_child);
     aur_loader_drop_image(&self);
     for (const aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
         result = check_top(&self, node);

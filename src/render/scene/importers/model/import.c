@@ -142,14 +142,16 @@ static aur_result fail_damaged(const conversation *self) {
 }
 
 static aur_result take_scene(conversation *self, const message *got) {
-    aur_import_scene scene;
-    if (got->size < sizeof scene)
+    aur_import_camera camera;
+    if (got->size < sizeof camera)
         return fail_damaged(self);
-    memcpy(&scene, got->data, sizeof scene);
-    if (!aur_node_records_read(self->nodes, self->parent, got->size - sizeof scene, got->data + sizeof scene))
+    memcpy(&camera, got->data, sizeof camera);
+    if (!aur_node_records_read(self->nodes, self->parent, got->size - sizeof camera,
+                               got->data + sizeof camera))
         return self->nodes->result != AUR_OK ? self->nodes->result : fail_damaged(self);
     aur_named_warn(&self->named);
-    return self->source->alone ? aur_model_surround(self->source, &scene, self->nodes, self->parent) : AUR_OK;
+    return self->source->stage != NULL ? aur_model_surround(self->source, &camera, self->nodes, self->parent)
+                                       : AUR_OK;
 }
 
 /* --- the conversation */

@@ -51,12 +51,12 @@ aur_result aur_model_converse(aur_child *child, const aur_model_source *source, 
 aur_result aur_model_from_mesh(const aur_model_source *source, aur_mesh_format format, aur_model_files *files,
                                aur_nodes *nodes, aur_xml_node *parent);
 
-/* What a model lacks of a scene: a camera, an integrator, a film, and light. */
+/* What a model lacks of a scene: an integrator, a sensor and a film. */
 
-/* Adds a camera, the model's own or one that sees all of it, and the light that source->light asks for;
- * reports what was added. Errors: MEMORY. */
-aur_result aur_model_surround(const aur_model_source *source, const aur_import_scene *scene, aur_nodes *nodes,
-                              aur_xml_node *parent);
+/* Adds them, the sensor by the model's camera where there is one. What is not known before all of the scene
+ * is there becomes source->stage. Errors: MEMORY. */
+aur_result aur_model_surround(const aur_model_source *source, const aur_import_camera *camera,
+                              aur_nodes *nodes, aur_xml_node *parent);
 
 /* Materials of meshes as <bsdf>s. */
 

@@ -16,7 +16,6 @@ typedef struct mesh_model {
     aur_mesh_data data;
     aur_named_files named;
     aur_mtl_library library;
-    aur_import_scene scene;
     uint32_t *numbers; /* of vertices in the part that is written, or NONE */
     uint32_t *used;    /* vertices of that part */
 } mesh_model;
@@ -50,7 +49,6 @@ static aur_result add_shape(mesh_model *self, const char *type, const aur_mtl_ma
     aur_mesh_material_add(material, colored, self->nodes, shape);
     if (aur_mesh_material_emits(material)) {
         aur_mesh_material_add_emitter(material, self->nodes, shape);
-        self->scene.emits = 1;
     }
     return self->nodes->result;
 }
@@ -232,26 +230,11 @@ static void warn_of_flaws(const mesh_model *self) {
 
 /* --- the whole */
 
-static void find_bounds(mesh_model *self) {
-    for (size_t i = 0; i < 3; ++i) {
-        self->scene.lower[i] = HUGE_VAL;
-        self->scene.upper[i] = -HUGE_VAL;
-    }
-    for (size_t i = 0; i < 3 * self->data.triangle_count; ++i) {
-        const double *const point = &self->data.points[3 * (size_t)self->data.indices[i]];
-        for (size_t d = 0; d < 3; ++d) {
-            self->scene.lower[d] = fmin(self->scene.lower[d], point[d]);
-            self->scene.upper[d] = fmax(self->scene.upper[d], point[d]);
-        }
-    }
-}
-
 static aur_result add_model(mesh_model *self, aur_mesh_format format) {
     static const char *const types[AUR_MESH_FORMAT_COUNT] = {"obj", "ply", "stl", "off"};
     aur_result result = AUR_OK;
     if (self->data.triangle_count == 0)
         return fail_empty(self);
-    find_bounds(self);
     if (format == AUR_MESH_OBJ) {
         result = read_libraries(self);
         if (result == AUR_OK)
@@ -261,8 +244,8 @@ static aur_result add_model(mesh_model *self, aur_mesh_format format) {
         result = add_whole(self, types[format]);
     }
     aur_named_warn(&self->named);
-    return result == AUR_OK && self->source->alone
-               ? aur_model_surround(self->source, &self->scene, self->nodes, self->parent)
+    return result == AUR_OK && self->source->stage != NULL
+               ? aur_model_surround(self->source, &(aur_import_camera){0}, self->nodes, self->parent)
                : result;
 }
 

@@ -17,7 +17,7 @@ typedef enum aur_import_kind {
     AUR_IMPORT_PICTURE, /* a part: a picture file; asks whether it can be read: if not, it is no part */
     AUR_IMPORT_NOTE,    /* a warning */
     AUR_IMPORT_FAIL,    /* value: -result; a text for a person */
-    AUR_IMPORT_SCENE    /* an aur_import_scene, and records of the scene's elements; the last message */
+    AUR_IMPORT_SCENE    /* an aur_import_camera, and records of the scene's elements; the last message */
 } aur_import_kind;
 
 /* Elements are records: texts that begin with one of these characters and end with a zero byte. */
@@ -40,10 +40,3 @@ typedef struct aur_import_camera {
     uint32_t angle_is_vertical;
     uint32_t is_there;
 } aur_import_camera;
-
-typedef struct aur_import_scene {
-    double lower[3], upper[3]; /* of all triangles, in the world; lower > upper where there is none */
-    uint32_t has_light;        /* one that is no emission of a surface */
-    uint32_t emits;            /* a surface emits */
-    aur_import_camera camera;
-} aur_import_scene;

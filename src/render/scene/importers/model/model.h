@@ -23,12 +23,20 @@ typedef struct aur_model_files {
     aur_model_file *items;
 } aur_model_files;
 
+/* What models leave to be decided when all of a scene has been read. */
+typedef struct aur_model_stage {
+    bool alone;  /* the scene's own file is a model */
+    bool framed; /* it has a camera */
+    bool z_up;
+    aur_model_light light;
+    aur_location location;
+} aur_model_stage;
+
 typedef struct aur_model_source {
     const char *name; /* of the model's file, without its folder */
     size_t size;
     const char *data;
-    bool alone; /* it is the whole scene, and needs a camera and a light */
-    aur_model_light light;
+    aur_model_stage *stage; /* it is the scene's own file; NULL: a part of a scene */
     const aur_warnings *warnings;
     aur_progress progress; /* asked, while the model is read, whether to stop */
     aur_location location;

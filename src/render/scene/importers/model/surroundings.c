@@ -6,9 +6,7 @@
 
 #include "points/base/text.h"
 
-static const double pi = 3.14159265358979323846;
-
-enum { ANGLE = 35 }; /* of the camera that is added, in degrees */
+static const double ANGLE = 35.0; /* of the camera that is added, across the height, in degrees */
 
 static double dot(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -61,83 +59,48 @@ static void add_film(aur_nodes *nodes, aur_xml_node *sensor, double ratio) {
     aur_node_object(nodes, film, "rfilter", aur_node_variable(nodes, "rfilter", "gaussian"));
 }
 
-static void add_sensor(aur_nodes *nodes, aur_xml_node *parent, const aur_import_camera *camera) {
-    const bool flat = camera->half_width > 0.0;
-    aur_xml_node *const sensor =
-        aur_node_object(nodes, parent, "sensor", flat ? "orthographic" : "perspective");
-    if (!flat) {
-        aur_node_property(nodes, sensor, "string", "fov_axis", "%s",
-                          camera->angle_is_vertical != 0 ? "y" : "x");
-        aur_node_property(nodes, sensor, "float", "fov", "%.17g", clamp(camera->angle, 0.01, 179.0));
-    }
+/* Where the camera stands. */
+static void add_place(aur_nodes *nodes, aur_xml_node *sensor, const aur_import_camera *camera) {
     aur_xml_node *const to_world = aur_node_add(nodes, sensor, "transform");
     aur_node_set(nodes, to_world, "name", "to_world");
-    if (flat) {
+    if (camera->half_width > 0.0) {
         aur_xml_node *const scale = aur_node_add(nodes, to_world, "scale");
         aur_node_set_numbers(nodes, scale, "x", 1, &camera->half_width);
         aur_node_set_numbers(nodes, scale, "y", 1, &camera->half_width);
     }
     add_look(nodes, to_world, camera);
+}
+
+/* Models are of any size: nothing is too near or too far. */
+static void add_sensor(aur_nodes *nodes, aur_xml_node *parent, const aur_import_camera *camera) {
+    const bool there = camera->is_there != 0, flat = there && camera->half_width > 0.0;
+    aur_xml_node *const sensor =
+        aur_node_object(nodes, parent, "sensor", flat ? "orthographic" : "perspective");
+    if (!flat) {
+        aur_node_property(nodes, sensor, "string", "fov_axis", "%s",
+                          there && camera->angle_is_vertical == 0 ? "x" : "y");
+        aur_node_property(nodes, sensor, "float", "fov", "%.17g",
+                          there ? clamp(camera->angle, 0.01, 179.0) : ANGLE);
+    }
+    aur_node_property(nodes, sensor, "float", "near_clip", "0");
+    aur_node_property(nodes, sensor, "float", "far_clip", "1e30");
+    if (there)
+        add_place(nodes, sensor, camera);
     add_variable(nodes, aur_node_object(nodes, sensor, "sampler", "multijitter"), "integer", "sample_count",
                  "spp", "64");
-    add_film(nodes, sensor, camera->aspect > 0.0 ? camera->aspect : 4.0 / 3.0);
+    add_film(nodes, sensor, there && camera->aspect > 0.0 ? camera->aspect : 4.0 / 3.0);
 }
 
-/* From the front, above and the right, so far away that all of a ball around the model is seen. */
-static aur_import_camera place_camera(const aur_import_scene *scene, bool z_up) {
-    aur_import_camera camera = {.angle = ANGLE, .angle_is_vertical = 1};
-    const double from[3] = {0.5, z_up ? -1.0 : 0.35, z_up ? 0.35 : 1.0}, length = sqrt(dot(from, from));
-    double squared = 0.0;
-    for (size_t i = 0; i < 3; ++i)
-        squared += pow(scene->upper[i] - scene->lower[i], 2.0);
-    const double distance = 0.5 * sqrt(squared) / sin(0.5 * ANGLE * pi / 180.0);
-    for (size_t i = 0; i < 3; ++i) {
-        camera.direction[i] = -from[i] / length;
-        camera.origin[i] = 0.5 * scene->lower[i] + 0.5 * scene->upper[i] - distance * camera.direction[i];
-    }
-    camera.up[z_up ? 2 : 1] = 1.0;
-    return camera;
-}
-
-/* --- light */
-
-/* Light from all sides, and more from above and the left: white is about 1 where that falls straight on. */
-static void add_lights(aur_nodes *nodes, aur_xml_node *parent, bool z_up) {
-    aur_node_property(nodes, aur_node_object(nodes, parent, "emitter", "constant"), "rgb", "radiance", "0.5");
-    aur_xml_node *const sun = aur_node_object(nodes, parent, "emitter", "directional");
-    aur_node_property(nodes, sun, "vector", "direction", z_up ? "0.5 0.5 -1" : "0.5 -1 -0.5");
-    aur_node_property(nodes, sun, "rgb", "irradiance", "1.5");
-}
-
-static void light(const aur_model_source *source, const aur_import_scene *scene, bool z_up, aur_nodes *nodes,
-                  aur_xml_node *parent) {
-    const bool lit = scene->has_light != 0;
-    if (source->light == AUR_MODEL_LIGHT_NONE || (source->light == AUR_MODEL_LIGHT_AUTO && lit))
-        return;
-    add_lights(nodes, parent, z_up);
-    if (!lit)
-        aur_warn_at(source->warnings, source->location,
-                    "this model has no light source%s: it is lit from all sides, and from above and the left",
-                    scene->emits != 0 ? " but surfaces that emit" : "");
-}
-
-aur_result aur_model_surround(const aur_model_source *source, const aur_import_scene *scene, aur_nodes *nodes,
-                              aur_xml_node *parent) {
-    const bool has_triangles = scene->lower[0] <= scene->upper[0];
-    if (scene->camera.is_there == 0 && !has_triangles)
-        return nodes->result;
+aur_result aur_model_surround(const aur_model_source *source, const aur_import_camera *camera,
+                              aur_nodes *nodes, aur_xml_node *parent) {
+    aur_model_stage *const stage = source->stage;
+    stage->alone = true;
+    stage->framed = camera->is_there != 0;
+    stage->location = source->location;
     /* Most formats have y upwards, or assimp turns them so; those of engineers have z. */
     const char *const dot_at = strrchr(source->name, '.');
-    const bool z_up = dot_at != NULL && strcasecmp(dot_at, ".stl") == 0;
-    const aur_import_camera camera = scene->camera.is_there != 0 ? scene->camera : place_camera(scene, z_up);
+    stage->z_up = dot_at != NULL && strcasecmp(dot_at, ".stl") == 0;
     add_integrator(nodes, parent);
-    add_sensor(nodes, parent, &camera);
-    if (!has_triangles)
-        return nodes->result;
-    if (scene->camera.is_there == 0)
-        aur_warn_at(source->warnings, source->location,
-                    "this model has no camera: it is seen from (%.9g, %.9g, %.9g)", camera.origin[0],
-                    camera.origin[1], camera.origin[2]);
-    light(source, scene, z_up, nodes, parent);
+    add_sensor(nodes, parent, camera);
     return nodes->result;
 }

@@ -140,6 +140,12 @@ void aur_node_refer(aur_nodes *nodes, aur_xml_node *parent, aur_xml_node *target
 /* The value of $name: that of -D, or of a <default> above, or else `otherwise`; NULL after a failure. */
 const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *otherwise);
 
+/* --- placing */
+
+/* Moves shapes, light sources and cameras from `first` to the last one beside it, by a step at the end of
+ * their transforms. Errors: MEMORY. */
+void aur_nodes_place(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement, bool z_up);
+
 /* --- daylight */
 
 /* Adds the sky of options->sky, and the sun, as the last children of the tree's root; `z_up`: where up is

@@ -28,11 +28,11 @@ aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_option
                               size_t size, const char *data, aur_nodes *nodes, aur_xml_node *parent) {
     const char *const path = nodes->location.file, *const slash = strrchr(path, '/');
     model_reading reading = {document, path};
+    document->stage.light = options->model_light;
     const aur_model_source source = {.name = slash != NULL ? slash + 1 : path,
                                      .size = size,
                                      .data = data,
-                                     .alone = !included,
-                                     .light = options->model_light,
+                                     .stage = included ? NULL : &document->stage,
                                      .warnings = &options->warnings,
                                      .progress = options->progress,
                                      .location = nodes->location,

@@ -402,10 +402,27 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
     return result;
 }
 
+/* Moves what a file has added to the scene: the children of <scene> behind `last`. */
+static void place(reading *shared, size_t file, const aur_xml_node *last) {
+    const aur_scene_stage *const stage = &shared->options->stage;
+    aur_xml_tree *const tree = &shared->document->tree;
+    aur_nodes nodes = {.tree = tree, .error = shared->error};
+    for (size_t i = 0; i < stage->placement_count; ++i)
+        if (stage->placements[i].file == file && tree->root != NULL)
+            aur_nodes_place(&nodes, last != NULL ? last->next : tree->root->first_child,
+                            &stage->placements[i],
+                            shared->document->stage.z_up || shared->document->from_radiance);
+}
+
 /* A file more, as if the scene's own, `path`, included it at its end. */
-static aur_result read_further(reading *shared, const char *path, const char *further) {
+static aur_result read_further(reading *shared, const char *path, size_t index) {
     const file_reading from = {.file = path};
-    return read_file(shared, further, &from, shared->document->tree.root);
+    const aur_xml_node *const last = shared->document->tree.root->last_child;
+    const aur_result result =
+        read_file(shared, shared->options->further[index], &from, shared->document->tree.root);
+    if (result == AUR_OK)
+        place(shared, index + 1, last);
+    return result;
 }
 
 /* The sky and the lamps of the options. */
@@ -450,8 +467,10 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
     if (result == AUR_OK)
         result = data != NULL ? read_text(&shared, path, bytes, data, NULL, NULL)
                               : read_file(&shared, path, NULL, NULL);
+    if (result == AUR_OK)
+        place(&shared, 0, NULL);
     for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
-        result = read_further(&shared, path, options->further[i]);
+        result = read_further(&shared, path, i);
     if (result == AUR_OK)
         result = add_lights(&shared, path);
     if (result == AUR_OK)

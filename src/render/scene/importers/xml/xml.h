@@ -28,6 +28,7 @@ typedef struct aur_xml_document {
     const char **folders;        /* of <path> */
     bool from_radiance;          /* a file of Radiance's is among the scene's: +z is up */
     aur_model_files model_files; /* in memory: parts of models */
+    aur_model_stage stage;
     size_t file_count, file_capacity;
     char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */
     aur_xml_file *files; /* the scene's own, and those of aur_xml_find_asset as often as they are named */

@@ -1,0 +1,157 @@
+/* How `aureole render` sees and lights scenes and models, and how images are displayed. */
+#include <aureole/text.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program/cli/render/stage.h"
+
+/* "R,G,B", or "#rrggbb" as on web pages. */
+static aur_result parse_background(const char *text, void *field, aur_error *error) {
+    aur_scene_stage *const stage = field;
+    double numbers[3];
+    bool good = cli_split_numbers(text, 3, numbers) == 3;
+    for (size_t i = 0; good && i < 3; ++i)
+        good = numbers[i] >= 0.0 && numbers[i] <= 1e30;
+    if (text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6) {
+        const unsigned long code = strtoul(text + 1, NULL, 16);
+        for (size_t i = 0; i < 3; ++i) {
+            const double value = (double)(code >> (16 - 8 * i) & 255) / 255.0;
+            numbers[i] = value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+        }
+        good = true;
+    }
+    if (!good)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--background: expected a radiance R,G,B or a colour #rrggbb, not '%s'", text);
+    stage->has_background = true;
+    memcpy(stage->background, numbers, sizeof numbers);
+    return AUR_OK;
+}
+
+const cli_option cli_stage_options[] = {
+    {CLI_TEXT(
+        cli_stage, stage.camera, "camera", "VIEW", NULL,
+        "front, back, left, right, top, bottom, corner, iso or AZIMUTH,ELEVATION: a view that shows all "
+        "of the scene; or X,Y,Z,X,Y,Z[,FOV]: position, target, degrees across the height")},
+    {CLI_TEXT(cli_stage, stage.environment, "environment", "NAME", NULL,
+              "light from around the scene: studio, sky[:TURBIDITY], none, or a file of radiance in latitude "
+              "and longitude (.exr, .hdr)"),
+     .content = "file"},
+    {CLI_CHOICE(cli_stage, stage.ground, "ground", "KIND", "auto",
+                "a ground below the scene that shows shadows; auto: in studio and sky"),
+     .key.words = (const char *const[]){"auto", "shadow", "none", NULL}},
+    {CLI_TEXT(cli_stage, stage, "background", "COLOR", NULL,
+              "what the camera sees beyond the scene, in place of the environment: #rrggbb or a radiance "
+              "R,G,B"),
+     .parse = parse_background},
+    {.key = {0}}};
+
+size_t cli_split_numbers(const char *text, size_t most, double *numbers) {
+    size_t count = 0;
+    for (const char *end = text; end != NULL; text = end + 1) {
+        char piece[40] = "";
+        end = strchr(text, ',');
+        const size_t length = end != NULL ? (size_t)(end - text) : strlen(text);
+        if (count == most || length >= sizeof piece)
+            return 0;
+        memcpy(piece, text, length);
+        if (!aur_parse_double(piece, &numbers[count++]))
+            return 0;
+        if (end == NULL)
+            break;
+    }
+    return count;
+}
+
+static bool exists(const char *path) {
+    FILE *const file = fopen(path, "rb");
+    return file != NULL && fclose(file) == 0;
+}
+
+aur_result cli_stage_read_files(cli_stage *given, const cli_call *call, aur_error *error) {
+    aur_scene_stage *const stage = &given->stage;
+    for (size_t i = 0; i < call->operand_count; ++i) {
+        char *const name = call->operands[i];
+        char *const at = exists(name) ? NULL : strrchr(name, '@');
+        double numbers[5] = {0.0, 0.0, 0.0, 0.0, 1.0};
+        const size_t count = at != NULL ? cli_split_numbers(at + 1, 5, numbers) : 0;
+        if (i == CLI_FILE_LIMIT)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "more than %d files", (int)CLI_FILE_LIMIT);
+        if (i > 0)
+            given->further[i - 1] = name;
+        if (at == NULL)
+            continue;
+        if (count < 3 || !(numbers[4] > 0.0))
+            return aur_fail(
+                error, AUR_ERROR_ARGUMENT,
+                "'%s': expected FILE@X,Y,Z[,TURN[,SCALE]]: a shift, degrees, and a factor above 0", name);
+        *at = '\0'; /* an argument of the program */
+        given->placements[stage->placement_count++] =
+            (aur_scene_placement){i, {numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4]};
+    }
+    stage->placements = given->placements;
+    return AUR_OK;
+}
+
+/* --- the image */
+
+static aur_result parse_exposure(const char *text, void *field, aur_error *error) {
+    cli_display *const display = (cli_display *)(void *)((char *)field - offsetof(cli_display, exposure));
+    double value = 0.0;
+    display->automatic = strcmp(text, "auto") == 0;
+    if (!display->automatic && (!aur_parse_double(text, &value) || !(fabs(value) <= 100.0)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--exposure: expected auto or stops from -100 to 100, not '%s'", text);
+    display->exposure = (float)value;
+    return AUR_OK;
+}
+
+const cli_option cli_display_options[] = {
+    {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0",
+              "multiply radiance by 2^STOPS (PNG); auto: so that the geometric mean of luminance is .18"),
+     .parse = parse_exposure},
+    {CLI_CHOICE(cli_display, tone, "tone", "CURVE", "srgb",
+                "the tone curve (PNG); without one radiance 1 is white"),
+     .key.words = (const char *const[]){"srgb", "filmic", NULL}},
+    {.key = {0}}};
+
+/* In stops; 0 for images without light. */
+static double automatic_exposure(const aur_image *image) {
+    size_t channels[3], count = 0;
+    double sum = 0.0;
+    if (!aur_image_color_channels(image, channels))
+        return 0.0;
+    const size_t width = aur_image_width(image), height = aur_image_height(image);
+    const size_t channel_count = aur_image_channel_count(image);
+    const float *const data = aur_image_data(image);
+    for (size_t i = 0; i < width * height; ++i) {
+        const float *const pixel = data + i * channel_count;
+        const double luminance = 0.212671 * (double)pixel[channels[0]] +
+                                 0.715160 * (double)pixel[channels[1]] +
+                                 0.072169 * (double)pixel[channels[2]];
+        if (!(luminance > 0.0 && luminance < HUGE_VAL))
+            continue;
+        sum += log2(luminance);
+        ++count;
+    }
+    return count > 0 ? log2(0.18) - sum / (double)count : 0.0;
+}
+
+const char *cli_display_conflict(const cli_display *display, const char *output) {
+    const aur_row *format;
+    const bool plain = !display->automatic && display->exposure == 0.0f && display->tone == AUR_TONE_SRGB;
+    if (plain || aur_image_find_writer(output, NULL, &format, NULL) != AUR_OK ||
+        aur_row_find_key(format, "exposure") != NULL)
+        return NULL;
+    return "render: '--exposure' and '--tone' are for .png files: 'aureole convert' applies them to others";
+}
+
+aur_result cli_display_write(const cli_display *display, const char *output, const aur_image *image,
+                             aur_error *error) {
+    aur_image_write_options options = {.size = sizeof options};
+    aur_image_write_options_init(&options, NULL);
+    options.exposure = display->automatic ? (float)automatic_exposure(image) : display->exposure;
+    options.tone = display->tone;
+    return aur_image_write(output, image, &options, error);
+}

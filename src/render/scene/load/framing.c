@@ -1,0 +1,229 @@
+/* Cameras that see all of a scene. */
+#include <math.h>
+#include <string.h>
+
+#include "points/base/text.h"
+#include "points/base/vector3d.h"
+#include "render/scene/load/stage.h"
+
+/* How much of the image the scene may fill, from edge to edge. */
+static const double FILL = 0.9;
+
+typedef struct view_name {
+    const char *name;
+    double azimuth, elevation; /* degrees; from the front to the right, and up */
+} view_name;
+
+static const view_name views[] = {{"front", 0, 0},           {"back", 180, 0},   {"left", -90, 0},
+                                  {"right", 90, 0},          {"top", 0, 90},     {"bottom", 0, -90},
+                                  {"corner", 26.565, 17.39}, {"iso", 45, 35.264}};
+
+/* --- what there is to see */
+
+static void visit_shape(const aur_shape *shape, const aur_transform *to_world, aur_stage_visit *visit,
+                        void *user) {
+    double moved[3];
+    for (size_t i = 0; i < 3 * shape->mesh.triangle_count; ++i) {
+        const double *const point = &shape->mesh.points[3 * (size_t)shape->mesh.indices[i]];
+        if (to_world != NULL)
+            aur_transform_point(to_world, point, moved);
+        visit(user, to_world != NULL ? moved : point);
+    }
+    for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
+        double lower[3], upper[3];
+        shape->curved->bounds(shape, k, lower, upper);
+        for (size_t corner = 0; corner < 8; ++corner) {
+            double point[3];
+            for (size_t d = 0; d < 3; ++d)
+                point[d] = (corner >> d & 1 ? upper[d] : lower[d]) + shape->place[d];
+            if (to_world != NULL)
+                aur_transform_point(to_world, point, moved);
+            visit(user, to_world != NULL ? moved : point);
+        }
+    }
+}
+
+void aur_stage_visit_points(const aur_scene *scene, aur_stage_visit *visit, void *user) {
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        if (!scene->shapes[i]->grouped)
+            visit_shape(scene->shapes[i], NULL, visit, user);
+    for (size_t i = 0; i < scene->instance_count; ++i) {
+        const aur_instance *const instance = scene->instances[i];
+        for (size_t k = 0; k < instance->group->count; ++k)
+            visit_shape(scene->shapes[instance->group->shapes[k]], &instance->to_world, visit, user);
+    }
+}
+
+typedef struct box {
+    double lower[3], upper[3];
+} box;
+
+static void widen(void *user, const double point[3]) {
+    box *const bounds = user;
+    for (size_t d = 0; d < 3; ++d) {
+        bounds->lower[d] = fmin(bounds->lower[d], point[d]);
+        bounds->upper[d] = fmax(bounds->upper[d], point[d]);
+    }
+}
+
+bool aur_stage_bounds(const aur_scene *scene, double lower[3], double upper[3]) {
+    box bounds = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    aur_stage_visit_points(scene, widen, &bounds);
+    memcpy(lower, bounds.lower, sizeof bounds.lower);
+    memcpy(upper, bounds.upper, sizeof bounds.upper);
+    return lower[0] <= upper[0];
+}
+
+/* --- views that show all of it */
+
+/* A camera's axes, a point from which coordinates count, and how far the scene reaches beyond the four planes
+ * through it that bound the image, and along the axes. */
+typedef struct reach {
+    double axes[3][3]; /* left, up, ahead */
+    double center[3];
+    double tangents[2];
+    double beyond[4];
+    double nearest;
+} reach;
+
+static void extend(void *user, const double point[3]) {
+    reach *const self = user;
+    double offset[3], along[3];
+    for (size_t d = 0; d < 3; ++d)
+        offset[d] = point[d] - self->center[d];
+    for (size_t k = 0; k < 3; ++k)
+        along[k] = aur_dot3(offset, self->axes[k]);
+    for (size_t k = 0; k < 2; ++k) {
+        const double depth = self->tangents[k] * along[2];
+        self->beyond[2 * k] = fmax(self->beyond[2 * k], along[k] - depth);
+        self->beyond[2 * k + 1] = fmax(self->beyond[2 * k + 1], -along[k] - depth);
+    }
+    self->nearest = fmin(self->nearest, along[2]);
+}
+
+/* Of a camera at (a, b, c) along its axes, each pair of planes gives the place across in the middle, and the
+ * farthest c ahead that leaves both on the inside. */
+static void stand_back(const reach *self, double place[3]) {
+    const double *const b = self->beyond;
+    double along[3] = {0.5 * (b[0] - b[1]), 0.5 * (b[2] - b[3]), HUGE_VAL};
+    for (size_t k = 0; k < 2; ++k)
+        along[2] =
+            fmin(along[2], self->tangents[k] > 0.0 ? -0.5 * (b[2 * k] + b[2 * k + 1]) / self->tangents[k]
+                                                   : self->nearest - (b[0] + b[1] + b[2] + b[3]));
+    for (size_t d = 0; d < 3; ++d)
+        place[d] = self->center[d] + along[0] * self->axes[0][d] + along[1] * self->axes[1][d] +
+                   along[2] * self->axes[2][d];
+}
+
+/* Right-handed, by where the camera looks from. */
+static void set_axes(double azimuth, double elevation, bool z_up, double axes[3][3]) {
+    const double a = azimuth * AUR_PI / 180.0, e = elevation * AUR_PI / 180.0;
+    const double ca = cos(a), sa = sin(a), ce = cos(e), se = sin(e);
+    const double flat[3][3] = {{-ca, 0.0, sa}, {-se * sa, ce, -se * ca}, {-ce * sa, -se, -ce * ca}};
+    for (size_t k = 0; k < 3; ++k) {
+        axes[k][0] = flat[k][0];
+        axes[k][1] = z_up ? -flat[k][2] : flat[k][1];
+        axes[k][2] = z_up ? flat[k][1] : flat[k][2];
+    }
+}
+
+static void set_sensor(aur_sensor *sensor, double axes[3][3], const double place[3], double scale) {
+    for (size_t d = 0; d < 3; ++d) {
+        sensor->place[d] = place[d];
+        for (size_t k = 0; k < 3; ++k)
+            sensor->to_world[4 * d + k] = (float)(axes[k][d] * (k < 2 ? scale : 1.0));
+        sensor->to_world[4 * d + 3] = (float)place[d];
+    }
+    sensor->near_clip = 0.0f;
+    sensor->far_clip = 1e30f;
+}
+
+static aur_result frame(aur_scene *scene, double azimuth, double elevation, double aspect, bool z_up,
+                        aur_error *error) {
+    aur_sensor *const sensor = &scene->sensor;
+    box bounds;
+    reach self = {.beyond = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, .nearest = HUGE_VAL};
+    if (!aur_stage_bounds(scene, bounds.lower, bounds.upper))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the scene has no surface to look at");
+    for (size_t d = 0; d < 3; ++d)
+        self.center[d] = 0.5 * bounds.lower[d] + 0.5 * bounds.upper[d];
+    set_axes(azimuth, elevation, z_up, self.axes);
+    const bool flat = strcmp(sensor->descriptor->row.name, "orthographic") == 0;
+    if (!flat) {
+        self.tangents[0] = FILL * (double)aur_sensor_half_width(sensor, (float)aspect);
+        self.tangents[1] = self.tangents[0] / aspect;
+    }
+    aur_stage_visit_points(scene, extend, &self);
+    double place[3];
+    stand_back(&self, place);
+    const double *const b = self.beyond;
+    set_sensor(sensor, self.axes, place, flat ? 0.5 / FILL * fmax(b[0] + b[1], aspect * (b[2] + b[3])) : 1.0);
+    return AUR_OK;
+}
+
+/* --- the text */
+
+static aur_result look(aur_scene *scene, size_t count, const double *numbers, bool z_up, aur_error *error) {
+    const double up[3] = {0.0, z_up ? 0.0 : 1.0, z_up ? 1.0 : 0.0}, other[3] = {0.0, up[2], -up[1]};
+    aur_transform to_world;
+    if (!aur_transform_look_at(numbers, numbers + 3, up, &to_world) &&
+        !aur_transform_look_at(numbers, numbers + 3, other, &to_world))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera must look at another point than where it is");
+    double axes[3][3];
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t d = 0; d < 3; ++d)
+            axes[k][d] = to_world.m[4 * d + k];
+    set_sensor(&scene->sensor, axes, numbers, 1.0);
+    if (count == 7) {
+        scene->sensor.axis = AUR_FOV_Y;
+        scene->sensor.tangent = (float)tan(0.5 * numbers[6] * AUR_PI / 180.0);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_stage_place_camera(aur_scene *scene, const char *text, double aspect, bool z_up,
+                                  aur_error *error) {
+    double numbers[8];
+    const bool flat = strcmp(scene->sensor.descriptor->row.name, "orthographic") == 0;
+    if (scene->sensor.part_count > 0 || (!flat && !(scene->sensor.tangent > 0.0f)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the sensor '%s' cannot be placed by a camera's view",
+                        scene->sensor.descriptor->row.name);
+    for (size_t i = 0; i < sizeof views / sizeof views[0]; ++i)
+        if (strcmp(views[i].name, text) == 0)
+            return frame(scene, views[i].azimuth, views[i].elevation, aspect, z_up, error);
+    const size_t count = aur_parse_doubles(text, numbers, 8);
+    if (count == 2 && fabs(numbers[0]) <= 360.0 && fabs(numbers[1]) <= 90.0)
+        return frame(scene, numbers[0], numbers[1], aspect, z_up, error);
+    const bool looks = !flat && (count == 6 || (count == 7 && numbers[6] > 0.0 && numbers[6] < 180.0));
+    for (size_t i = 0; looks && i < 6; ++i)
+        if (!(fabs(numbers[i]) <= AUR_REACH))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera may stand up to %g from the origin",
+                            AUR_REACH);
+    return looks
+               ? look(scene, count, numbers, z_up, error)
+               : aur_fail(error, AUR_ERROR_ARGUMENT,
+                          "unknown camera '%s': expected front, back, left, right, top, bottom, corner, iso, "
+                          "AZIMUTH,ELEVATION in degrees, or X,Y,Z,X,Y,Z[,FOV]: where it is, what it looks "
+                          "at, and its field of view in degrees",
+                          text);
+}
+
+aur_stage_axes aur_stage_axes_of(const aur_scene *scene, bool z_up) {
+    const float *const m = scene->sensor.to_world;
+    aur_stage_axes axes = {.up = {0.0, z_up ? 0.0 : 1.0, z_up ? 1.0 : 0.0}};
+    /* Seen from above or below the front is where the image's lower edge is. */
+    const double ahead[3] = {(double)m[2], (double)m[6], (double)m[10]};
+    const double above[3] = {(double)m[1], (double)m[5], (double)m[9]};
+    const double steep = aur_dot3(ahead, axes.up);
+    const bool level = steep * steep < 0.97 * aur_dot3(ahead, ahead);
+    const double sign = steep > 0.0 ? 1.0 : -1.0;
+    for (size_t d = 0; d < 3; ++d)
+        axes.toward[d] = level ? -ahead[d] : sign * above[d];
+    const double height = aur_dot3(axes.toward, axes.up);
+    for (size_t d = 0; d < 3; ++d)
+        axes.toward[d] -= height * axes.up[d];
+    if (!(aur_normalize3(axes.toward) > 0.0))
+        axes.toward[z_up ? 1 : 2] = z_up ? -1.0 : 1.0;
+    aur_cross3(axes.up, axes.toward, axes.right);
+    return axes;
+}
