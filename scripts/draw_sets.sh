@@ -56,6 +56,7 @@ HEAD
     [ "$set" = t-design ] && n=122
     [ "$set" = lebedev ] && n=110
     [ "$set" = icosahedral ] && n=162
+    [ "$set" = max-determinant ] && n=121
     case $set in
       matrices | file) square="your own" sphere="your own" ;;
       *)

@@ -1,7 +1,7 @@
 /* Weights that make a quadrature of any points exact to a degree.
  *
  * On square, cube, disk and rotations the functions are polynomials of a total degree in the coordinates, and
- * Wigner's functions to a degree.  * Of axes only polynomials of even degree have a meaning: their rule is
+ * Wigner's functions to a degree. Of axes only polynomials of even degree have a meaning: their rule is
  * the sphere's of both ends, each with half the weight. On the sphere, the hemisphere or a cap about +z a
  * rule is exact to degree L when it integrates every polynomial in x, y, z of degree L or less without error:
  * on the sphere all spherical harmonics to degree L, (L+1)^2 of them. Of all such weights these are the

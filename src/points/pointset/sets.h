@@ -15,8 +15,10 @@
     ROW(faure)                                                                                               \
     ROW(sobol)                                                                                               \
     ROW(interlaced)                                                                                          \
+    ROW(cascaded)                                                                                            \
     ROW(niederreiter)                                                                                        \
     ROW(larcher_pillichshammer)                                                                              \
+    ROW(pmj02)                                                                                               \
     ROW(matrices)                                                                                            \
     ROW(fibonacci_lattice)                                                                                   \
     ROW(rank1)                                                                                               \
@@ -27,6 +29,7 @@
     ROW(golden_set)                                                                                          \
     ROW(blue_noise)                                                                                          \
     ROW(bnot)                                                                                                \
+    ROW(sliced)                                                                                              \
     ROW(file)
 
 #define AUR_DECLARE_SQUARE_SET(name) extern const aur_square_set aur_set_##name;

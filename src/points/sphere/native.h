@@ -41,6 +41,7 @@ typedef struct aur_native_set {
     ROW(eqsp)                                                                                                \
     ROW(icosahedral)                                                                                         \
     ROW(electrostatic)                                                                                       \
+    ROW(max_determinant)                                                                                     \
     ROW(greedy)                                                                                              \
     ROW(super_fibonacci)                                                                                     \
     ROW(super_fibonacci_grid)                                                                                \
