@@ -86,16 +86,19 @@ typedef struct aur_daylight_options {
      * for scenes of Radiance, else +y and -z. */
     double up[3], north[3];
     aur_luminous_efficacy efficacy;
-    double threshold;   /* of the autonomy, lux; 0: 300 */
-    double useful[2];   /* least and most of useful illuminances, lux; both 0: 100 and 3000 */
-    int from, to;       /* o'clock: the hours that count; both 0: 8 to 18 */
-    bool weekdays;      /* Monday to Friday only */
+    double threshold; /* of the autonomy, lux; 0: 300 */
+    double useful[2]; /* least and most of useful illuminances, lux; both 0: 100 and 3000 */
+    int from, to;  /* o'clock: the hours that count, over midnight where from is above to; both 0: 8 to 18 */
+    bool weekdays; /* Monday to Friday only */
     const char *series; /* a file for all hours of all sensors: .npy or .csv; NULL: none */
     uint64_t seed;
     size_t threads; /* 0: all */
     aur_progress progress;
     aur_warnings warnings; /* of sensors, as aur_irradiance_options has them; lamps that are left out; hours
                               that are not known, or whose sky is no sky of the model */
+    /* Of each hour of the weather, whether it counts, in place of `from` and `to`; NULL: those. */
+    const bool *schedule;
+    size_t schedule_count; /* the weather's count */
 } aur_daylight_options;
 
 AUR_EXPERIMENTAL aur_result aur_daylight_options_init(aur_daylight_options *options, aur_error *error)

@@ -106,7 +106,7 @@ typedef struct aur_irradiance_options {
     size_t size;       /* of the caller's struct, so that it can grow */
     const char *set;   /* a SET of directions; NULL: "spherical-fibonacci" */
     size_t directions; /* from each sensor, all randomisations together, rounded up to a multiple of their
-                          number; 0: 1024. With `error`: at most so many; 0: 2^20 */
+                          number; 0: 16384. With `error`: at most so many; 0: 2^20 */
     /* Each sensor goes on until half the width of its interval, of `confidence`, is at most this part of its
      * luminance; 0: all have the same number of directions. */
     double error;

@@ -172,7 +172,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_analytical_cases = {
     .name = "analytical-cases",
-    .reproduces = "docs/lighting.md",
+    .reproduces = "docs/lighting-accuracy.md",
     .summary = "lighting cases with closed forms: sources, openings, glass, obstructions, reflections, skies",
     .columns = columns,
     .takes_no_set = "it judges aureole irradiance, which has its own points",

@@ -190,7 +190,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_factors_coverage = {
     .name = "factors-coverage",
-    .reproduces = "docs/view-factors.md",
+    .reproduces = "docs/lighting-accuracy.md",
     .summary = "how often intervals of view factors, sky factors and radiosities hold",
     .columns = lab_tally_of_rays,
     .takes_no_set = "it judges intervals of the program's own points",

@@ -185,7 +185,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_irradiance_coverage = {
     .name = "irradiance-coverage",
-    .reproduces = "docs/lighting.md",
+    .reproduces = "docs/lighting-accuracy.md",
     .summary =
         "how often intervals of irradiance and of aur_estimate hold, also of runs stopped by an error asked",
     .columns = lab_tally_of_directions,

@@ -156,7 +156,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_picture_coverage = {
     .name = "picture-coverage",
-    .reproduces = "docs/lighting.md",
+    .reproduces = "docs/lighting-accuracy.md",
     .summary = "how often intervals of pictures' errors and of measures of randomised sets hold",
     .columns = lab_tally_of_samples,
     .takes_no_set = "it judges intervals of the program's own points",

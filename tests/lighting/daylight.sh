@@ -267,7 +267,19 @@ warned night.epw "night.epw:105: there is light with the sun below the horizon i
 refused "--threshold is for a year of weather: --weather FILE" plane.xml --sensors up.pts --threshold 500
 refused "--parts does not go with --weather" $yard mixed.epw --parts
 refused "must be tregenza or reinhart:M with M from 1 to 6, not 'reinhart:7'" $yard mixed.epw --patches reinhart:7
-refused "must be hours like 8-18, from 0 to 24, not '18-8'" $yard mixed.epw --schedule 18-8
+# Hours over midnight are those that are not between, and a file says the same hour by hour.
+for hours in 8-18 18-8; do
+  "$aureole" irradiance $yard mixed.epw --up 0,0,1 -n 64 --schedule $hours -q -o "at-$hours.csv" || fail "--schedule $hours"
+done
+awk 'BEGIN { print "# hours"; for (i = 0; i < 8760; ++i) print (i % 24 < 8 || i % 24 >= 18 ? ".5,night" : "0,day") }' >nights.csv
+"$aureole" irradiance $yard mixed.epw --up 0,0,1 -n 64 --schedule nights.csv -q -o by-file.csv || fail "--schedule FILE"
+cmp -s at-18-8.csv by-file.csv && ! cmp -s at-8-18.csv by-file.csv || fail "a schedule by file"
+refused "hours like 8-18 or 22-6, or a file expected" $yard mixed.epw --schedule 8-8
+head -100 nights.csv >short.csv
+refused "short.csv: 99 hours, and the weather has 8760" $yard mixed.epw --schedule short.csv
+{ cat nights.csv; echo 1; } >long.csv
+refused "long.csv:8762: more hours than the weather has" $yard mixed.epw --schedule long.csv
+refused "nights.epw:1: a number expected" $yard mixed.epw --schedule nights.epw
 refused "must be two illuminances like 100,3000, not '3000,100'" $yard mixed.epw --useful 3000,100
 refused "must be a direction like 0,0,1, not '0,0,0'" $yard mixed.epw --up 0,0,0
 refused "nor along 'up'" $yard mixed.epw --up 0,0,1 --north 0,0,1

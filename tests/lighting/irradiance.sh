@@ -41,13 +41,13 @@ cat >room.xml <<'XML'
   </shape>
 </scene>
 XML
-"$aureole" irradiance -q room.xml --sensors room.pts --parts -o room.csv || fail "a room"
+"$aureole" irradiance -q room.xml -n 1024 --sensors room.pts --parts -o room.csv || fail "a room"
 head -1 room.csv | grep -q '^x,y,z,r,g,b,r_error,g_error,b_error,direct_r,' || fail "columns: $(head -1 room.csv)"
 near 4 6.283185307 room.csv
 near 6 18.849555922 room.csv
 near 10 3.141592654 room.csv
 near 23 6.283185307 room.csv
-"$aureole" irradiance -q room.xml --sensors room.pts --max-depth 1 -o direct.csv || fail "direct light"
+"$aureole" irradiance -q room.xml -n 1024 --sensors room.pts --max-depth 1 -o direct.csv || fail "direct light"
 near 4 3.141592654 direct.csv
 
 # A uniform sky, which one sensor sees wholly and the one that looks at the horizon by half.
@@ -56,9 +56,9 @@ printf '<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" val
 <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>' >sky.xml
 printf 'x,y,z,nx,ny,nz\n0,0,.01,0,0,1\n' >up.csv
 printf '0 0 0 5 0 0\n' >aside.pts
-"$aureole" irradiance -q sky.xml --sensors up.csv -o up_out.csv || fail "sky"
+"$aureole" irradiance -q sky.xml -n 1024 --sensors up.csv -o up_out.csv || fail "sky"
 near 4 6.283185307 up_out.csv
-"$aureole" irradiance -q sky.xml --sensors - <aside.pts >aside.csv || fail "half of the sky"
+"$aureole" irradiance -q sky.xml -n 1024 --sensors - <aside.pts >aside.csv || fail "half of the sky"
 near 4 3.141592654 aside.csv
 
 # A rectangle of radiance 1 in a plane 2 above, of 2 by 2, seen wholly: a closed form (Lambert 1760),
@@ -70,17 +70,17 @@ printf '<scene version="3.0.0">%s<shape type="rectangle"><transform name="to_wor
 <translate z="1"/></transform><bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>
 </scene>' "$lamp" >screen.xml
 printf '0 0 0 0 0 1\n0 0 0 .3 .4 0\n' >below.pts
-"$aureole" irradiance lamp.xml --sensors below.pts -o lamp.csv || fail "a lamp"
+"$aureole" irradiance lamp.xml -n 1024 --sensors below.pts -o lamp.csv || fail "a lamp"
 awk -F, 'NR == 2 { a = 1 / sqrt(5); e = 4 * a * atan2(a, 1); d = $4 - e; exit !(d < 1e-7 && d > -1e-7 && $7 < 1e-12) }' lamp.csv ||
   fail "a lamp seen wholly: $(cat lamp.csv)"
-"$aureole" irradiance screen.xml --sensors below.pts -o screen.csv || fail "a screen"
+"$aureole" irradiance screen.xml -n 1024 --sensors below.pts -o screen.csv || fail "a screen"
 head -2 screen.csv >screen_up.csv
 near 4 0.376137 screen_up.csv
 awk -F, 'NR == 2 { exit !($7 > 0 && $7 < .01) }' screen.csv || fail "half of a lamp: $(cat screen.csv)"
 
 # Beside a wall the lamp's light is as exact, and what the wall reflects errs: so does the whole, by as much.
 sed 's|</scene>|<shape type="rectangle"><transform name="to_world"><scale value="3"/><rotate y="1" angle="90"/><translate x="-2"/></transform></shape></scene>|' lamp.xml >wall.xml
-"$aureole" irradiance wall.xml --sensors below.pts --parts -o wall.csv || fail "a wall"
+"$aureole" irradiance wall.xml -n 1024 --sensors below.pts --parts -o wall.csv || fail "a wall"
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
   NR == 2 { direct = $column["direct_r_error"]; whole = $column["r_error"]; reflected = $column["reflected_r_error"]
     exit !(direct < 1e-9 && reflected > 1e-6 && (whole / reflected - 1) ^ 2 < 1e-8) }' wall.csv || fail "errors of parts: $(cat wall.csv)"
@@ -88,19 +88,19 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
 # A point light: intensity / distance^2, to the rounding of floats, and in lux.
 printf '<scene version="3.0.0"><emitter type="point"><point name="position" x="0" y="0" z="2"/>
 <rgb name="intensity" value="8"/></emitter></scene>' >point.xml
-"$aureole" irradiance -q point.xml --sensors room.pts -o point.csv || fail "point light"
+"$aureole" irradiance -q point.xml -n 1024 --sensors room.pts -o point.csv || fail "point light"
 awk -F, 'NR == 2 { exit !($4 > 1.99999 && $4 < 2.00001 && $7 < 1e-6) }' point.csv || fail "point light: $(cat point.csv)"
-"$aureole" irradiance -q point.xml --sensors room.pts --illuminance radiance -o lux.csv || fail "lux"
+"$aureole" irradiance -q point.xml -n 1024 --sensors room.pts --illuminance radiance -o lux.csv || fail "lux"
 awk -F, 'NR == 1 { bad = $4 != "lux" } NR == 2 { bad = bad || !($4 > 357.99 && $4 < 358.01) } END { exit bad }' lux.csv ||
   fail "lux: $(cat lux.csv)"
 
 # Threads, and other sensors in the file.
-"$aureole" irradiance -q room.xml --sensors room.pts --parts --threads 3 | cmp -s - room.csv || fail "three threads"
-"$aureole" irradiance -q room.xml --sensors room.pts --parts --threads 1 | cmp -s - room.csv || fail "one thread"
+"$aureole" irradiance -q room.xml -n 1024 --sensors room.pts --parts --threads 3 | cmp -s - room.csv || fail "three threads"
+"$aureole" irradiance -q room.xml -n 1024 --sensors room.pts --parts --threads 1 | cmp -s - room.csv || fail "one thread"
 sed -n 2p room.pts >second.pts
-"$aureole" irradiance -q room.xml --sensors second.pts --parts | sed -n 2p | cmp -s - <(sed -n 3p room.csv) ||
+"$aureole" irradiance -q room.xml -n 1024 --sensors second.pts --parts | sed -n 2p | cmp -s - <(sed -n 3p room.csv) ||
   fail "a sensor alone differs from the same one among others"
-"$aureole" irradiance -q room.xml --sensors room.pts --parts --seed 1 | cmp -s - room.csv && fail "another seed"
+"$aureole" irradiance -q room.xml -n 1024 --sensors room.pts --parts --seed 1 | cmp -s - room.csv && fail "another seed"
 
 # To an error.
 "$aureole" irradiance -q room.xml --sensors room.pts --error 0.5% --counts --intervals -o error.csv || fail "to an error"
@@ -117,14 +117,14 @@ grep -qFf expected said || fail "unreached: $(cat said), not $(cat expected)"
 
 # Formats: the same numbers in all of them.
 for format in json npy ply; do
-  "$aureole" irradiance -q room.xml --sensors room.pts -o "room.$format" || fail "$format"
+  "$aureole" irradiance -q room.xml -n 1024 --sensors room.pts -o "room.$format" || fail "$format"
 done
-"$aureole" irradiance -q room.xml --sensors room.pts --to json | cmp -s - room.json || fail "--to json"
+"$aureole" irradiance -q room.xml -n 1024 --sensors room.pts --to json | cmp -s - room.json || fail "--to json"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 9\nv 1 1 0\nf 1 2 3\nf 2 5 3\n' >desk.obj
-"$aureole" irradiance -q lamp.xml --sensors desk.obj -o desk.csv || fail "faces"
-"$aureole" irradiance -q lamp.xml --sensors desk.obj --at vertices --lift 0.5 -o vertices.csv || fail "vertices"
-"$aureole" irradiance -q lamp.xml --sensors desk.obj --at vertices -o vertices.ply || fail "vertices"
-"$aureole" irradiance -q lamp.xml --sensors desk.obj -o faces.ply || fail "faces"
+"$aureole" irradiance -q lamp.xml -n 1024 --sensors desk.obj -o desk.csv || fail "faces"
+"$aureole" irradiance -q lamp.xml -n 1024 --sensors desk.obj --at vertices --lift 0.5 -o vertices.csv || fail "vertices"
+"$aureole" irradiance -q lamp.xml -n 1024 --sensors desk.obj --at vertices -o vertices.ply || fail "vertices"
+"$aureole" irradiance -q lamp.xml -n 1024 --sensors desk.obj -o faces.ply || fail "faces"
 [ "$(wc -l <desk.csv)" = 3 ] || fail "a sensor a face: $(cat desk.csv)"
 [ "$(wc -l <vertices.csv)" = 5 ] || fail "a sensor a vertex that is used: $(cat vertices.csv)"
 sed -n 2p vertices.csv | grep -q '^0,0,.5,\|^0,0,0.5,' || fail "lifted sensors: $(cat vertices.csv)"

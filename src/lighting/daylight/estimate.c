@@ -48,7 +48,7 @@ static aur_result check_options(const aur_daylight_options *o, aur_error *error)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "useful illuminances must go from 0 or more to something larger, not from %g to %g",
                         o->useful[0], o->useful[1]);
-    if (o->from < 0 || o->to > 24 || o->from >= o->to)
+    if (o->from < 0 || o->from > 23 || o->to < 0 || o->to > 24 || o->from == o->to)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "hours that count must lie between 0 and 24 o'clock, not from %d to %d", o->from,
                         o->to);

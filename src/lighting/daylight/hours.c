@@ -134,7 +134,11 @@ static bool counts(const work *w, size_t index) {
     const aur_daylight_options *const o = w->options;
     const int hour = w->weather->hours[index].hour;
     const size_t weekday = ((size_t)w->weather->first_weekday + index / 24) % 7;
-    return o->from < hour && hour <= o->to && !(o->weekdays && (weekday == 0 || weekday == 6));
+    const bool late = o->from < hour, early = hour <= o->to;
+    const bool within = o->schedule != NULL ? o->schedule[index]
+                        : o->from < o->to   ? late && early
+                                            : late || early;
+    return within && !(o->weekdays && (weekday == 0 || weekday == 6));
 }
 
 static aur_result find_hours(work *w, aur_error *error) {
@@ -207,6 +211,9 @@ static aur_result check(const aur_weather_view *weather, const aur_daylight_opti
             "the place of the weather is none on earth: latitude %g must be within 90, longitude %g within "
             "180 and the time zone %g within 14",
             weather->latitude, weather->longitude, weather->timezone);
+    if (options->schedule != NULL && options->schedule_count != weather->count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the schedule has %zu hours and the weather %zu",
+                        options->schedule_count, weather->count);
     if (options->weekdays && !(weather->first_weekday >= 0 && weather->first_weekday < 7))
         return aur_fail_at(error, (aur_location){.file = weather->file}, AUR_ERROR_UNSUPPORTED,
                            "the weather does not tell on which day of the week its year begins");

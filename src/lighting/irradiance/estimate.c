@@ -13,7 +13,7 @@
 
 enum {
     REPLICATES = AUR_IRRADIANCE_REPLICATES,
-    DEFAULT_DIRECTIONS = 1024,
+    DEFAULT_DIRECTIONS = 16384,
     DEFAULT_PARTICLES = 500000,
     MOST_DIRECTIONS = 1 << 20, /* by default, of a sensor that is to reach an error */
     LIMIT = 1 << 28,

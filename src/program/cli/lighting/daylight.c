@@ -1,6 +1,7 @@
 #include "program/cli/lighting/irradiance.h"
 
 #include <aureole/text.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,20 +32,50 @@ static aur_result parse_range(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
-/* The field is the options' `from`, before `to`. */
-static aur_result parse_schedule(const char *text, void *field, aur_error *error) {
-    int *const hours = field;
+/* Hours like 8-18, or 22-6 over midnight. */
+static bool read_hours(const char *text, aur_daylight_options *options) {
     const char *const dash = strchr(text, '-');
     char first[8] = "";
     uint64_t from = 0, to = 0;
     if (dash != NULL && (size_t)(dash - text) < sizeof first)
         memcpy(first, text, (size_t)(dash - text));
     if (dash == NULL || !aur_parse_integer(first, 23, &from) || !aur_parse_integer(dash + 1, 24, &to) ||
-        from >= to)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be hours like 8-18, from 0 to 24, not '%s'", text);
-    hours[0] = (int)from;
-    hours[1] = (int)to;
-    return AUR_OK;
+        from == to)
+        return false;
+    options->from = (int)from;
+    options->to = (int)to;
+    return true;
+}
+
+/* A number for each hour of the weather, one a line or the first of a line; above 0 it counts. */
+static aur_result read_schedule(const char *path, size_t count, bool *hours, aur_error *error) {
+    FILE *const file = fopen(path, "r");
+    if (file == NULL)
+        return aur_fail(error, AUR_ERROR_OPEN,
+                        "--schedule: hours like 8-18 or 22-6, or a file expected: '%s' cannot be opened",
+                        path);
+    char *line = NULL;
+    size_t capacity = 0, found = 0, number = 0;
+    aur_result result = AUR_OK;
+    while (result == AUR_OK && getline(&line, &capacity, file) >= 0) {
+        ++number;
+        line[strcspn(line, ",;\r\n")] = '\0';
+        double value;
+        if (line[0] == '#' || line[0] == '\0')
+            continue;
+        if (!aur_parse_double(line, &value) || found == count) {
+            result = aur_fail(error, AUR_ERROR_FORMAT, "%s:%zu: %s", path, number,
+                              found == count ? "more hours than the weather has" : "a number expected");
+            break;
+        }
+        hours[found++] = value > 0.0;
+    }
+    if (result == AUR_OK && found != count)
+        result =
+            aur_fail(error, AUR_ERROR_FORMAT, "%s: %zu hours, and the weather has %zu", path, found, count);
+    free(line);
+    fclose(file);
+    return result;
 }
 
 static aur_result parse_patches(const char *text, void *field, aur_error *error) {
@@ -97,9 +128,10 @@ const cli_option cli_daylight_options[] = {
     {CLI_TEXT(cli_daylight, options.useful, "useful", "LUX,LUX", "100,3000",
               "least and most of useful illuminances"),
      .parse = parse_range},
-    {CLI_TEXT(cli_daylight, options.from, "schedule", "H-H", "8-18",
-              "the hours that count, by the clock of the weather file"),
-     .parse = parse_schedule},
+    {CLI_TEXT(
+        cli_daylight, schedule, "schedule", "H-H|FILE", "8-18",
+        "the hours that count, by the clock of the weather file (22-6: over midnight); or a file with a "
+        "number for each hour, above 0 where it counts")},
     {CLI_FLAG(cli_daylight, options.weekdays, "weekdays", "Monday to Friday count only")},
     {CLI_TEXT(cli_daylight, options.series, "series", "FILE", NULL,
               "illuminances of all hours: .npy (sensors x 2 x hours, with standard errors) or .csv"),
@@ -138,13 +170,27 @@ static void print_summary(const aur_daylight_summary *summary) {
               summary->spatial_autonomy_most, summary->sunlight_exposure);
 }
 
+static aur_result take_schedule(cli_daylight *given, size_t count, bool **schedule, aur_error *error) {
+    if (given->schedule == NULL || read_hours(given->schedule, &given->options))
+        return AUR_OK;
+    *schedule = malloc(count * sizeof **schedule);
+    if (*schedule == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    given->options.schedule = *schedule;
+    given->options.schedule_count = count;
+    return read_schedule(given->schedule, count, *schedule, error);
+}
+
 aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,
                             const char *output, const char *format, bool quiet, aur_error *error) {
     aur_weather *weather = NULL;
     aur_daylight_summary summary = {.size = sizeof summary};
+    bool *schedule = NULL;
     given->options.size = sizeof given->options;
     given->options.no_ground = given->options.ground_albedo == 0.0;
     aur_result result = aur_weather_read(given->weather, &weather, error);
+    if (result == AUR_OK)
+        result = take_schedule(given, aur_weather_get_view(weather)->count, &schedule, error);
     aur_daylight *const results = calloc(sensors->count, sizeof *results);
     if (result == AUR_OK && results == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);
@@ -159,6 +205,7 @@ aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const a
     if (result == AUR_OK && !quiet)
         print_summary(&summary);
     aur_weather_destroy(weather);
+    free(schedule);
     free(results);
     return result;
 }

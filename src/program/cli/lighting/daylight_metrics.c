@@ -60,7 +60,8 @@ static share mean(size_t sensors, const aur_daylight *results, aur_daylight_meas
 static void put_leed(report_table *table, const aur_daylight_options *o, share autonomy) {
     static const double targets[] = {40.0, 55.0, 75.0};
     static const char *const names[] = {"LEED v4.1, 1 point", "LEED v4.1, 2 points", "LEED v4.1, 3 points"};
-    if ((o->threshold != 300.0 && o->threshold != 0.0) || o->from != 8 || o->to != 18 || o->weekdays)
+    if ((o->threshold != 300.0 && o->threshold != 0.0) || o->from != 8 || o->to != 18 || o->weekdays ||
+        o->schedule != NULL)
         return;
     for (size_t i = 0; i < 3; ++i)
         put(table, names[i], autonomy, targets[i]);
@@ -79,7 +80,8 @@ static void put_en17037(report_table *table, const aur_daylight_options *o, shar
                  "EN 17037, minimum illuminance of the level high"},
                 {750.0, "EN 17037, target illuminance of the level high", NULL}};
     for (size_t i = 0; i < 4; ++i) {
-        if (o->threshold != rows[i].threshold || o->from != 0 || o->to != 24 || o->weekdays)
+        if (o->threshold != rows[i].threshold || o->from != 0 || o->to != 24 || o->weekdays ||
+            o->schedule != NULL)
             continue;
         if (rows[i].target != NULL)
             put(table, rows[i].target, autonomy, 50.0);

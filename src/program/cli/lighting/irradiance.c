@@ -97,8 +97,7 @@ static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci", "of the directions"),
      .content = "set"},
     {CLI_INTEGER(irradiance_command, estimate.directions, "directions", "N", 1, 1 << 28,
-                 "1024; with --error 2^20; with --weather 16384",
-                 "from each sensor; with --error at most so many"),
+                 "16384; with --error 2^20", "from each sensor; with --error at most so many"),
      .letter = 'n', .key.computed = true},
     {CLI_REAL(irradiance_command, estimate.error, "error", "E", 0, 1, NULL,
               "1% or .01: each sensor goes on until half of its interval is at most this part of its value"),
@@ -178,7 +177,7 @@ static aur_result estimate_year(irradiance_command *given, const aur_scene *scen
 static void plan(const irradiance_command *given, size_t sensors) {
     static cli_phase phases[] = {{"photons", 0.0}, {"radiosity", 0.0}, {"sensors", 0.0}};
     const double particles = given->estimate.particles > 0 ? (double)given->estimate.particles : 5e5;
-    const double directions = given->estimate.directions > 0 ? (double)given->estimate.directions : 1024.0;
+    const double directions = given->estimate.directions > 0 ? (double)given->estimate.directions : 16384.0;
     phases[0].work = given->estimate.reflected == AUR_REFLECTED_BY_MAP ? particles : 0.0;
     phases[1].work = given->estimate.reflected == AUR_REFLECTED_BY_RADIOSITY ? particles : 0.0;
     phases[2].work = 2.0 * directions * (double)sensors;

@@ -15,8 +15,9 @@ aur_result cli_irradiance_plot(const char *path, const char *unit, const aur_sen
 /* A year of weather at sensors: the part of `aureole irradiance` that --weather asks for. */
 
 typedef struct cli_daylight {
-    const char *weather; /* NULL: none is asked for */
-    const char *metrics; /* a file for figures of all sensors together; NULL: none */
+    const char *weather;  /* NULL: none is asked for */
+    const char *metrics;  /* a file for figures of all sensors together; NULL: none */
+    const char *schedule; /* hours that count, or a file of them; NULL: 8-18 */
     aur_daylight_options options;
 } cli_daylight;
 extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
