@@ -17,7 +17,7 @@ enum {
     RUNS = 200,
     QUICK_RUNS = 2,
     TRUE_SEED = 1001,
-    TRUE_SAMPLES = 1024,
+    TRUE_SAMPLES = 4096,
     QUICK_TRUE_SAMPLES = 256
 };
 

@@ -184,7 +184,7 @@ def render(
     filter: Optional[str] = None, spp: int = 0, width: int = 0, height: int = 0,
     crop: Optional[tuple[int, int, int, int]] = None, seed: int = 0, threads: int = 0,
     error: Optional[float] = None, error_measure: str = "relative", channels: Optional[Sequence[str]] = None,
-    definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
+    clamp: float = 0.0, definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
 ) -> Picture:  # fmt: skip
     """A picture of a scene, (height, width, channels) of float32: linear radiance, Rec. 709 primaries, the top row first.
 
@@ -198,13 +198,15 @@ def render(
     error : render until the error by `error_measure` is below this, such as .05; `spp` has no meaning then.
     error_measure : "relative" to each pixel's surroundings, to the image's "mean", or of the image as on a "display".
     channels : their names; None: R, G, B. An integrator such as `aov` adds others.
+    clamp : limit of what light after the first surface adds to a sample of `path` or `volpath`; 0: none. The channels
+        "clamped.R", "clamped.G", "clamped.B" are what it takes away.
     threads : 0: all. No bit depends on it.
     """
     library = _library()
     loaded, texts = _scene(scene, definitions), Texts()
     options = library.options(
         "render_options", integrator=texts(integrator), sampler=texts(sampler), filter=texts(filter),
-        samples_per_pixel=spp, seed=seed, threads=threads, width=width, height=height,
+        samples_per_pixel=spp, seed=seed, threads=threads, width=width, height=height, clamp=clamp,
     )  # fmt: skip
     if crop is not None:
         options.crop_x0, options.crop_x1, options.crop_y0, options.crop_y1 = crop

@@ -43,6 +43,11 @@ class Render(unittest.TestCase):
         rmse = float(np.sqrt(np.mean((picture.astype(float) - other) ** 2)))
         self.assertAlmostEqual(aureole.compare(picture, other), rmse, delta=1e-12)
         self.assertAlmostEqual(aureole.compare(picture, other, "flip"), aureole.flip(picture, other).mean(), delta=1e-6)
+        clamped = aureole.render(
+            scene, width=24, spp=4, seed=3, integrator="path", clamp=0.05, channels=["G", "clamped.G"]
+        )
+        self.assertLess(clamped[:, :, 0].mean(), aureole.render(scene, width=24, spp=4, seed=3, integrator="path")[:, :, 1].mean())
+        self.assertGreater(clamped[:, :, 1].mean(), 0)
         asked = aureole.render(scene, width=16, error=0.5)
         self.assertGreater(asked.mean(), 0)
         shown = aureole.render(scene, width=16, error=0.1, error_measure="display")

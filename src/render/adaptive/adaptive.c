@@ -236,14 +236,23 @@ static void count_spent(const aur_adaptive *adaptive, aur_render_statistics *sum
     sum->cpu_seconds += adaptive->others.cpu_seconds;
 }
 
+/* How far the end at which rendering stops is above the interval's: where rounds go on until the error looks
+ * small, the last one alone sees too little more often than too much. */
+static double bound_part(const aur_adaptive *adaptive) {
+    const double high = adaptive->candidate.interval.high, bound = adaptive->candidate.bound;
+    const bool stops = adaptive->target.error > 0.0 && high > 0.0 && bound < INFINITY;
+    return stops ? fmax(bound / high, 1.0) : 1.0;
+}
+
 /* The interval of noise and bias together by a measure; its ends are those of both. */
 static aur_error_interval whole_error(const aur_adaptive *adaptive, size_t measure) {
     const aur_error_interval *const noise = &adaptive->candidate.intervals[measure];
     const aur_bias *const bias = &adaptive->bias[measure];
+    const double high = noise->high * bound_part(adaptive);
     return (aur_error_interval){.estimate =
                                     sqrt(noise->estimate * noise->estimate + fmax(bias->estimate, 0.0)),
                                 .low = sqrt(noise->low * noise->low + bias->low),
-                                .high = sqrt(noise->high * noise->high + bias->high),
+                                .high = sqrt(high * high + bias->high),
                                 .degrees = noise->degrees};
 }
 

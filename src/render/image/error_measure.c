@@ -145,7 +145,7 @@ void aur_error_smooth(size_t width, size_t height, const double (*values)[3], do
             for (size_t j = y > REACH ? y - REACH : 0; j <= y + REACH && j < height; ++j)
                 for (size_t i = x > REACH ? x - REACH : 0; i <= x + REACH && i < width; ++i, ++count)
                     for (size_t c = 0; c < 3; ++c)
-                        sum[c] += values[j * width + i][c];
+                        sum[c] += fabs(values[j * width + i][c]);
             for (size_t c = 0; c < 3; ++c)
                 smooth[y * width + x][c] = sum[c] / (double)count;
         }

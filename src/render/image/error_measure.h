@@ -16,7 +16,9 @@ typedef struct aur_error_weight {
  * aur_error_smooth. All are zero where the values are black. */
 void aur_error_weigh(aur_error_measure measure, size_t count, const double (*values)[3],
                      const double (*smooth)[3], aur_error_weight *weights);
-/* Means over 5 x 5 pixels, fewer at the image's edges: an error is put in relation to what lies around it. */
+/* Means of magnitudes over 5 x 5 pixels, fewer at the image's edges: an error is put in relation to what lies
+ * around it. Filters with negative lobes make negative values next to bright light, whose plain means may be
+ * about zero. */
 void aur_error_smooth(size_t width, size_t height, const double (*values)[3], double (*smooth)[3]);
 
 /* The differences in a pixel whose values `from` change by `errors`. */

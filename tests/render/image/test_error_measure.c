@@ -26,6 +26,34 @@ static void test_constant(void **state) {
     aur_image_destroy(reference);
 }
 
+/* Next to bright light, filters with negative lobes make dark pixels negative. Errors there are in relation
+ * to magnitudes: signed means cross zero, and no number of samples would make them accurate. */
+static void test_negative(void **state) {
+    (void)state;
+    enum { WIDTH = 40, HEIGHT = 5, HALF = WIDTH / 2 };
+    const double bright = 4.0, dark = -1.0, e = 0.5, mean = 0.5 * (bright + dark);
+    aur_image *const reference = flat_picture(WIDTH, HEIGHT, 4.0f, 4.0f, 4.0f);
+    aur_image *const image = flat_picture(WIDTH, HEIGHT, 4.5f, 4.5f, 4.5f);
+    for (size_t i = 0; i < 3 * WIDTH * HEIGHT; ++i)
+        if (i / 3 % WIDTH >= HALF) {
+            reference->data[i] = -1.0f;
+            image->data[i] = -0.5f;
+        }
+    double sum = 0.0;
+    for (int x = 0; x < WIDTH; ++x) {
+        double around = 0.0, count = 0.0;
+        for (int u = x - 2; u <= x + 2; ++u)
+            if (u >= 0 && u < WIDTH) {
+                around += u < HALF ? bright : -dark;
+                count += 1.0;
+            }
+        sum += pow(e / (around / count + 0.01 * mean), 2.0) / WIDTH;
+    }
+    assert_relative(error_by(AUR_ERROR_MEASURE_RELATIVE, reference, image), sqrt(sum), 1e-12);
+    aur_image_destroy(image);
+    aur_image_destroy(reference);
+}
+
 /* Luminance by means over 5 x 5 pixels, by definition. */
 static void test_relative(void **state) {
     (void)state;
@@ -105,6 +133,7 @@ static void test_clipped(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_constant), cmocka_unit_test(test_relative),
-                                       cmocka_unit_test(test_edges), cmocka_unit_test(test_clipped)};
+                                       cmocka_unit_test(test_negative), cmocka_unit_test(test_edges),
+                                       cmocka_unit_test(test_clipped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
