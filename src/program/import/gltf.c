@@ -18,8 +18,13 @@ void gltf_read(writer *self, const char *name) {
         uint32_t length;
         memcpy(&length, data + 12, sizeof length);
         text += HEADER;
-        if (length < size - HEADER)
+        if (length < size - HEADER) {
+            /* Behind it the binary chunk, with a header of 8 bytes. */
+            const size_t binary = HEADER + (size_t)length + 8;
+            self->gltf_binary = binary < size ? data + binary : NULL;
+            self->gltf_binary_size = binary < size ? size - binary : 0;
             text[length] = '\0';
+        }
     }
     self->gltf = json_parse(text);
 }
@@ -61,7 +66,19 @@ static void read_numbers(const json_value *node, const char *name, size_t count,
         values[i] = json_number(item, values[i]);
 }
 
-/* Row major. glTF 2.0, 3.5.3: translation times rotation times scale, or columns. */
+void gltf_matrix(const double t[3], const double q[4], const double s[3], double matrix[16]) {
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double turned[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
+                              2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                              2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
+    for (size_t i = 0; i < 16; ++i) {
+        const size_t row = i / 4, column = i % 4;
+        matrix[i] = row == 3      ? (column == 3 ? 1.0 : 0.0)
+                    : column == 3 ? t[row]
+                                  : turned[3 * row + column] * s[column];
+    }
+}
+
 static void matrix_of(const json_value *node, double matrix[16]) {
     double columns[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
@@ -69,18 +86,9 @@ static void matrix_of(const json_value *node, double matrix[16]) {
     read_numbers(node, "translation", 3, t);
     read_numbers(node, "rotation", 4, q);
     read_numbers(node, "scale", 3, s);
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double turned[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
-                              2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-                              2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
-    const bool by_columns = json_member(node, "matrix") != NULL;
-    for (size_t i = 0; i < 16; ++i) {
-        const size_t row = i / 4, column = i % 4;
-        const double parts = row == 3      ? (column == 3 ? 1.0 : 0.0)
-                             : column == 3 ? t[row]
-                                           : turned[3 * row + column] * s[column];
-        matrix[i] = by_columns ? columns[4 * column + row] : parts;
-    }
+    gltf_matrix(t, q, s, matrix);
+    for (size_t i = 0; json_member(node, "matrix") != NULL && i < 16; ++i)
+        matrix[i] = columns[4 * (i % 4) + i / 4];
 }
 
 void gltf_refine(const gltf_node *node, double matrix[16]) {
@@ -98,10 +106,7 @@ void gltf_refine(const gltf_node *node, double matrix[16]) {
     memcpy(matrix, exact, sizeof exact);
 }
 
-float gltf_emissive_strength(const writer *self, unsigned material) {
-    const json_value *const extensions =
-        json_member(json_item(json_member(self->gltf, "materials"), material), "extensions");
-    const json_value *const strength = json_member(extensions, "KHR_materials_emissive_strength");
-    const double value = json_number(json_member(strength, "emissiveStrength"), 1.0);
-    return value >= 0.0 && value <= 1e30 ? (float)value : 1.0f;
+const json_value *gltf_extension(const writer *self, unsigned material, const char *name) {
+    return json_member(json_member(json_item(json_member(self->gltf, "materials"), material), "extensions"),
+                       name);
 }

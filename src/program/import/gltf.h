@@ -16,8 +16,19 @@ const gltf_node *gltf_root(const writer *self, const struct aiNode *root);
 const gltf_node *gltf_child(const writer *self, const gltf_node *node, size_t index);
 /* Replaces what a node does to coordinates by the same in double precision. */
 void gltf_refine(const gltf_node *node, double matrix[16]);
-/* KHR_materials_emissive_strength of a material, or 1. */
-float gltf_emissive_strength(const writer *self, unsigned material);
+/* An extension of a material, or NULL. */
+const struct json_value *gltf_extension(const writer *self, unsigned material, const char *name);
+/* Row major: translation times rotation (a quaternion x, y, z, w) times scale (glTF 2.0, 3.5.3). */
+void gltf_matrix(const double t[3], const double q[4], const double s[3], double matrix[16]);
+
+/* Numbers of accessors (accessor.c). */
+
+/* The values of an accessor with `width` components, malloc'ed; NULL where there is none that can be read. */
+double *gltf_accessor_read(writer *self, const struct json_value *index, size_t width, size_t *count);
+/* Sets positions, normals and texture coordinates that are stored as integers, of a node and those below. */
+void gltf_refine_meshes(writer *self, const struct aiNode *node, const gltf_node *exact);
+/* EXT_mesh_gpu_instancing: what places each copy of the node's mesh; 0: it is there once. */
+size_t gltf_instances(writer *self, const gltf_node *node, double (**matrices)[16]);
 
 /* JSON as a tree: what assimp leaves out of a glTF file is looked up in it. */
 
@@ -26,20 +37,23 @@ typedef enum json_kind { JSON_NULL, JSON_BOOLEAN, JSON_NUMBER, JSON_TEXT, JSON_A
 typedef struct json_value {
     json_kind kind;
     double number;    /* of a boolean 0 or 1 */
+    const char *text; /* with escapes of more than one letter as they are */
     const char *name; /* of a member, else NULL */
     struct json_value *first, *next;
     size_t count;              /* of an array's items or an object's members */
     struct json_value **items; /* of an array */
 } json_value;
 
-/* Of a text that a zero byte ends, which is changed; NULL where it is no JSON or memory is out. Texts that
- * are no names are not kept. The tree stays until the process ends. */
+/* Of a text that a zero byte ends, which is changed; NULL where it is no JSON or memory is out. The tree
+ * stays until the process ends. */
 json_value *json_parse(char *text);
 
 /* These take NULL and give NULL, or `otherwise`, where there is no such thing. */
 const json_value *json_member(const json_value *object, const char *name);
 const json_value *json_item(const json_value *array, size_t index);
 double json_number(const json_value *value, double otherwise);
+const char *json_text(const json_value *value);
+size_t json_size(const json_value *value, size_t otherwise);
 
 /* Pictures of materials as <texture>s. */
 

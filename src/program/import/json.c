@@ -78,7 +78,9 @@ static char *read_value(char *at, size_t depth, json_value *made) {
     if (*at == '"') {
         const char *text;
         made->kind = JSON_TEXT;
-        return read_text(at + 1, &text);
+        at = read_text(at + 1, &text);
+        made->text = text;
+        return at;
     }
     for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i)
         if (strncmp(at, words[i].word, strlen(words[i].word)) == 0) {
@@ -107,6 +109,16 @@ const json_value *json_item(const json_value *array, size_t index) {
     return array != NULL && array->items != NULL && index < array->count ? array->items[index] : NULL;
 }
 
+const char *json_text(const json_value *value) {
+    return value != NULL && value->kind == JSON_TEXT ? value->text : NULL;
+}
+
+size_t json_size(const json_value *value, size_t otherwise) {
+    const double number = json_number(value, -1.0);
+    return number >= 0.0 && number < 1e15 && number == (double)(size_t)number ? (size_t)number : otherwise;
+}
+
 double json_number(const json_value *value, double otherwise) {
-    return value != NULL && value->kind == JSON_NUMBER ? value->number : otherwise;
+    return value != NULL && (value->kind == JSON_NUMBER || value->kind == JSON_BOOLEAN) ? value->number
+                                                                                        : otherwise;
 }

@@ -69,8 +69,10 @@ int main(int argc, char **argv) {
                     aur_version());
     writer self = {.is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb"), .first = first};
     self.scene = read_scene(name, self.is_gltf);
-    if (self.is_gltf)
+    if (self.is_gltf) {
         gltf_read(&self, name);
+        gltf_refine_meshes(&self, self.scene->mRootNode, gltf_root(&self, self.scene->mRootNode));
+    }
     write_scene(&self);
     _exit(0); /* nothing is to be cleaned up, and damaged structures may not bear it */
 }

@@ -57,6 +57,33 @@ static void base_color(writer *self, const struct aiMaterial *material, float co
         color[i] = at_most_one(color[i]);
 }
 
+/* A number of an extension of glTF, from 0 to `most`. */
+static float extension_number(const writer *self, unsigned index, const char *extension, const char *name,
+                              float otherwise, float most) {
+    const double value = json_number(json_member(gltf_extension(self, index, extension), name), -1.0);
+    return value >= 0.0 ? fminf((float)value, most) : otherwise;
+}
+
+/* A colour of an extension, each part from 0 to 1. */
+static void extension_color(const writer *self, unsigned index, const char *extension, const char *name,
+                            float color[3]) {
+    const json_value *const list = json_member(gltf_extension(self, index, extension), name);
+    for (size_t i = 0; i < 3; ++i)
+        color[i] = at_most_one((float)json_number(json_item(list, i), (double)color[i]));
+}
+
+/* What KHR_materials_volume leaves of light on the way that the model states: the surface has it as colour.
+ */
+static void volume_color(const writer *self, unsigned index, float color[4]) {
+    static const char volume[] = "KHR_materials_volume";
+    const float thickness = extension_number(self, index, volume, "thicknessFactor", 0.0f, 1e30f);
+    const float distance = extension_number(self, index, volume, "attenuationDistance", 0.0f, 1e30f);
+    float passed[3] = {1.0f, 1.0f, 1.0f};
+    extension_color(self, index, volume, "attenuationColor", passed);
+    for (size_t i = 0; i < 3 && distance > 0.0f; ++i)
+        color[i] *= powf(passed[i], thickness / distance);
+}
+
 static bool is_unlit(const struct aiMaterial *material) {
     int model = 0;
     return aiGetMaterialIntegerArray(material, AI_MATKEY_SHADING_MODEL, &model, NULL) == aiReturn_SUCCESS &&
@@ -81,6 +108,7 @@ static void put_color(writer *self, unsigned index, const char *name) {
     const slot from = color_slot(self, material);
     float color[4];
     base_color(self, material, color);
+    volume_color(self, index, color);
     const picture_use use = {from, name, "rgb", false, {color[0], color[1], color[2]}, 0.0f};
     if (picture_exists(self, material, from)) {
         picture_put(self, material, &use);
@@ -107,6 +135,46 @@ static float transmission_of(const struct aiMaterial *material) {
     return at_most_one(writer_number(material, "$mat.transmission.factor", 0.0f));
 }
 
+/* Without a volume what light passes is a thin sheet, which does not bend it. */
+static bool is_thin(const writer *self, unsigned index) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    return transmission_of(material) > 0.0f &&
+           !(writer_number(material, "$mat.metallicFactor", 0.0f) > 0.0f) &&
+           !(extension_number(self, index, "KHR_materials_volume", "thicknessFactor", 0.0f, 1.0f) > 0.0f) &&
+           self->is_gltf;
+}
+
+/* Highlights by KHR_materials_ior and _specular: the reflectance straight on. */
+static void put_specular(writer *self, unsigned index) {
+    static const char extension[] = "KHR_materials_specular";
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    float ior = extension_number(self, index, "KHR_materials_ior", "ior", 1.5f, 100.0f);
+    float color[3] = {1.0f, 1.0f, 1.0f};
+    extension_color(self, index, extension, "specularColorFactor", color);
+    const float share = extension_number(self, index, extension, "specularFactor", 1.0f, 1.0f) *
+                        (color[0] + color[1] + color[2]) / 3.0f;
+    ior = ior >= 1.0f ? ior : 1.5f;
+    const float straight = powf((ior - 1.0f) / (ior + 1.0f), 2.0f) * share;
+    if (transmission_of(material) > 0.0f || (straight > 0.08f && ior > 1.0f))
+        writer_property(self, "float", "eta", "%.9g", (double)fmaxf(ior, 1.001f));
+    else if (gltf_extension(self, index, extension) != NULL)
+        writer_property(self, "float", "specular", "%.9g", (double)(12.5f * straight));
+    else if (gltf_extension(self, index, "KHR_materials_ior") != NULL && ior > 1.0f)
+        writer_property(self, "float", "eta", "%.9g", (double)ior);
+}
+
+/* Cloth: principled's sheen has the colour of the base as far as it is tinted. */
+static void put_sheen(writer *self, unsigned index) {
+    float color[3] = {0.0f, 0.0f, 0.0f};
+    extension_color(self, index, "KHR_materials_sheen", "sheenColorFactor", color);
+    const float most = fmaxf(color[0], fmaxf(color[1], color[2]));
+    const float least = fminf(color[0], fminf(color[1], color[2]));
+    if (!(most > 0.0f))
+        return;
+    writer_property(self, "float", "sheen", "%.9g", (double)most);
+    writer_property(self, "float", "sheen_tint", "%.9g", (double)(1.0f - least / most));
+}
+
 static void put_principled(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
     const bool both = picture_exists(self, material, both_slot);
@@ -117,21 +185,25 @@ static void put_principled(writer *self, unsigned index) {
         self, material,
         &(picture_use){
             both ? both_slot : roughness_slot, "roughness", "green", true, {rough, rough, rough}, 0.0f});
-    picture_put_share(
-        self, material,
-        &(picture_use){both ? both_slot : metal_slot, "metallic", "blue", true, {metal, metal, metal}, 0.0f});
+    if (!is_thin(self, index))
+        picture_put_share(
+            self, material,
+            &(picture_use){
+                both ? both_slot : metal_slot, "metallic", "blue", true, {metal, metal, metal}, 0.0f});
     if (through > 0.0f)
         picture_put_share(
             self, material,
             &(picture_use){through_slot, "spec_trans", "red", true, {through, through, through}, 0.0f});
-    const float ior = writer_number(material, "$mat.refracti", 0.0f);
     float highlight[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    if (self->is_gltf && ior > 1.0f && ior < 100.0f)
-        writer_property(self, "float", "eta", "%.9g", (double)ior);
-    else if (!self->is_gltf && writer_color(material, "$clr.specular", highlight) &&
+    if (self->is_gltf)
+        put_specular(self, index);
+    else if (writer_color(material, "$clr.specular", highlight) &&
              !(highlight[0] + highlight[1] + highlight[2] > 0.0f) && !(metal > 0.0f))
         writer_property(self, "float", "specular", "0");
+    put_sheen(self, index);
     const float coat = at_most_one(writer_number(material, "$mat.clearcoat.factor", 0.0f));
+    if (is_thin(self, index))
+        return;
     if (coat > 0.0f) {
         /* The coat's width is .1 without gloss, .001 with all of it. */
         const float width = writer_number(material, "$mat.clearcoat.roughnessFactor", 0.0f);
@@ -202,7 +274,7 @@ static void put_material(writer *self, unsigned index) {
         open_bsdf(self, index, "normalmap", &open);
         put_normals(self, material);
     }
-    open_bsdf(self, index, unlit ? "diffuse" : "principled", &open);
+    open_bsdf(self, index, unlit ? "diffuse" : is_thin(self, index) ? "principledthin" : "principled", &open);
     if (unlit)
         writer_property(self, "rgb", "reflectance", "0");
     else
@@ -223,8 +295,9 @@ static bool emission_of(writer *self, unsigned index, float color[4]) {
     color[0] = color[1] = color[2] = picture_exists(self, material, emissive_slot) ? 1.0f : 0.0f;
     writer_color(material, "$clr.emissive", color);
     /* assimp 5.2 does not know it. */
-    const float strength =
-        writer_number(material, "$mat.emissiveIntensity", gltf_emissive_strength(self, index));
+    const float strength = writer_number(
+        material, "$mat.emissiveIntensity",
+        extension_number(self, index, "KHR_materials_emissive_strength", "emissiveStrength", 1.0f, 1e30f));
     for (size_t i = 0; i < 3; ++i)
         color[i] *= strength;
     return color[0] + color[1] + color[2] > 0.0f;

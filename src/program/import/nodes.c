@@ -1,6 +1,7 @@
 /* The tree of nodes: what stands where. */
 #include <assimp/version.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "program/import/gltf.h"
@@ -12,12 +13,7 @@ typedef struct triple {
     double x, y, z;
 } triple;
 
-static writer_matrix below(const writer_matrix *outer, const struct aiNode *node, const gltf_node *exact) {
-    const struct aiMatrix4x4 t = node->mTransformation;
-    double inner[16] = {(double)t.a1, (double)t.a2, (double)t.a3, (double)t.a4, (double)t.b1, (double)t.b2,
-                        (double)t.b3, (double)t.b4, (double)t.c1, (double)t.c2, (double)t.c3, (double)t.c4,
-                        0.0,          0.0,          0.0,          1.0};
-    gltf_refine(exact, inner);
+static writer_matrix multiply(const writer_matrix *outer, const double inner[16]) {
     writer_matrix product;
     for (size_t i = 0; i < 16; ++i) {
         product.m[i] = 0.0;
@@ -25,6 +21,15 @@ static writer_matrix below(const writer_matrix *outer, const struct aiNode *node
             product.m[i] += outer->m[i / 4 * 4 + k] * inner[4 * k + i % 4];
     }
     return product;
+}
+
+static writer_matrix below(const writer_matrix *outer, const struct aiNode *node, const gltf_node *exact) {
+    const struct aiMatrix4x4 t = node->mTransformation;
+    double inner[16] = {(double)t.a1, (double)t.a2, (double)t.a3, (double)t.a4, (double)t.b1, (double)t.b2,
+                        (double)t.b3, (double)t.b4, (double)t.c1, (double)t.c2, (double)t.c3, (double)t.c4,
+                        0.0,          0.0,          0.0,          1.0};
+    gltf_refine(exact, inner);
+    return multiply(outer, inner);
 }
 
 /* `w`: 1 for points, 0 for directions. */
@@ -106,11 +111,14 @@ static void place_mesh(writer *self, unsigned index, const writer_matrix *to_wor
     writer_close(self);
 }
 
-static void count_uses(writer *self, const struct aiNode *node) {
+static void count_uses(writer *self, const struct aiNode *node, const gltf_node *exact) {
+    double(*copies)[16];
+    const size_t count = gltf_instances(self, exact, &copies);
+    free(copies);
     for (unsigned i = 0; i < node->mNumMeshes; ++i)
-        ++self->mesh_uses[node->mMeshes[i]];
+        self->mesh_uses[node->mMeshes[i]] += count > 1 ? 2 : 1;
     for (unsigned i = 0; i < node->mNumChildren; ++i)
-        count_uses(self, node->mChildren[i]);
+        count_uses(self, node->mChildren[i], gltf_child(self, exact, i));
 }
 
 static void put_groups(writer *self) {
@@ -230,8 +238,14 @@ static void place_named(writer *self, const struct aiNode *node, const writer_ma
 static void place_node(writer *self, const struct aiNode *node, const gltf_node *exact,
                        const writer_matrix *outer) {
     const writer_matrix to_world = below(outer, node, exact);
-    for (unsigned i = 0; i < node->mNumMeshes; ++i)
-        place_mesh(self, node->mMeshes[i], &to_world);
+    double(*copies)[16];
+    const size_t count = gltf_instances(self, exact, &copies);
+    for (size_t k = 0; k < (count > 0 ? count : 1); ++k) {
+        const writer_matrix own = count > 0 ? multiply(&to_world, copies[k]) : to_world;
+        for (unsigned i = 0; i < node->mNumMeshes; ++i)
+            place_mesh(self, node->mMeshes[i], &own);
+    }
+    free(copies);
     place_named(self, node, &to_world);
     for (unsigned i = 0; i < node->mNumChildren; ++i)
         place_node(self, node->mChildren[i], gltf_child(self, exact, i), &to_world);
@@ -239,7 +253,8 @@ static void place_node(writer *self, const struct aiNode *node, const gltf_node 
 
 void writer_put_nodes(writer *self) {
     const writer_matrix identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-    count_uses(self, self->scene->mRootNode);
+    const gltf_node *const root = gltf_root(self, self->scene->mRootNode);
+    count_uses(self, self->scene->mRootNode, root);
     put_groups(self);
-    place_node(self, self->scene->mRootNode, gltf_root(self, self->scene->mRootNode), &identity);
+    place_node(self, self->scene->mRootNode, root, &identity);
 }

@@ -16,6 +16,12 @@ typedef struct writer_matrix {
     double m[16];
 } writer_matrix;
 
+typedef struct gltf_buffer {
+    bool loaded;
+    const char *bytes; /* NULL: it cannot be read */
+    size_t size;
+} gltf_buffer;
+
 typedef struct writer {
     const struct aiScene *scene;
     FILE *records; /* of elements: render/scene/importers/model/message.h */
@@ -26,8 +32,11 @@ typedef struct writer {
     unsigned *mesh_uses; /* how many nodes have it */
     unsigned
         *image_file; /* of each picture that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
-    struct json_value *gltf;         /* the JSON of a glTF file, or NULL */
-    struct writer_picture *pictures; /* beside the model, that were asked for */
+    struct json_value *gltf; /* the JSON of a glTF file, or NULL */
+    const char *gltf_binary; /* of a .glb: the chunk behind the JSON, or NULL */
+    size_t gltf_binary_size;
+    struct gltf_buffer *gltf_buffers; /* those of the JSON's list that were needed; NULL: none yet */
+    struct writer_picture *pictures;  /* beside the model, that were asked for */
     aur_import_camera camera;
 } writer;
 

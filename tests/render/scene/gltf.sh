@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# glTF beyond what assimp reads: integers as coordinates (KHR_mesh_quantization), copies (EXT_mesh_gpu_instancing), and extensions of
+# materials. Each is the same image, bit by bit, as a model or a scene that says the same in plain words.
+set -u
+aureole=$1
+fail() { echo "$1"; exit 1; }
+/usr/bin/python3 -c '' 2>/dev/null || { echo "skipped: there is no Python to write models with"; exit 77; }
+[ -e "$(dirname "$aureole")/aureole-import" ] || { echo "skipped: this build has no assimp"; exit 77; }
+
+/usr/bin/python3 - <<'PYTHON' || fail "the models cannot be written"
+import base64, json, struct
+
+FLOAT, SHORT, USHORT, BYTE = 5126, 5122, 5123, 5120
+CODE = {FLOAT: "f", SHORT: "h", USHORT: "H", BYTE: "b"}
+points = [(0, 0, 0), (4, 0, 1), (4, 3, 0), (0, 3, 2), (2, 1, 4)]
+normals = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0)]
+uvs = [(0, 1), (1, 1), (1, 0), (0, 0), (1, 1)]
+indices = [0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4]
+texels = ("Qk1mAAAAAAAAADYAAAAoAAAABAAAAAQAAAABABgAAAAAADAAAAAAAAAAAAAAAAAAAAAAAAAA" + base64.b64encode(bytes(range(20, 212, 4))).decode())
+
+class Model:
+    def __init__(self):
+        self.data, self.views, self.accessors = b"", [], []
+    def add(self, rows, code, normalized=False, pad=0):
+        """An accessor; rows have `pad` bytes more."""
+        width = len(rows[0]) if isinstance(rows[0], tuple) else 1
+        stride = width * struct.calcsize(CODE[code]) + pad
+        self.views.append(dict({"buffer": 0, "byteOffset": len(self.data), "byteLength": stride * len(rows)},
+                               **({"byteStride": stride} if pad else {})))
+        for row in rows:
+            self.data += struct.pack("<%d%s" % (width, CODE[code]), *(row if width > 1 else (row,))) + b"\0" * pad
+        self.data += b"\0" * (-len(self.data) % 4)
+        entry = {"bufferView": len(self.views) - 1, "componentType": code, "count": len(rows),
+                 "type": ["SCALAR", "VEC2", "VEC3", "VEC4"][width - 1]}
+        if normalized:
+            entry["normalized"] = True
+        self.accessors.append(entry)
+        return len(self.accessors) - 1
+    def bounds(self, index, rows):
+        self.accessors[index].update(min=[min(c) for c in zip(*rows)], max=[max(c) for c in zip(*rows)])
+        return index
+    def tree(self, attributes, index, nodes, material=None, form="embedded"):
+        uri = {"embedded": "data:application/octet-stream;base64," + base64.b64encode(self.data).decode(), "beside": "all%20numbers.bin"}
+        tree = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes,
+                "materials": [material or {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
+                "textures": [{"source": 0}], "images": [{"uri": "data:image/bmp;base64," + texels}],
+                "meshes": [{"primitives": [{"attributes": attributes, "indices": index, "material": 0}]}],
+                "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": len(self.data)}]}
+        tree["extensionsUsed"] = list((material or {}).get("extensions", {})) + ["KHR_mesh_quantization", "EXT_mesh_gpu_instancing"]
+        if form != "glb":
+            tree["buffers"][0]["uri"] = uri[form]
+        return tree
+    def write(self, name, tree):
+        if not name.endswith(".glb"):
+            open(name, "w").write(json.dumps(tree))
+            return
+        text = json.dumps(tree).encode()
+        text += b" " * (-len(text) % 4)
+        body = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(self.data), 0x004E4942) + self.data
+        open(name, "wb").write(struct.pack("<III", 0x46546C67, 2, 12 + len(body)) + body)
+
+def build(quantized):
+    m = Model()
+    if quantized:
+        attributes = {"POSITION": m.bounds(m.add(points, SHORT, pad=2), points),
+                      "NORMAL": m.add([tuple(127 * c for c in n) for n in normals], BYTE, True, pad=1),
+                      "TEXCOORD_0": m.add([tuple(65535 * c for c in uv) for uv in uvs], USHORT, True)}
+    else:
+        attributes = {"POSITION": m.bounds(m.add(points, FLOAT), points), "NORMAL": m.add(normals, FLOAT), "TEXCOORD_0": m.add(uvs, FLOAT)}
+    return m, attributes, m.add(indices, USHORT)
+body = {"mesh": 0, "scale": [0.5, 0.5, 0.5]}
+m, attributes, index = build(False)
+m.write("float.gltf", m.tree(attributes, index, [body]))
+m, attributes, index = build(True)
+m.write("integer.gltf", m.tree(attributes, index, [body]))
+m.write("integer.glb", m.tree(attributes, index, [body], form="glb"))
+m.write("beside.gltf", m.tree(attributes, index, [body], form="beside"))
+open("all numbers.bin", "wb").write(m.data)
+
+# Copies, as an extension and as nodes, these in two orders.
+shifts, turns, sizes = [(0, 0, 0), (3, 0, 1), (-2, 2, 0)], [(0, 0, 0, 1), (0, 1, 0, 0), (0, 0, 1, 0)], [(1, 1, 1), (2, 1, 1), (1, 0.5, 1)]
+m, attributes, index = build(False)
+copies = {"TRANSLATION": m.add(shifts, FLOAT), "ROTATION": m.add([tuple(127 * c for c in q) for q in turns], BYTE, True), "SCALE": m.add(sizes, FLOAT)}
+m.write("copies.gltf", m.tree(attributes, index, [dict(body, extensions={"EXT_mesh_gpu_instancing": {"attributes": copies}})]))
+nodes = [{"mesh": 0, "translation": t, "rotation": q, "scale": s} for t, q, s in zip(shifts, turns, sizes)]
+for name, order in (("nodes", (0, 1, 2)), ("other", (2, 0, 1))):
+    tree = m.tree(attributes, index, [{"scale": [0.5, 0.5, 0.5], "children": [1, 2, 3]}] + [nodes[i] for i in order])
+    tree["scenes"][0]["nodes"] = [0]
+    m.write(name + ".gltf", tree)
+
+# Materials.
+m, attributes, index = build(False)
+base = {"baseColorFactor": [0.8, 0.6, 0.4, 1], "metallicFactor": 0, "roughnessFactor": 0.5}
+through = {"transmissionFactor": 0.75}
+principled = '<bsdf type="principled">{}<float name="roughness" value="0.5"/><float name="metallic" value="0"/>{}</bsdf>'
+color = '<rgb name="base_color" value="{}"/>'.format
+def number(name, value):
+    return f'<float name="{name}" value="{value}"/>'
+plain = color("0.8 0.6 0.4")
+cases = {
+    "sheen": ({"KHR_materials_sheen": {"sheenColorFactor": [0.5, 0.25, 0.5]}},
+              '<bsdf type="twosided">' + principled.format(plain, number("sheen", 0.5) + number("sheen_tint", 0.5)) + "</bsdf>"),
+    "specular": ({"KHR_materials_specular": {"specularFactor": 0.5}, "KHR_materials_ior": {"ior": 1.5}},
+                 '<bsdf type="twosided">' + principled.format(plain, number("specular", 12.5 * 0.04 * 0.5)) + "</bsdf>"),
+    "volume": ({"KHR_materials_transmission": through, "KHR_materials_ior": {"ior": 1.25},
+                "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 1, "attenuationColor": [0.5, 1, 0.25]}},
+               principled.format(color("0.2 0.6 0.025"), number("eta", 1.25) + number("spec_trans", 0.75))),
+    "sheet": ({"KHR_materials_transmission": through},
+              '<bsdf type="principledthin">' + plain + number("roughness", 0.5) + number("spec_trans", 0.75) + number("eta", 1.5) + "</bsdf>")}
+for name, (extensions, bsdf) in cases.items():
+    material = {"pbrMetallicRoughness": base, "extensions": extensions}
+    m.write(name + ".gltf", m.tree(attributes, index, [body], material))
+    with open(name + ".xml", "w") as file:
+        file.write('<scene version="3.0.0"><shape type="ply"><string name="filename" value="body.ply"/><transform name="to_world">'
+                   f'<scale value="0.5"/></transform>{bsdf}</shape><sensor type="perspective"><sampler type="multijitter"/></sensor></scene>')
+with open("body.ply", "w") as file:
+    file.write(f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n" + "".join(f"property float {c}\n" for c in ("x", "y", "z", "nx", "ny", "nz", "u", "v")) +
+               f"element face {len(indices) // 3}\nproperty list uchar int vertex_indices\nend_header\n")
+    for p, n, uv in zip(points, normals, uvs):
+        file.write(" ".join(map(str, p + n + (uv[0], uv[1]))) + "\n")
+    for i in range(0, len(indices), 3):
+        file.write("3 %d %d %d\n" % tuple(indices[i:i + 3]))
+PYTHON
+
+draw() { # draw FILE OUTPUT
+  "$aureole" render "$1" -q --camera 3,2,6,0.5,0.5,0.5,40 --environment studio --width 32 --height 24 --spp 16 --filter box -o "$2" || fail "$1 is not rendered"
+}
+draw float.gltf float.exr
+for model in integer.gltf integer.glb beside.gltf; do
+  draw $model made.exr && cmp float.exr made.exr || fail "$model is not float.gltf"
+done
+draw nodes.gltf nodes.exr
+"$aureole" info copies.gltf >said 2>&1 && "$aureole" info nodes.gltf >other 2>&1 && diff <(grep -v '^a' said) <(grep -v '^a' other) || fail "copies are other shapes than nodes"
+draw copies.gltf made.exr
+"$aureole" compare nodes.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "copies are not the nodes: $(cat compared)"
+draw other.gltf made.exr
+"$aureole" compare nodes.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "the order of nodes matters: $(cat compared)"
+for name in sheen specular volume sheet; do
+  draw $name.gltf made.exr
+  draw $name.xml scene.exr
+  "$aureole" compare scene.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "$name is not its scene: $(cat compared)"
+done
+exit 0
