@@ -1,4 +1,4 @@
-#include "program/lab/lab.h"
+#include "program/lab/publication.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -6,27 +6,23 @@
 
 #include "program/report/page/page.h"
 
-enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160 };
+/* A small page halves pictures of more pixels than SMALL_PIXELS, where they stay as wide as SMALL_WIDTH,
+ * shows of each experiment one view that is as wide, and the first rows of long tables. */
+enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160, SMALL_ROWS = 25, SMALL_WIDTH = 128 };
 
-typedef struct publication {
-    const char *results, *folder;
-    FILE *page;
-    bool small;
-} publication;
-
-static void path_of(const publication *p, const lab_experiment *of, const char *what, char *path,
-                    size_t capacity) {
+void publication_path(const publication *p, const lab_experiment *of, const char *what, char *path,
+                      size_t capacity) {
     snprintf(path, capacity, "%s/%s/%s%s%s.csv", p->results, of->name, of->name, what != NULL ? "-" : "",
              what != NULL ? what : "");
 }
 
-static bool has_results(const publication *p, const lab_experiment *of) {
+bool publication_has(const publication *p, const lab_experiment *of) {
     char path[AUR_ERROR_FILE_CAPACITY];
-    path_of(p, of, NULL, path, sizeof path);
+    publication_path(p, of, NULL, path, sizeof path);
     return access(path, R_OK) == 0;
 }
 
-static void put_tag(FILE *page, const char *begin, const char *text, const char *end) {
+void publication_text(FILE *page, const char *begin, const char *text, const char *end) {
     fputs(begin, page);
     report_escape(page, text);
     fputs(end, page);
@@ -40,11 +36,24 @@ static void put_notes(FILE *page, const char *notes) {
         const size_t length = strcspn(notes, "\n");
         char *const line = strndup(notes, length);
         if (line != NULL)
-            put_tag(page, "<li>", line, "</li>\n");
+            publication_text(page, "<li>", line, "</li>\n");
         free(line);
         notes += length + (notes[length] == '\n');
     }
     fputs("</ul>\n", page);
+}
+
+/* The form that was run: the full one of kept tables, which have no file that names it. */
+static const char *form_of(const publication *p, const lab_experiment *of) {
+    char path[AUR_ERROR_FILE_CAPACITY];
+    report_table *facts = NULL;
+    publication_path(p, of, "run", path, sizeof path);
+    const bool quick = report_load(path, &facts, NULL, NULL) == AUR_OK && report_rows(facts) == 1 &&
+                       strstr(report_cell(facts, 0, 0), " quick form") != NULL;
+    report_destroy(facts);
+    publication_path(p, of, "unfinished", path, sizeof path);
+    strcpy(path + strlen(path) - 3, "txt");
+    return access(path, R_OK) == 0 ? "unfinished" : quick ? "quick" : "full";
 }
 
 /* Experiments and their verdicts. */
@@ -52,30 +61,32 @@ static aur_result put_summary(const publication *p, aur_error *error) {
     static const char *const columns[] = {"experiment", "reproduces", "form",        "rows",   "agree",
                                           "within",     "differ",     "unpublished", "claims", "hold"};
     report_table *const summary = report_create(sizeof columns / sizeof columns[0], columns);
-    for (size_t i = 0; i < lab_experiment_count(); ++i) {
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < lab_experiment_count() && result == AUR_OK; ++i) {
         const lab_experiment *const of = lab_experiment_at(i);
-        char path[AUR_ERROR_FILE_CAPACITY];
-        report_table *facts = NULL;
-        if (!has_results(p, of))
+        publication_tally tally = {0};
+        if (!publication_has(p, of))
             continue;
-        path_of(p, of, "run", path, sizeof path);
-        const bool finished = report_load(path, &facts, NULL, NULL) == AUR_OK && report_rows(facts) == 1;
+        result = publication_count(p, of, &tally, error);
         report_text(summary, of->name);
         report_text(summary, of->reproduces);
-        report_text(summary, !finished                                                 ? "unfinished"
-                             : strstr(report_cell(facts, 0, 0), " quick form") != NULL ? "quick"
-                                                                                       : "full");
-        enum { ROWS = 3, CLAIMS = 8 };
-        const bool claims = finished && report_value(facts, 0, report_find(facts, "claims")) > 0.0;
-        for (size_t c = ROWS; c < sizeof columns / sizeof columns[0]; ++c) {
-            const size_t column = finished ? report_find(facts, columns[c]) : SIZE_MAX;
-            const bool told =
-                column != SIZE_MAX && (c == ROWS || (c < CLAIMS ? of->published != NULL : claims));
-            report_text(summary, told ? report_cell(facts, 0, column) : NULL);
+        report_text(summary, form_of(p, of));
+        report_integer(summary, tally.rows);
+        for (size_t k = 0; k < LAB_VERDICTS; ++k) {
+            if (of->published != NULL)
+                report_integer(summary, tally.verdicts[k]);
+            else
+                report_text(summary, NULL);
         }
-        report_destroy(facts);
+        for (size_t k = 0; k < 2; ++k) {
+            if (tally.claims > 0)
+                report_integer(summary, k == 0 ? tally.claims : tally.hold);
+            else
+                report_text(summary, NULL);
+        }
     }
-    const aur_result result = report_page_table(p->page, summary, "summary.csv", error);
+    if (result == AUR_OK)
+        result = report_page_table(p->page, summary, "summary.csv", SIZE_MAX, error);
     report_destroy(summary);
     return result;
 }
@@ -86,7 +97,8 @@ static aur_result read_picture(const publication *p, const char *path, aur_image
     aur_image *whole = NULL;
     const aur_result result = aur_image_read(path, &whole, error);
     *image = whole;
-    if (result != AUR_OK || !p->small || aur_image_width(whole) * aur_image_height(whole) <= SMALL_PIXELS)
+    if (result != AUR_OK || !p->small || aur_image_width(whole) < 2 * SMALL_WIDTH ||
+        aur_image_width(whole) * aur_image_height(whole) <= SMALL_PIXELS)
         return result;
     *reduced = true;
     const aur_result made = aur_image_downsample(whole, 2, image, error);
@@ -96,7 +108,7 @@ static aur_result read_picture(const publication *p, const char *path, aur_image
 
 /* The pictures of one view, from row `first` of their table on. */
 static aur_result put_view(const publication *p, const lab_experiment *of, const report_table *list,
-                           size_t first, aur_error *error) {
+                           size_t first, bool *shown, aur_error *error) {
     enum { VIEW, NAME, PLACE, ROLE, EXPOSURE };
     const char *const view = report_cell(list, first, VIEW);
     report_picture pictures[MOST_PICTURES];
@@ -122,7 +134,8 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
     }
     char title[256];
     snprintf(title, sizeof title, "%s%s", view, reduced ? " (means of 2 x 2 pixels)" : "");
-    if (result == AUR_OK)
+    *shown = result == AUR_OK && (!p->small || aur_image_width(images[0]) >= SMALL_WIDTH);
+    if (*shown)
         result =
             report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), count, pictures, error);
     for (size_t i = 0; i < count; ++i)
@@ -133,20 +146,25 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
 static aur_result put_pictures(const publication *p, const lab_experiment *of, aur_error *error) {
     char path[AUR_ERROR_FILE_CAPACITY];
     report_table *list = NULL;
-    path_of(p, of, "pictures", path, sizeof path);
+    publication_path(p, of, "pictures", path, sizeof path);
     if (access(path, R_OK) != 0)
         return AUR_OK;
     aur_result result = report_load(path, &list, NULL, error);
     if (result == AUR_OK && report_columns(list) != 5)
         result = aur_fail(error, AUR_ERROR_FORMAT, "%s: not a list of pictures of the lab", path);
+    size_t views = 0, left_out = 0;
     for (size_t row = 0; result == AUR_OK && row < report_rows(list); ++row) {
         const char *const view = report_cell(list, row, 0);
-        bool seen = false;
+        bool seen = false, shown = false;
         for (size_t before = 0; before < row && view[0] != '\0'; ++before)
             seen = seen || strcmp(report_cell(list, before, 0), view) == 0;
-        if (!seen)
-            result = put_view(p, of, list, row, error);
+        if (!seen && (!p->small || views == 0))
+            result = put_view(p, of, list, row, &shown, error);
+        views += shown;
+        left_out += !seen && !shown;
     }
+    if (result == AUR_OK && left_out > 0)
+        fprintf(p->page, "<p>%zu more views of %s are in the folder of results.</p>\n", left_out, of->name);
     report_destroy(list);
     return result;
 }
@@ -169,24 +187,19 @@ static aur_result print_plot(const publication *p, const char *experiment, const
     return result;
 }
 
-static aur_result put_plots(const publication *p, const lab_experiment *of, const report_table *table,
-                            aur_error *error) {
-    aur_result result = AUR_OK;
-    for (const report_plot *plot = of->plots; plot != NULL && plot->name != NULL && result == AUR_OK;
-         ++plot) {
-        char path[AUR_ERROR_FILE_CAPACITY];
-        report_table *further = NULL;
-        path_of(p, of, plot->table, path, sizeof path);
-        if (plot->table != NULL)
-            result = report_load(path, &further, NULL, error);
-        if (result != AUR_OK)
-            break;
-        const report_table *const drawn = further != NULL ? further : table;
-        result = report_plot_put(p->page, drawn, plot, error);
-        if (result == AUR_OK)
-            result = print_plot(p, of->name, drawn, plot, error);
-        report_destroy(further);
-    }
+aur_result publication_plot(const publication *p, const lab_experiment *of, const report_plot *plot,
+                            bool print, aur_error *error) {
+    char path[AUR_ERROR_FILE_CAPACITY];
+    report_table *table = NULL;
+    publication_path(p, of, plot->table, path, sizeof path);
+    if (plot->table != NULL && access(path, R_OK) != 0) /* the run is not finished */
+        return AUR_OK;
+    aur_result result = report_load(path, &table, NULL, error);
+    if (result == AUR_OK)
+        result = report_plot_put(p->page, table, plot, error);
+    if (result == AUR_OK && print)
+        result = print_plot(p, of->name, table, plot, error);
+    report_destroy(table);
     return result;
 }
 
@@ -194,18 +207,20 @@ static aur_result put_experiment(const publication *p, const lab_experiment *of,
     char path[AUR_ERROR_FILE_CAPACITY], name[128];
     report_table *table = NULL;
     char *notes = NULL;
-    path_of(p, of, NULL, path, sizeof path);
+    publication_path(p, of, NULL, path, sizeof path);
     aur_result result = report_load(path, &table, &notes, error);
     if (result != AUR_OK)
         return result;
-    fprintf(p->page, "<section id=\"%s\"><h2>%s</h2>\n", of->name, of->name);
-    put_tag(p->page, "<p><strong>", of->reproduces, "</strong>: ");
-    put_tag(p->page, "", of->summary, ".</p>\n");
+    fprintf(p->page, "<section id=\"%s\">", of->name);
+    publication_text(p->page, "<h3>", of->reproduces, "</h3>\n");
+    publication_text(p->page, "<p>", of->summary, ". ");
+    fprintf(p->page, "<code>aureole lab run %s</code></p>\n", of->name);
     put_notes(p->page, notes);
-    result = put_plots(p, of, table, error);
+    for (const report_plot *plot = of->plots; plot != NULL && plot->name != NULL && result == AUR_OK; ++plot)
+        result = publication_plot(p, of, plot, true, error);
     snprintf(name, sizeof name, "%s.csv", of->name);
     if (result == AUR_OK)
-        result = report_page_table(p->page, table, name, error);
+        result = report_page_table(p->page, table, name, p->small ? SMALL_ROWS : SIZE_MAX, error);
     if (result == AUR_OK)
         result = put_pictures(p, of, error);
     fputs("</section>\n", p->page);
@@ -216,21 +231,17 @@ static aur_result put_experiment(const publication *p, const lab_experiment *of,
 
 static aur_result put_all(const publication *p, aur_error *error) {
     report_page_begin(p->page, "Aureole: the papers' experiments");
-    fprintf(p->page,
-            "<p class=\"pale\">Aureole %s. Measured beside published: a published value agrees when it lies "
-            "in our "
-            "interval. Quick forms have fewer samples than the papers; the verdicts that count are those of "
-            "full forms."
-            "</p>\n<nav><ul>",
-            aur_version());
-    for (size_t i = 0; i < lab_experiment_count(); ++i)
-        if (has_results(p, lab_experiment_at(i)))
-            fprintf(p->page, "<li><a href=\"#%s\">%s</a></li>\n", lab_experiment_at(i)->name,
-                    lab_experiment_at(i)->name);
-    fputs("</ul></nav>\n", p->page);
-    aur_result result = put_summary(p, error);
+    fprintf(
+        p->page,
+        "<p class=\"pale\">Aureole %s. A published value agrees when it lies in our interval of 95 %%. Quick "
+        "forms have fewer samples than the papers: the verdicts that count are those of full forms.</p>\n",
+        aur_version());
+    aur_result result = publication_put_overview(p, error);
+    fputs("<h2>All tables</h2>\n", p->page);
+    if (result == AUR_OK)
+        result = put_summary(p, error);
     for (size_t i = 0; i < lab_experiment_count() && result == AUR_OK; ++i)
-        if (has_results(p, lab_experiment_at(i)))
+        if (publication_has(p, lab_experiment_at(i)))
             result = put_experiment(p, lab_experiment_at(i), error);
     return result != AUR_OK ? result : report_page_end(p->page, error);
 }
@@ -242,7 +253,7 @@ aur_result lab_publish(const char *results, const char *folder, bool small,
     publication p = {.results = results, .folder = folder, .small = small};
     snprintf(path, AUR_ERROR_FILE_CAPACITY, "%s/index.html", folder);
     for (size_t i = 0; i < lab_experiment_count(); ++i)
-        found += has_results(&p, lab_experiment_at(i));
+        found += publication_has(&p, lab_experiment_at(i));
     if (found == 0)
         return aur_fail(error, AUR_ERROR_OPEN,
                         "%s: no results of the lab are there: 'aureole lab run --all -o %s' makes them",

@@ -38,6 +38,7 @@ struct report_canvas {
     bool open;         /* there is a group for `pen` */
     bool title;        /* the next mark has the words below */
     bool crisp;        /* so is the group of an SVG */
+    double dots;       /* radius of those in the SVG's path that is open; 0: none is */
     report_pen pen;    /* the one that lines and areas have now */
     const char *label; /* of that mark; x and y follow */
     double at[2];

@@ -39,7 +39,13 @@ static void put_class(report_canvas *c, const report_pen *pen) {
         fprintf(c->to, " class=\"%c%u\"", pen->width > 0.0 ? 'l' : 'm', (pen->ink - REPORT_INK_SERIES) % 8);
 }
 
+static void end_dots(report_canvas *c) {
+    fputs(c->dots > 0.0 ? "\"/>\n" : "", c->to);
+    c->dots = 0.0;
+}
+
 static void close_group(report_canvas *c) {
+    end_dots(c);
     fputs(c->open ? "</g>\n" : "", c->to);
     c->open = false;
 }
@@ -66,6 +72,7 @@ static void use(report_canvas *c, const report_pen *pen, bool crisp) {
 }
 
 static void begin_element(report_canvas *c, const report_pen *pen, const char *name) {
+    end_dots(c);
     fprintf(c->to, "<%s", name);
     if (pen->ink == REPORT_INK_SCALE)
         fprintf(c->to, " fill=\"#%06x\"", (unsigned)pen->rgb);
@@ -82,20 +89,54 @@ static void end_element(report_canvas *c, const char *name) {
               name);
 }
 
+/* In pages, which have many plots, a tenth of a pixel is enough. */
+static void put_number(report_canvas *c, const char *before, double value) {
+    fputs(before, c->to);
+    if (c->inside)
+        aur_print(c->to, "%.5g", round(10.0 * value) / 10.0);
+    else
+        aur_print(c->to, "%.2f", value);
+}
+
 static void path(report_canvas *c, const report_pen *pen, bool closed, size_t count, const double *xy) {
     use(c, pen, pen->ink == REPORT_INK_SCALE);
     begin_element(c, pen, "path");
     fputs(" d=\"", c->to);
-    for (size_t i = 0; i < count; ++i)
-        aur_print(c->to, "%c%.2f %.2f", i == 0 ? 'M' : 'L', xy[2 * i], xy[2 * i + 1]);
+    for (size_t i = 0; i < count; ++i) {
+        put_number(c, i == 0 ? "M" : "L", xy[2 * i]);
+        put_number(c, " ", xy[2 * i + 1]);
+    }
     fputs(closed ? "Z\"" : "\"", c->to);
     end_element(c, "path");
 }
 
+/* Plots of points in pages: dots of one colour and size are the round ends of one line. */
+static void put_dot(report_canvas *c, const report_pen *pen, double x, double y, double radius) {
+    if (fabs(c->dots - radius) > 0.0) {
+        end_dots(c);
+        aur_print(c->to,
+                  "<path class=\"l%u\" fill=\"none\" stroke=\"#%06x\" stroke-width=\"%g\" "
+                  "stroke-linecap=\"round\" d=\"",
+                  (pen->ink - REPORT_INK_SERIES) % 8, (unsigned)pen->rgb, 2.0 * radius);
+        c->dots = radius;
+    }
+    put_number(c, "M", x);
+    put_number(c, " ", y);
+    fputs("h0", c->to);
+}
+
 static void circle(report_canvas *c, const report_pen *pen, double x, double y, double radius) {
+    const bool of_series = pen->ink >= REPORT_INK_SERIES && pen->ink < REPORT_INK_RGB;
     use(c, pen, false);
+    if (c->inside && !c->title && of_series && !(pen->width > 0.0)) {
+        put_dot(c, pen, x, y, radius);
+        return;
+    }
     begin_element(c, pen, "circle");
-    aur_print(c->to, " cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"", x, y, radius);
+    put_number(c, " cx=\"", x);
+    put_number(c, "\" cy=\"", y);
+    put_number(c, "\" r=\"", radius);
+    fputs("\"", c->to);
     end_element(c, "circle");
 }
 

@@ -100,11 +100,9 @@ static void put_bar(const drawn_panel *d, const report_series *series, const rep
         d->y.log && p->low <= 0.0 ? d->y.from : fmin(report_place(&d->y, p->low), d->y.from);
     report_pen pen = report_pen_of(series->ink, 1.0);
     pen.dashed = false;
-    d->canvas->format->path(d->canvas, &pen, false, 2, (const double[]){x, bottom, x, top});
-    d->canvas->format->path(d->canvas, &pen, false, 2, (const double[]){x - 3.0, top, x + 3.0, top});
-    if (bottom < d->y.from)
-        d->canvas->format->path(d->canvas, &pen, false, 2,
-                                (const double[]){x - 3.0, bottom, x + 3.0, bottom});
+    /* One line: the upper end, down, and the lower end where the bar does not leave the panel. */
+    const double xy[] = {x - 3.0, top, x + 3.0, top, x, top, x, bottom, x - 3.0, bottom, x + 3.0, bottom};
+    d->canvas->format->path(d->canvas, &pen, false, bottom < d->y.from ? 6 : 4, xy);
 }
 
 /* Dots and cells. Cells are a little larger, so that no seams are seen between them. */

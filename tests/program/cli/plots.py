@@ -106,7 +106,8 @@ for source, mark in enumerate(["m0", "m1"]):  # disks and squares, whose middles
         agrees(places[panel * (count + 1):][:count], axes[panel], expected(panel, source), f"SVG {sources[source]} {panel}")
 # Bars of the random set go from one spread below the mean to one above; the line is the fit by least squares.
 spreads = [(float(row["n"]), float(row["l2-star"]), float(row["l2-star-spread"])) for row in table if row["set"] == "random"]
-bars = [at for at in lines["l2"] if len(at) == 4 and at[0] == at[2]][:len(spreads)]
+# A bar is one line: its upper end, down, and its lower end unless it leaves the panel.
+bars = [(at[4], at[7], at[6], at[5]) for at in lines["l2"] if len(at) in (8, 12) and at[4] == at[6]][:len(spreads)]
 for (x, bottom, _, top), (n, value, spread) in zip(bars, spreads):
     axis = axes[0]["y"]
     check(abs(x - axes[0]["x"].place(n)) < 0.03 and abs(axis.place(value + spread) - top) < 0.03, f"the bar at {n}")

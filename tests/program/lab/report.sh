@@ -5,17 +5,23 @@ aureole=$1
 source=$2
 failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-rm -rf results page drawn drawing small ./*.html
+rm -rf results page drawn drawing small kept ./*.html
 "$aureole" lab report nowhere -o page 2>message.txt
 [ $? -eq 2 ] && grep -q "no results of the lab are there: 'aureole lab run" message.txt || fail "no results: $(cat message.txt)"
 "$aureole" lab run marques-2013-gather marques-2018-gains marques-2018-slopes --quick -q --scenes "$source/scenes" -o results >run.txt 2>&1 ||
   fail "$(cat run.txt)"
 "$aureole" lab report results -o page >said.txt 2>&1 || fail "$(cat said.txt)"
 [ "$(cat said.txt)" = page/index.html ] || fail "what is said: $(cat said.txt)"
-for what in '<td class="within">within a factor of 1.5</td>' '<td class="agrees">agrees</td>' '<g class="l1" ' \
+for what in '<td class="within">within a factor of 1.1</td>' '<td class="agrees">agrees</td>' '<g class="l1" ' \
   'data-name="marques-2018-gains.csv"' 'href="marques-2018-slopes-equal.pdf"'; do
   grep -q "$what" page/index.html || fail "no $what in the page"
 done
+# It begins with papers in a sentence, a figure and their verdicts, then has what is new, then the tables.
+for what in '<h2>Marques et al. 2018: optimal sample weights</h2>' '<p class="verdicts">Of [0-9]* published values [0-9]* agree' '<h2>All tables</h2>' \
+  '<h3>Marques 2018' '<section id="marques-2018-slopes">'; do
+  grep -n "$what" page/index.html | head -1 | cut -d: -f1
+done >lines.txt
+[ "$(wc -l <lines.txt)" = 5 ] && sort -nc lines.txt || fail "the order of the page: $(cat lines.txt)"
 head -c 5 page/marques-2018-slopes-equal.pdf | grep -q '^%PDF-' || fail "no PDF"
 grep -q 'begin{groupplot}' page/marques-2018-slopes-equal.tex || fail "no TikZ"
 grep -q '^<svg' page/marques-2018-slopes-equal.svg || fail "no SVG"
@@ -33,6 +39,9 @@ for what in 'sphere (means of 2 x 2 pixels)' '"width": 210, "height": 210'; do
   grep -qF "$what" drawing/index.html && fail "$what in the page"
 done
 [ $((2 * $(wc -c <small/index.html))) -lt "$(wc -c <drawing/index.html)" ] || fail "the small page is not half as large"
+# That of the kept tables is one to send.
+"$aureole" lab report "$source/docs/report/results" --small -o kept >/dev/null || fail "the kept tables"
+[ "$(wc -c <kept/index.html)" -lt 2000000 ] || fail "the small page of the kept tables has $(wc -c <kept/index.html) bytes"
 
 # Values of pictures by the viewer: two pictures of known pixels; the first is the reference.
 awk 'BEGIN { printf "PF\n4 2\n-1.0\n" }' >a.pfm

@@ -20,8 +20,10 @@ void report_page_begin(FILE *page, const char *title);
 /* Errors: MEMORY. */
 aur_result report_page_end(FILE *page, aur_error *error);
 
-/* A table whose columns sort, and below it the CSV file `name` to be saved. Errors: MEMORY. */
-aur_result report_page_table(FILE *page, const report_table *table, const char *name, aur_error *error);
+/* A table whose columns sort, and below it the CSV file `name` to be saved. Of a table with more than `most`
+ * rows the first ones are shown, and where the others are. Errors: MEMORY. */
+aur_result report_page_table(FILE *page, const report_table *table, const char *name, size_t most,
+                             aur_error *error);
 
 /* A picture of a viewer. */
 typedef struct report_picture {

@@ -11,7 +11,13 @@ static void put_cell(FILE *page, const report_table *table, size_t row, size_t c
     const char *const text = report_cell(table, row, column);
     const double value = report_value(table, row, column);
     if (!isnan(value)) {
-        aur_print(page, "<td class=\"number\" title=\"%.17g\">%.5g</td>", value, value);
+        char exact[40], shown[40];
+        aur_format(exact, sizeof exact, "%.17g", value);
+        aur_format(shown, sizeof shown, "%.5g", value);
+        if (strcmp(exact, shown) == 0)
+            fprintf(page, "<td class=\"number\">%s</td>", shown);
+        else
+            fprintf(page, "<td class=\"number\" title=\"%s\">%s</td>", exact, shown);
         return;
     }
     const char *kind = "";
@@ -23,18 +29,11 @@ static void put_cell(FILE *page, const report_table *table, size_t row, size_t c
     fputs("</td>", page);
 }
 
-/* A string of JavaScript, which no text ends early. */
-static void put_string(FILE *page, const char *text) {
-    fputc('"', page);
-    for (; *text != '\0'; ++text)
-        if (*text == '"' || *text == '\\' || *text == '<' || (unsigned char)*text < ' ')
-            fprintf(page, "\\u%04x", (unsigned)*text);
-        else
-            fputc(*text, page);
-    fputc('"', page);
-}
-
-aur_result report_page_table(FILE *page, const report_table *table, const char *name, aur_error *error) {
+aur_result report_page_table(FILE *page, const report_table *table, const char *name, size_t most,
+                             aur_error *error) {
+    const size_t rows = report_rows(table), shown = rows < most ? rows : most;
+    if (report_failed(table))
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     fputs("<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>", page);
     for (size_t i = 0; i < report_columns(table); ++i) {
         fputs("<th><button type=\"button\">", page);
@@ -42,28 +41,21 @@ aur_result report_page_table(FILE *page, const report_table *table, const char *
         fputs("</button></th>", page);
     }
     fputs("</tr></thead>\n<tbody>\n", page);
-    for (size_t row = 0; row < report_rows(table); ++row) {
+    for (size_t row = 0; row < shown; ++row) {
         fputs("<tr>", page);
         for (size_t i = 0; i < report_columns(table); ++i)
             put_cell(page, table, row, i);
         fputs("</tr>\n", page);
     }
     fputs("</tbody></table></div>\n", page);
-    char *text = NULL;
-    size_t size = 0;
-    FILE *const stream = open_memstream(&text, &size);
-    if (stream == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    aur_result result = report_write(table, REPORT_CSV, stream, error);
-    if (fclose(stream) != 0)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    if (result == AUR_OK) {
-        fputs("<p>Data: <script type=\"application/json\" class=\"csv\" data-name=\"", page);
+    if (shown < rows) {
+        fprintf(page, "<p>%zu more rows are in ", rows - shown);
         report_escape(page, name);
-        fputs("\">", page);
-        put_string(page, text);
-        fputs("</script></p>\n", page);
+        fputs(".</p>\n", page);
+        return AUR_OK;
     }
-    free(text);
-    return result;
+    fputs("<p>Data: <a class=\"csv\" data-name=\"", page);
+    report_escape(page, name);
+    fputs("\"></a></p>\n", page);
+    return AUR_OK;
 }

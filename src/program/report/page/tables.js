@@ -1,9 +1,17 @@
 // Tables: a press on a column's name sorts by it, and the link below gives the data as CSV.
 'use strict';
+// A number is shown with five digits; where it has more, they are its title.
+function exact(cell) {
+  return cell.title || cell.textContent;
+}
+function csvOf(table) {
+  const quoted = text => /[",\n]/.test(text) ? '"' + text.replaceAll('"', '""') + '"' : text;
+  return [...table.rows].map(row => [...row.cells].map(cell => quoted(exact(cell))).join(',') + '\n').join('');
+}
 function sortTable(table, column, down) {
   const value = row => {
     const cell = row.cells[column];
-    return cell.className === 'number' ? Number(cell.title) : cell.textContent;
+    return cell.className === 'number' ? Number(exact(cell)) : cell.textContent;
   };
   const order = (a, b) => {
     const x = value(a), y = value(b);
@@ -23,12 +31,11 @@ function sortTable(table, column, down) {
 for (const table of document.querySelectorAll('table'))
   [...table.tHead.rows[0].cells].forEach((head, i) => head.querySelector('button').addEventListener('click', () =>
     sortTable(table, i, head.getAttribute('aria-sort') === 'ascending')));
-for (const data of document.querySelectorAll('script.csv')) {
-  const link = document.createElement('a');
-  link.download = data.dataset.name;
-  link.textContent = data.dataset.name;
-  link.href = URL.createObjectURL(new Blob([JSON.parse(data.textContent)], {type: 'text/csv'}));
-  data.after(link);
+for (const link of document.querySelectorAll('a.csv')) {
+  const csv = csvOf(link.parentElement.previousElementSibling.querySelector('table'));
+  link.download = link.dataset.name;
+  link.textContent = link.dataset.name;
+  link.href = URL.createObjectURL(new Blob([csv], {type: 'text/csv'}));
 }
 for (const button of document.querySelectorAll('button.theme'))
   button.addEventListener('click', () => {
