@@ -15,7 +15,8 @@ import cffi
 NATIVE = [f"aureole/{name}.h" for name in
           "core text tables pointset sphere rotations symmetry nearest statistics quadrature quality exact estimate integrate".split()]
 LIBRARY = ["aureole/core.h", "aureole/tables.h", "aureole-render/image.h", "aureole-render/scene.h", "aureole-render/film.h",
-           "aureole-render/render.h", "aureole-render/adaptive.h", "aureole-lighting/view_factors.h", "aureole-lighting/irradiance.h"]
+           "aureole-render/render.h", "aureole-render/adaptive.h", "aureole-lighting/view_factors.h", "aureole-lighting/irradiance.h",
+           "aureole-lighting/daylight.h"]
 
 # What the libraries call, which cffi writes as C functions that call Python.
 CALLBACKS = """

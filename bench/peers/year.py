@@ -6,7 +6,7 @@
 
 The room of 6 x 4 x 3 m has a window without glass to the south, and stands on ground that reflects .2; nine sensors. Weather is that of
 scripts/weather.sh unless --epw names a file. Radiance has the sun in the nearest patch and ours has its disk, so that hours with sun
-on a sensor differ: hours are compared over overcast days, metrics over the year. Hourly values agree where the difference is within
+on a sensor differ: hours are compared over overcast days, metrics over the year. Both read the same .wea and take the efficacies of Perez. Hourly values agree where the difference is within
 the 95 % intervals of ours and Radiance's own noise, which two of its runs tell.
 """
 import argparse
@@ -52,7 +52,7 @@ def radiance(m, rays, points):
     """Lux of sensors and hours."""
     shell = lambda text: subprocess.run(["bash", "-c", "set -o pipefail; " + text], check=True, capture_output=True)
     shell(f"rfluxmtx -I+ -y {points} -ab 10 -ad {rays} -lw 1e-6 - sky.rad room.rad <desk.pts >coefficients.mtx")
-    shell(f"epw2wea year.epw year.wea; gendaymtx -m {m} -g .2 .2 .2 -O0 year.wea >sky.smx")
+    shell(f"gendaymtx -m {m} -g .2 .2 .2 -O0 year.wea >sky.smx")
     out = shell("dctimestep coefficients.mtx sky.smx | rmtxop -fa -c 47.4 119.9 11.6 - | getinfo -").stdout
     return np.array(out.decode().split(), float).reshape(points, -1)
 
@@ -72,12 +72,13 @@ def main():
     text = open(given.epw).read() if given.epw else subprocess.run(["bash", weather, "48", "11", "1"], check=True, capture_output=True, text=True).stdout
     os.chdir(tempfile.mkdtemp())
     open("year.epw", "w").write(text)
+    subprocess.run(["epw2wea", "year.epw", "year.wea"], check=True)
     open("room.rad", "w").write(ROOM)
     open("sky.rad", "w").write(SKY.format(m=given.patches))
     points = [(x, y, 0.8) for x in (1.5, 3, 4.5) for y in (0.7, 2, 3.3)]
     open("desk.pts", "w").write("".join(f"{x} {y} {z} 0 0 1\n" for x, y, z in points))
     run = lambda n, patches: subprocess.run(
-        [program, "irradiance", "-q", "room.rad", "--sensors", "desk.pts", "--weather", "year.epw", "--efficacy", "179", "--patches", patches,
+        [program, "irradiance", "-q", "room.rad", "--sensors", "desk.pts", "--weather", "year.wea", "--patches", patches,
          "-n", str(n), "--series", "series.npy", "-o", "year.csv"], check=True)
     (_, ours_cpu) = cpu(lambda: run(given.n, f"reinhart:{given.patches}" if given.patches > 1 else "tregenza"))
     series = np.load("series.npy")

@@ -9,7 +9,7 @@ functions of their arguments and the seed: no bit depends on threads or on the m
 0.096622
 
 `aureole.qmc` has engines for scipy.stats.qmc, `aureole.plot` draws points by matplotlib; both are loaded when they are
-asked for. `render`, `compare`, `viewfactors` and `irradiance` need libaureole-render (see `render_library`).
+asked for. `render`, `compare`, `viewfactors`, `irradiance` and `daylight` need libaureole-render (see `render_library`).
 """
 
 from __future__ import annotations
@@ -66,6 +66,7 @@ from ._weights import (
 )
 
 if TYPE_CHECKING:
+    from ._daylight import Daylight, daylight
     from ._render import (
         Irradiance,
         Scene,
@@ -90,6 +91,7 @@ __all__ = [
     "AureoleWarning",
     "Average",
     "CancelledError",
+    "Daylight",
     "Directions",
     "Error",
     "Estimate",
@@ -118,6 +120,7 @@ __all__ = [
     "WriteError",
     "average",
     "compare",
+    "daylight",
     "estimate",
     "fibonacci_nearest",
     "flip",
@@ -177,7 +180,8 @@ def __getattr__(name: str) -> object:
     if name in ("qmc", "plot"):
         return importlib.import_module(f"{__name__}.{name}")
     if name in __all__:
-        return getattr(importlib.import_module(f"{__name__}._render"), name)
+        module = "_daylight" if name.lower() == "daylight" else "_render"
+        return getattr(importlib.import_module(f"{__name__}.{module}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

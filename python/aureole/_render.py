@@ -140,14 +140,18 @@ class Scene(Rebuilt):
     `definitions`: values for the scene's <default>s. `confine`: no file outside of the scene's folder is read. `text`: the
     scene itself; `path` is then its name in messages, and where its files are looked for. `model_light`: whether a
     studio's light is added to a model: "auto" where it has no light source but emitting surfaces, "always", "none".
+    `further`: more files of the scene, as Radiance has them. `diffuse`: materials of Radiance that are not supported become
+    their diffuse part.
     """
 
     def __init__(
         self, path: Path, *, definitions: Optional[Mapping[str, Any]] = None, confine: bool = False,
-        text: Union[str, bytes, None] = None, model_light: str = "auto",
+        text: Union[str, bytes, None] = None, model_light: str = "auto", further: Sequence[Path] = (), diffuse: bool = False,
     ):  # fmt: skip
         library, texts, made = _library(), Texts(), ffi.new("aur_scene **")
-        options = library.options("scene_options", confine=confine, **texts.definitions(definitions))
+        options = library.options("scene_options", confine=confine, diffuse=diffuse, **texts.definitions(definitions))
+        more = ffi.new("const char *[]", [texts(os.fspath(name)) for name in further] or [ffi.NULL])
+        options.further_count, options.further = len(further), more
         options.model_light = library.value("model_light", model_light)
         with _Call() as call:
             call.attach(options)
@@ -403,7 +407,7 @@ def irradiance(
 ) -> Irradiance:  # fmt: skip
     """The light that arrives at sensors: positions (n, 3) in scene units that look along normals (n, 3).
 
-    `directions` from each sensor, 0: 1024; or `error`: each goes on until half of its interval is at most this part of its
+    `directions` from each sensor, 0: 16384; or `error`: each goes on until half of its interval is at most this part of its
     luminance. `max_depth`: edges of a light path, 1 is light straight from lights and sky, 0: no limit. `reflected`: "paths",
     "map" (a photon map) or "radiosity", with `particles` of these. Without bias at a given number of directions.
     """

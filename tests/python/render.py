@@ -108,6 +108,34 @@ class Render(unittest.TestCase):
         with self.assertRaises(aureole.ArgumentError):
             aureole.irradiance(SCENE, position, np.zeros((2, 3)))
 
+    def test_daylight(self):
+        with open("room.mat", "w") as file:
+            file.write("void plastic grey 0 0 5 .5 .5 .5 0 0\n")
+        with open("room.rad", "w") as file:
+            file.write("grey polygon wall 0 0 12 -3 2 0 3 2 0 3 2 3 -3 2 3\n")
+        with open("year.epw", "w") as file:
+            subprocess.run(["bash", f"{TREE}/scripts/weather.sh"], stdout=file, check=True)
+        positions, normals = [[0, 0, 0.5], [1, 1, 1]], [[0, 0, 1], [0, 1, 0]]
+        np.save("sensors.npy", np.hstack([positions, normals]))
+        scene = aureole.Scene("room.mat", further=["room.rad"])
+        night = np.array([float(hour % 24 >= 20 or hour % 24 < 6) for hour in range(8760)])
+        for schedule in [(20, 6), night]:
+            program("irradiance", "room.mat", "room.rad", "--sensors", "sensors.npy", "--weather", "year.epw", "-n", "64",
+                    "--schedule", "20-6", "--threshold", "50", "--series", "series.npy", "-o", "year.npy")  # fmt: skip
+            found = aureole.daylight(scene, positions, normals, "year.epw", directions=64, threshold=50, schedule=schedule)
+            self.assertTrue((np.stack([found.hours, found.hours_error], 1) == np.load("series.npy")).all())
+            names = list(found._fields[:8])
+            columns = [column for name in names for column in (getattr(found, name), found.error[name])]
+            self.assertTrue((np.stack(columns, 1) == np.load("year.npy")[:, 3:]).all())
+        watts = aureole.daylight(scene, positions, normals, "year.epw", directions=64, efficacy="none")
+        self.assertLess(watts.annual[0] * 90, found.annual[0])
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.daylight(scene, positions, normals, "year.epw", schedule=night[:24])
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.daylight(scene, positions, normals, "year.epw", efficacy="lux")
+        with self.assertRaises(aureole.OpenError):
+            aureole.daylight(scene, positions, normals, "none.epw")
+
     def test_view_factors(self):
         program("viewfactors", SCENE, "--group", "--rays", "256", "-o", "factors.npz")
         expected = np.load("factors.npz")
