@@ -113,6 +113,8 @@ t = "marques-2018-gains"
 gain = {f: cell(t, "{mean} +- {spread}", set="sobol", figure=f"OSW {f}") for f in ("diffuse", "glossy")}
 line(page, f"agrees: {gain['diffuse']} and {gain['glossy']} %")
 line(page, f"1.03: {value(t, 'mean', set='sobol', figure='OSWA against OSW')} and {value(t, 'mean', set='sobol', figure='OSWA against QMC')} %")
+more = {k: [value(t, "mean", set=k, figure=f"OSW {f}") for f in ("diffuse", "glossy")] for k in ("pmj02", "cascaded")}
+line(page, "{} to {} % (pmj02), {} to {} % (cascaded Sobol".format(*more["pmj02"], *more["cascaded"]))
 t = "marques-2018-fig7"
 slope = {q: value(t, "measured", quantity=f"slope, {q}") for q in ("random QMC", "random MIS", "random OSW", "random OSWA", "sobol QMC", "sobol OSW")}
 line(page, f"agrees ({slope['random QMC']}, {slope['random MIS']}); steeper than published ({slope['random OSW']}, {slope['random OSWA']})")

@@ -119,8 +119,9 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (result == AUR_OK)
         result = lab_lobe_potential(20.0, 1.5, &glossy, error);
     const aur_potential *const potentials[] = {diffuse, glossy};
-    const char *const sets[] = {"sobol", "random", "spherical-fibonacci", lab_run_options(run)->set};
-    for (size_t i = 0; i < 4 && result == AUR_OK; ++i)
+    const char *const sets[] = {"sobol", "random",   "spherical-fibonacci",
+                                "pmj02", "cascaded", lab_run_options(run)->set};
+    for (size_t i = 0; i < sizeof sets / sizeof sets[0] && result == AUR_OK; ++i)
         if (sets[i] != NULL)
             result = lab_forgive(run, sets[i], study_set(run, sets[i], potentials, error), error);
     aur_potential_destroy(diffuse);

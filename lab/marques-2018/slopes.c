@@ -66,10 +66,17 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (room == NULL)
         return AUR_ERROR_MEMORY;
     aur_result result = AUR_OK;
-    const char *const sets[] = {"random", "sobol", "spherical-fibonacci", lab_run_options(run)->set};
+    const bool quick = lab_run_options(run)->quick;
+    const char *const sets[] = {"random",
+                                "sobol",
+                                "spherical-fibonacci",
+                                "pmj02",
+                                "cascaded",
+                                quick ? NULL : "sliced",
+                                lab_run_options(run)->set};
     const double exponents[] = {1.0, 20.0};
     for (size_t e = 0; e < 2; ++e)
-        for (size_t i = 0; i < 4 && result == AUR_OK; ++i)
+        for (size_t i = 0; i < sizeof sets / sizeof sets[0] && result == AUR_OK; ++i)
             if (sets[i] != NULL)
                 result = lab_forgive(run, sets[i], study(run, sets[i], exponents[e], room, error), error);
     free(room);
@@ -101,7 +108,7 @@ const lab_experiment lab_marques_2018_slopes = {
     .reproduces = "none: worst-case errors; fig. 7 is of pictures",
     .summary = "worst-case error against N: random samples gain a rate, nets a constant",
     .columns = columns,
-    .seconds = 2,
+    .seconds = 30,
     .quick_seconds = 0.5,
     .plots = plots,
     .run = run,
