@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Draws every set that the program lists, and writes the page that shows them side by side, up to its second part:
+# Draws every set that the program lists, and writes the page that shows them side by side:
 #   scripts/draw_sets.sh [PROGRAM [FOLDER]]        (build/release/aureole, docs)
 set -eu
 cd "$(dirname "$0")/.."
@@ -100,6 +100,5 @@ LOBES
     "| $(draw lobe-phong.svg spherical-fibonacci -n $n --lobe phong:20)" \
     "| $(draw lobe-optimal.svg spherical-fibonacci -n $n --lobe phong:20 --density optimal)" \
     "| $(draw lobe-ggx.svg spherical-fibonacci -n $n --lobe ggx:0.3:60) |"
-  [ ! -e "$page" ] || sed -n '/^## Beside other packages/,$p' "$page" | sed '1i\\'
 } > "$page.new"
 mv "$page.new" "$page"

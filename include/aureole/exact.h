@@ -99,7 +99,7 @@ AUR_API aur_result aur_weights_exact(size_t count, const double *points, const a
  * of which the last may be less than all. weights[level_count * count] are those of the first level first, 0
  * for points behind it, so that one function value a point gives an integral for every level, and the
  * differences of neighbours estimate the error: of the lower of the two for smooth functions, of either for
- * rough ones (docs/choosing.md has how often they hold). Made for the levels of extensible grids (esfg) and
+ * rough ones. Made for the levels of extensible grids (esfg) and
  * for prefixes of sequences. `reports`, unless NULL, has room for level_count; `near` of the options is of
  * all points. Errors: as aur_weights_exact, with the level; ARGUMENT for counts that do not ascend from 1. */
 AUR_API aur_result aur_weights_nested(size_t count, const double *xyz, size_t level_count,

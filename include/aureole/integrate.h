@@ -8,7 +8,7 @@
 #define AUREOLE_INTEGRATE_H
 
 #include <aureole/estimate.h>
-#include <aureole/sphere.h>
+#include <aureole/symmetry.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -72,6 +72,10 @@ typedef struct aur_integrate_options {
      * elsewhere. */
     const char *set;
     aur_warnings warnings; /* one message for each bit of `doubts`, and where the target was not reached */
+    /* The point group of a smooth function on the whole SPHERE: one direction of each orbit is evaluated, by
+     * rules (aur_symmetric_rule) of 256 points (or `first`) and four times as many until two agree. Error and
+     * interval are the change from the rule before. Without axis, peaks, set and `separate`. */
+    const aur_point_group *group;
 } aur_integrate_options;
 
 /* One percent of the value with 95 % confidence, by 16 randomisations and at most 2^22 evaluations. */
@@ -120,7 +124,7 @@ typedef struct aur_integral {
  * do: by the largest lasting gap between values, and by the largest value where the tail is heavy. At least
  * two levels are compared, and a level with a doubt is not the last. A function of one value alone ends the
  * work after 65536 evaluations.
- * docs/choosing.md has the measured coverage.
+ * docs/integrals.md has the measured coverage.
  *
  * `results`, unless NULL, has one element for each of the function's values. The integral's size must be
  * set. Errors: ARGUMENT (which option, and the range; a value that is not finite, and where), UNSUPPORTED,

@@ -96,7 +96,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_integrate_coverage = {
     .name = "integrate-coverage",
-    .reproduces = "docs/choosing.md",
+    .reproduces = "docs/integrals.md",
     .summary =
         "how often intervals of integrals to a tolerance hold, and how often a wrong one has no warning",
     .rows = "function",

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any, Callable, Literal, NamedTuple, Optional, Sequence
 
 import numpy as np
 
 from ._bridge import ArgumentError, IntegrationWarning, Progress, Seed, UnsupportedError, encode, vector
 from ._core import CoreCall, core, ffi, lib
-from ._points import Array
+from ._points import Array, parse_symmetry
 
 
 Domain = Literal[
@@ -170,29 +169,6 @@ def _symmetric(f: Callable[..., Any], n: int, symmetry: str) -> tuple[Any, int, 
     return np.tensordot(weights, made, 1)[()], len(xyz), bool((made == made[0]).all())
 
 
-def _integrate_symmetric(
-    f: Callable[..., Any], symmetry: str, tol: float, absolute: float, scale: float, first: int, evaluations: int
-) -> Integral:
-    """Rules of four times the points, and so of twice the degree, until their values agree."""
-    value, change, used, levels, n = 0.0, np.inf, 0, 0, max(first, 256)
-    while True:
-        before = value
-        mean, points, equal = _symmetric(f, n, symmetry)
-        value, used, levels, n = scale * mean, used + points, levels + 1, 4 * n
-        change = np.abs(value - before).max() if levels > 1 and not equal else np.inf
-        converged = bool(change <= max(absolute, tol * np.abs(value).max()))
-        if converged or used + n > evaluations or equal and used >= 65536:
-            break
-    if not converged:
-        message = f"the target was not reached: the error is {change:.3g} after {used} evaluations"
-        warnings.warn("all values of the function are equal" if equal else message, IntegrationWarning, stacklevel=3)
-    reason = "tolerance" if converged else "constant" if equal and used >= 65536 else "evaluations"
-    interval = np.full(np.shape(value), change)[()]
-    return Integral(
-        value, float(change), interval, float(change), used, levels, converged, reason, ("all equal",) * equal, 3 / used
-    )
-
-
 def integrate(
     f: Callable[..., Any], tol: float = 0.01, *, absolute: float = 0.0, domain: Domain = "sphere",
     dimension: int = 0, cap: float = 0.0, exponent: float = 0.0, axis: Optional[tuple[float, float]] = None,
@@ -236,14 +212,11 @@ def integrate(
     array([1.+0.j  , 0.+0.64j])
     """
     most = evaluations if max_points is None else max_points
-    if symmetry is not None:
-        if domain != "sphere" or cap or axis is not None or len(peaks) or separate or not max(tol, absolute) > 0:
-            raise UnsupportedError("a symmetry is for the whole sphere without peaks, with a tolerance above 0")
-        return _integrate_symmetric(f, symmetry, tol, absolute, 1.0 if mean else 4 * np.pi, first, most)
+    group = ffi.NULL if symmetry is None else parse_symmetry(symmetry, domain if domain == "sphere" else "cube")[0]
     integrand, integral, results = _integrate(
         f, domain, dimension, axis, peaks, progress, None, cap_degrees=cap, exponent=exponent, relative=tol,
         absolute=absolute, confidence=confidence, replicates=replicates, first=first, seed=seed, separate=separate,
-        mean=mean, evaluations=most,
+        mean=mean, evaluations=most, group=group,
     )  # fmt: skip
     return Integral(
         integrand.shaped(results[:, 0]), integral.error, integrand.widths(results[:, 2]), integral.difference,

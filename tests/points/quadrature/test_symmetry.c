@@ -1,6 +1,6 @@
 /* Point groups: their orders, closure and bad names; rules of one point per orbit: means of functions with
  * the group's symmetry, and the form factor of a box. */
-#include <aureole/symmetry.h>
+#include <aureole/integrate.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -124,8 +124,54 @@ static void test_prism(void **state) {
     assert_relative(found, exact, 2e-14);
 }
 
+/* exp(a.u) made symmetric, and 1 as a second value: the integrals are 4 pi sinh|a|/|a| and 4 pi. */
+static aur_result symmetric_values(void *user, size_t count, const double *points, const double *along,
+                                   double *values, aur_error *failure) {
+    (void)along, (void)failure;
+    size_t *const evaluations = user;
+    *evaluations += count;
+    for (size_t i = 0; i < count; ++i) {
+        values[2 * i] = symmetrised(points + 3 * i);
+        values[2 * i + 1] = 1.0;
+    }
+    return AUR_OK;
+}
+
+static void test_integrals(void **state) {
+    (void)state;
+    aur_error error;
+    assert_int_equal(aur_point_group_from_name("Oh", &group, &error), AUR_OK);
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_SPHERE, &options, NULL);
+    options.group = &group;
+    options.relative = 1e-12;
+    options.values = 2;
+    aur_integral found = {.size = sizeof found};
+    aur_estimated results[2];
+    size_t evaluations = 0;
+    assert_int_equal(aur_integrate_values(symmetric_values, &evaluations, &options, results, &found, &error),
+                     AUR_OK);
+    const double length = sqrt(1.1 * 1.1 + 0.7 * 0.7 + 2.0 * 2.0), mean = sinh(length) / length;
+    assert_near(results[0].value, 4.0 * AUR_PI * mean, 1e-11 * mean);
+    assert_near(results[1].value, 4.0 * AUR_PI, 1e-12);
+    assert_true(found.reason == AUR_INTEGRATE_TOLERANCE && found.levels == 2 && found.doubts == 0);
+    assert_int_equal(found.evaluations, evaluations);
+    options.mean = true;
+    assert_int_equal(aur_integrate_values(symmetric_values, &evaluations, &options, results, &found, &error),
+                     AUR_OK);
+    assert_near(found.value, mean, 1e-12 * mean);
+    options.separate = true;
+    assert_int_equal(aur_integrate_values(symmetric_values, &evaluations, &options, results, &found, &error),
+                     AUR_ERROR_UNSUPPORTED);
+    options.separate = false;
+    options.domain = AUR_DOMAIN_HEMISPHERE;
+    assert_int_equal(aur_integrate_values(symmetric_values, &evaluations, &options, results, &found, &error),
+                     AUR_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.message, "whole sphere"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_groups), cmocka_unit_test(test_rules),
-                                       cmocka_unit_test(test_prism)};
+                                       cmocka_unit_test(test_prism), cmocka_unit_test(test_integrals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

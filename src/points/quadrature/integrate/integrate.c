@@ -10,12 +10,25 @@
 #include "points/base/error.h"
 #include "points/base/parallel.h"
 #include "points/quadrature/integrate/evidence.h"
-#include "points/quadrature/integrate/replicates.h"
 #include "points/quadrature/integrate/shape.h"
+#include "points/quadrature/integrate/values.h"
 
 /* Evaluations of the first level and the fewest of a result, unless the caller says how many; those that make
  * a constant function believed; numbers that are stored at most, 1 GiB. */
 static const uint64_t FIRST = 2048, FEWEST = 8192, CONSTANT = 65536, STORED = UINT64_C(1) << 27;
+
+static aur_result check_orbits(const aur_integrate_options *o, aur_error *error) {
+    const bool whole = o->region == AUR_REGION_DOMAIN && o->domain == AUR_DOMAIN_SPHERE &&
+                       (o->cap_degrees == 0.0 || o->cap_degrees == 180.0);
+    if (!whole || o->has_axis || o->peak_count > 0 || o->set != NULL || o->separate ||
+        !(o->absolute + o->relative > 0.0))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "a symmetry is for the whole sphere without peaks, with a tolerance above 0");
+    if (o->group->order < 1 || o->group->order > AUR_POINT_GROUP_ORDER_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a point group has between 1 and %d elements, not %zu",
+                        AUR_POINT_GROUP_ORDER_MAX, o->group->order);
+    return AUR_OK;
+}
 
 static aur_result check(const aur_integrate_options *o, aur_error *error) {
     const aur_result result = aur_shape_check(o, error);
@@ -38,6 +51,8 @@ static aur_result check(const aur_integrate_options *o, aur_error *error) {
     if (o->values > AUR_INTEGRATE_VALUES_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the function must have 1 to %d values, not %zu",
                         AUR_INTEGRATE_VALUES_MAX, o->values);
+    if (o->group != NULL)
+        return check_orbits(o, error);
     const uint64_t least = o->first > 0 ? o->first : 2;
     if (o->evaluations / o->replicates < least)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -49,135 +64,13 @@ static aur_result check(const aur_integrate_options *o, aur_error *error) {
     return AUR_OK;
 }
 
-/* One part of the domain: the values of all replicates so far. */
-typedef struct stratum {
-    aur_replicates *replicates;
-    double scale;                       /* its measure over that of a mean */
-    size_t count;                       /* points of a replicate that have values */
-    size_t next;                        /* of the next level */
-    size_t capacity;                    /* of each array below, in points */
-    double *values[AUR_REPLICATES_MAX]; /* NaN: the point is not of this stratum */
-    double *weights;                    /* of the points, for all replicates */
-} stratum;
-
-typedef struct integration {
-    aur_integrate_options options;
-    aur_integrand function;
-    void *user;
-    size_t values, strata;
-    size_t most; /* points of a replicate */
-    stratum *parts;
-    double *results, *scratch; /* of one call: points, along, factors, values; of evidence */
-    size_t scratch_capacity;
-    double *means;  /* of one value: strata * replicates */
-    double *shares; /* strata: of the variance of the mean */
-    aur_estimated *found;
-    double *before;         /* values of the level before */
-    double (*variances)[3]; /* of each value: the mean's, on this level and the two before */
-    double quantile;        /* Student's, of the half width in standard errors */
-    bool *all_equal;        /* of each value: those of all points */
-    aur_integral integral;
-} integration;
-
-/* --- values */
-
-static aur_result check_values(const integration *work, size_t count, const double *points,
-                               const double *values, aur_error *error) {
-    for (size_t i = 0; i < count * work->values; ++i)
-        if (!isfinite(values[i])) {
-            char place[128];
-            size_t length = 0;
-            const size_t coordinates = aur_integrate_coordinates(&work->options);
-            for (size_t d = 0; d < coordinates && d < 4; ++d)
-                length += (size_t)snprintf(place + length, sizeof place - length, "%s%.17g",
-                                           d > 0 ? ", " : "", points[i / work->values * coordinates + d]);
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "the function is %g %s (%s%s)", values[i],
-                            aur_shape_is_directions(&work->options) ? "in the direction" : "at the point",
-                            place, coordinates > 4 ? ", ..." : "");
-        }
-    return AUR_OK;
-}
-
-/* Values of one call's points of a stratum, without those that are none of it. */
-static aur_result evaluate_call(integration *work, const stratum *part, size_t replicate, size_t first,
-                                size_t count, aur_error *error) {
-    const aur_integrate_options *const o = &work->options;
-    const size_t coordinates = aur_integrate_coordinates(o), values = work->values;
-    double *const points = work->results, *const along = points + AUR_INTEGRAND_POINTS * coordinates;
-    double *const factors = along + AUR_INTEGRAND_POINTS, *const made = factors + AUR_INTEGRAND_POINTS;
-    double *const out = part->values[replicate] + first * values;
-    aur_result result =
-        aur_replicates_points(part->replicates, replicate, first, count, points, along, factors, error);
-    size_t inside = 0;
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        if (factors[i] != 0.0) {
-            memmove(points + coordinates * inside, points + coordinates * i, coordinates * sizeof *points);
-            along[inside++] = along[i];
-        }
-    if (result == AUR_OK && inside > 0)
-        result = work->function(work->user, inside, points, o->has_axis ? along : NULL, made, error);
-    if (result == AUR_OK)
-        result = check_values(work, inside, points, made, error);
-    work->integral.evaluations += inside;
-    for (size_t i = count; i > 0 && result == AUR_OK; --i) {
-        const double factor = factors[i - 1];
-        inside -= factor != 0.0;
-        for (size_t v = 0; v < values; ++v)
-            out[(i - 1) * values + v] = factor != 0.0 ? factor * made[inside * values + v] : (double)NAN;
-    }
-    return result;
-}
-
-static aur_result reserve(const integration *work, stratum *part, size_t count, aur_error *error) {
-    if (count <= part->capacity)
-        return AUR_OK;
-    for (size_t r = 0; r < work->options.replicates; ++r) {
-        size_t bytes;
-        double *grown = NULL;
-        if (aur_size_product(count, work->values * sizeof *grown, &bytes))
-            grown = realloc(part->values[r], bytes);
-        if (grown == NULL)
-            return aur_fail_memory(error);
-        part->values[r] = grown;
-    }
-    double *const weights = realloc(part->weights, count * sizeof *weights);
-    if (weights == NULL)
-        return aur_fail_memory(error);
-    part->weights = weights;
-    part->capacity = count;
-    return AUR_OK;
-}
-
-/* Brings a stratum to the points of the next level. */
-static aur_result evaluate(integration *work, stratum *part, aur_error *error) {
-    const aur_integrate_options *const o = &work->options;
-    const size_t count = part->next;
-    if (count == part->count)
-        return AUR_OK;
-    aur_result result = reserve(work, part, count, error);
-    for (size_t r = 0; r < o->replicates && result == AUR_OK; ++r) {
-        for (size_t at = part->count; at < count && result == AUR_OK; at += AUR_INTEGRAND_POINTS) {
-            const size_t rest = count - at;
-            result = evaluate_call(work, part, r, at,
-                                   rest < AUR_INTEGRAND_POINTS ? rest : AUR_INTEGRAND_POINTS, error);
-        }
-        if (result == AUR_OK &&
-            aur_progress_stops(&o->progress, "integrating", work->integral.evaluations, o->evaluations))
-            result = aur_fail(error, AUR_ERROR_CANCELLED, "integrating: cancelled");
-    }
-    if (result == AUR_OK)
-        result = aur_replicates_weights(part->replicates, count, part->weights, error);
-    part->count = count;
-    return result;
-}
-
 /* --- intervals */
 
 /* The means of one value over each stratum and replicate, times the measures. */
-static void add_up(const integration *work, size_t value) {
+static void add_up(const aur_integration *work, size_t value) {
     const size_t replicates = work->options.replicates;
     for (size_t s = 0; s < work->strata; ++s) {
-        const stratum *const part = &work->parts[s];
+        const aur_stratum *const part = &work->parts[s];
         for (size_t r = 0; r < replicates; ++r) {
             const double *const values = part->values[r] + value;
             double sum = 0.0;
@@ -191,7 +84,7 @@ static void add_up(const integration *work, size_t value) {
 }
 
 /* Over the replicates, of one stratum or of all. */
-static aur_moments moments_of(const integration *work, size_t only) {
+static aur_moments moments_of(const aur_integration *work, size_t only) {
     const size_t replicates = work->options.replicates;
     aur_moments moments = {0};
     for (size_t r = 0; r < replicates; ++r) {
@@ -213,7 +106,7 @@ static double pooled(const double variance[3], size_t levels) {
 }
 
 /* A value and its interval over the replicates alone; adds the strata's variances to their shares. */
-static void judge_replicates(integration *work, size_t value) {
+static void judge_replicates(aur_integration *work, size_t value) {
     add_up(work, value);
     const aur_moments all = moments_of(work, work->strata);
     double *const variance = work->variances[value];
@@ -228,7 +121,7 @@ static void judge_replicates(integration *work, size_t value) {
 
 /* The values of one stratum, a quarter that is a set by itself first, for `evidence`; how many are of it. The
  * quarter is that of two levels ago; of sets without levels, which may go along z, every fourth point. */
-static size_t gather(const integration *work, const stratum *part, size_t value, size_t *older) {
+static size_t gather(const aur_integration *work, const aur_stratum *part, size_t value, size_t *older) {
     const bool levels = work->options.set == NULL;
     size_t count = 0;
     for (size_t round = 0; round < 2; ++round) {
@@ -248,8 +141,8 @@ static size_t gather(const integration *work, const stratum *part, size_t value,
  * count, the probability phi that one holds one more is, at alpha/2, below 1 - (alpha/2)^(1/R), about
  * ln(2/alpha)/R: the mean is uncertain by ln(2/alpha) jump/(R n), which the half width is made to contain.
  */
-static void widen(integration *work, size_t value, size_t s, const aur_evidence *evidence) {
-    const stratum *const part = &work->parts[s];
+static void widen(aur_integration *work, size_t value, size_t s, const aur_evidence *evidence) {
+    const aur_stratum *const part = &work->parts[s];
     const double alpha = 1.0 - work->options.confidence;
     const double points = (double)(work->options.replicates * part->count);
     const double rounding = 8.0 * DBL_EPSILON * part->scale * evidence->magnitude;
@@ -267,7 +160,7 @@ typedef struct doubts {
 } doubts;
 
 /* The error that one value of the level may have. */
-static double target_of(const integration *work, size_t value) {
+static double target_of(const aur_integration *work, size_t value) {
     const aur_integrate_options *const o = &work->options;
     double largest = fabs(work->found[value].value);
     for (size_t v = 0; v < work->values && !o->separate; ++v)
@@ -278,8 +171,8 @@ static double target_of(const integration *work, size_t value) {
 /* The doubts of one stratum. Beside peaks that were declared, where the function is small, they do not count:
  * where the share of the domain that may be unseen, with a hundred times the largest value, does not matter.
  */
-static unsigned bits_of(const integration *work, size_t value, size_t s, const aur_evidence *evidence) {
-    const stratum *const part = &work->parts[s];
+static unsigned bits_of(const aur_integration *work, size_t value, size_t s, const aur_evidence *evidence) {
+    const aur_stratum *const part = &work->parts[s];
     const double unseen = 3.0 / (double)(part->count * work->options.replicates);
     if (work->strata > 1 && 100.0 * unseen * part->scale * evidence->largest < 0.1 * target_of(work, value))
         return 0U;
@@ -288,7 +181,7 @@ static unsigned bits_of(const integration *work, size_t value, size_t s, const a
            (evidence->heavy_tail ? AUR_INTEGRATE_HEAVY_TAIL : 0U);
 }
 
-static void judge_all_replicates(integration *work) {
+static void judge_all_replicates(aur_integration *work) {
     for (size_t s = 0; s < work->strata; ++s)
         work->shares[s] = 0.0;
     for (size_t v = 0; v < work->values; ++v)
@@ -296,7 +189,7 @@ static void judge_all_replicates(integration *work) {
 }
 
 /* The same intervals by all evidence. */
-static aur_result judge_values(integration *work, doubts *doubt, aur_error *error) {
+static aur_result judge_values(aur_integration *work, doubts *doubt, aur_error *error) {
     size_t most = 0;
     for (size_t s = 0; s < work->strata; ++s)
         most = work->parts[s].count > most ? work->parts[s].count : most;
@@ -327,7 +220,7 @@ static aur_result judge_values(integration *work, doubts *doubt, aur_error *erro
 }
 
 /* The errors of the level, compared with the target. */
-static bool compare(integration *work) {
+static bool compare(aur_integration *work) {
     aur_integral *const integral = &work->integral;
     bool met = true;
     const double joint = target_of(work, 0);
@@ -349,13 +242,13 @@ static bool compare(integration *work) {
 /* --- levels */
 
 /* Doubles the strata that matter. False: it would take more evaluations than allowed. */
-static bool choose(integration *work) {
+static bool choose(aur_integration *work) {
     double largest = 0.0;
     uint64_t evaluations = 0, stored = 0;
     for (size_t s = 0; s < work->strata; ++s)
         largest = fmax(largest, work->shares[s]);
     for (size_t s = 0; s < work->strata; ++s) {
-        stratum *const part = &work->parts[s];
+        aur_stratum *const part = &work->parts[s];
         part->next = work->shares[s] >= 0.125 * largest ? 2 * part->count : part->count;
         evaluations += (uint64_t)part->next * work->options.replicates;
         stored += (uint64_t)part->next * (work->options.replicates * work->values + 1);
@@ -366,7 +259,7 @@ static bool choose(integration *work) {
 }
 
 /* All values were equal: nothing is known of what differs from them. */
-static void judge_constant(integration *work) {
+static void judge_constant(aur_integration *work) {
     aur_integral *const integral = &work->integral;
     integral->doubts |= AUR_INTEGRATE_ALL_EQUAL;
     if (integral->evaluations >= CONSTANT)
@@ -379,7 +272,7 @@ static void judge_constant(integration *work) {
 }
 
 /* Whether the level is the last. */
-static aur_result judge_level(integration *work, bool *last, aur_error *error) {
+static aur_result judge_level(aur_integration *work, bool *last, aur_error *error) {
     const aur_integrate_options *const o = &work->options;
     aur_integral *const integral = &work->integral;
     const bool to_target = o->absolute + o->relative > 0.0;
@@ -403,11 +296,11 @@ static aur_result judge_level(integration *work, bool *last, aur_error *error) {
     return AUR_OK;
 }
 
-static aur_result integrate(integration *work, aur_error *error) {
+static aur_result integrate(aur_integration *work, aur_error *error) {
     for (bool last = false; !last;) {
         aur_result result = AUR_OK;
         for (size_t s = 0; s < work->strata && result == AUR_OK; ++s)
-            result = evaluate(work, &work->parts[s], error);
+            result = aur_integration_evaluate(work, &work->parts[s], error);
         if (result == AUR_OK)
             result = judge_level(work, &last, error);
         if (result != AUR_OK)
@@ -418,12 +311,12 @@ static aur_result integrate(integration *work, aur_error *error) {
             memmove(work->variances[v] + 1, work->variances[v], 2 * sizeof **work->variances);
         }
     }
-    const stratum *const rest = &work->parts[work->options.peak_count];
+    const aur_stratum *const rest = &work->parts[work->options.peak_count];
     work->integral.resolution = 3.0 / (double)(rest->count * work->options.replicates);
     return AUR_OK;
 }
 
-static void warn(const integration *work) {
+static void warn(const aur_integration *work) {
     static const char *const words[] = {
         "all values of the function are equal: features smaller than a share of %.2g of the domain may not "
         "have been seen (peaks with points of their own and more evaluations help)",
@@ -454,7 +347,7 @@ static size_t power_of_two(uint64_t least) {
 }
 
 /* Points of the rest of the domain on the first level. */
-static size_t first_points(const integration *work) {
+static size_t first_points(const aur_integration *work) {
     const aur_integrate_options *const o = &work->options;
     if (o->set != NULL)
         return o->first;
@@ -467,7 +360,7 @@ static size_t first_points(const integration *work) {
     return first;
 }
 
-static aur_result open_strata(integration *work, aur_error *error) {
+static aur_result open_strata(aur_integration *work, aur_error *error) {
     const aur_integrate_options *const o = &work->options;
     const size_t first = first_points(work), least = first < 16 ? first : 16;
     const uint64_t share = o->evaluations / o->replicates;
@@ -475,7 +368,7 @@ static aur_result open_strata(integration *work, aur_error *error) {
     uint64_t points = 0;
     aur_result result = AUR_OK;
     for (size_t s = 0; s < work->strata && result == AUR_OK; ++s) {
-        stratum *const part = &work->parts[s];
+        aur_stratum *const part = &work->parts[s];
         const size_t of_peak = power_of_two(first / work->strata);
         part->next = s == o->peak_count ? first : of_peak > least ? of_peak : least;
         points += (uint64_t)part->next * o->replicates;
@@ -493,7 +386,7 @@ static aur_result open_strata(integration *work, aur_error *error) {
     return result;
 }
 
-static aur_result open(integration *work, aur_error *error) {
+static aur_result open(aur_integration *work, aur_error *error) {
     const aur_integrate_options *const o = &work->options;
     const size_t coordinates = aur_integrate_coordinates(o);
     work->values = o->values > 0 ? o->values : 1;
@@ -513,7 +406,7 @@ static aur_result open(integration *work, aur_error *error) {
     return open_strata(work, error);
 }
 
-static void release(integration *work) {
+static void release(aur_integration *work) {
     for (size_t s = 0; s < work->strata && work->parts != NULL; ++s) {
         aur_replicates_destroy(work->parts[s].replicates);
         for (size_t r = 0; r < AUR_REPLICATES_MAX; ++r)
@@ -532,18 +425,26 @@ static void release(integration *work) {
 
 aur_result aur_integrate_values(aur_integrand function, void *user, const aur_integrate_options *options,
                                 aur_estimated *results, aur_integral *integral, aur_error *error) {
-    integration work = {.options = {.size = sizeof work.options},
-                        .function = function,
-                        .user = user,
-                        .integral = {.size = sizeof work.integral}};
+    aur_integration work = {.options = {.size = sizeof work.options},
+                            .function = function,
+                            .user = user,
+                            .integral = {.size = sizeof work.integral}};
     aur_integrate_options_init(AUR_DOMAIN_SPHERE, &work.options, NULL);
     aur_result result =
         aur_options_read(options, sizeof work.options, &work.options, "aur_integrate_options", error);
     if (result == AUR_OK)
         result = check(&work.options, error);
-    if (result == AUR_OK)
+    const bool orbits = result == AUR_OK && work.options.group != NULL;
+    if (orbits) {
+        work.values = work.options.values > 0 ? work.options.values : 1;
+        work.found = malloc(work.values * sizeof *work.found);
+        result = work.found != NULL
+                     ? aur_integrate_orbits(function, user, &work.options, work.found, &work.integral, error)
+                     : aur_fail_memory(error);
+    } else if (result == AUR_OK) {
         result = open(&work, error);
-    if (result == AUR_OK)
+    }
+    if (result == AUR_OK && !orbits)
         result = integrate(&work, error);
     if (result == AUR_OK)
         result = aur_description_write(&work.integral, sizeof work.integral, integral, "aur_integral", error);

@@ -1,0 +1,49 @@
+/* The values of a function at the points of all strata and replicates. */
+#pragma once
+
+#include <aureole/integrate.h>
+
+#include "points/quadrature/integrate/replicates.h"
+
+/* One part of the domain: the values of all replicates so far. */
+typedef struct aur_stratum {
+    aur_replicates *replicates;
+    double scale;                       /* its measure over that of a mean */
+    size_t count;                       /* points of a replicate that have values */
+    size_t next;                        /* of the next level */
+    size_t capacity;                    /* of each array below, in points */
+    double *values[AUR_REPLICATES_MAX]; /* NaN: the point is not of this aur_stratum */
+    double *weights;                    /* of the points, for all replicates */
+} aur_stratum;
+
+typedef struct aur_integration {
+    aur_integrate_options options;
+    aur_integrand function;
+    void *user;
+    size_t values, strata;
+    size_t most; /* points of a replicate */
+    aur_stratum *parts;
+    double *results, *scratch; /* of one call: points, along, factors, values; of evidence */
+    size_t scratch_capacity;
+    double *means;  /* of one value: strata * replicates */
+    double *shares; /* strata: of the variance of the mean */
+    aur_estimated *found;
+    double *before;         /* values of the level before */
+    double (*variances)[3]; /* of each value: the mean's, on this level and the two before */
+    double quantile;        /* Student's, of the half width in standard errors */
+    bool *all_equal;        /* of each value: those of all points */
+    aur_integral integral;
+} aur_integration;
+
+/* Values at points, of which there are `width` each. Errors: ARGUMENT for one that is not finite, and where.
+ */
+aur_result aur_integrand_check(const aur_integrate_options *options, size_t width, size_t count,
+                               const double *points, const double *values, aur_error *error);
+
+/* Brings a stratum to the points of the next level. Errors: those of the function, MEMORY, CANCELLED. */
+aur_result aur_integration_evaluate(aur_integration *work, aur_stratum *part, aur_error *error);
+
+/* By rules of one point per orbit of the options' group, whose degree doubles until two agree: fills
+ * found[values] and the integral. Errors: also those of aur_symmetric_rule. */
+aur_result aur_integrate_orbits(aur_integrand function, void *user, const aur_integrate_options *options,
+                                aur_estimated *found, aur_integral *integral, aur_error *error);
