@@ -60,7 +60,8 @@ def has_box(scene):
 
 
 def has_moments(scene):
-    return (has_box(scene) and scene.sensors()[0].sampler().class_name() == "IndependentSampler" and
+    """Mitsuba's `moment` leaves out the weight of an irradiance meter's rays."""
+    return (has_box(scene) and scene.sensors()[0].class_name() != "IrradianceMeter" and scene.sensors()[0].sampler().class_name() == "IndependentSampler" and
             scene.integrator().class_name() in ("PathIntegrator", "VolumetricPathIntegrator",
                                                "VolpathMisIntegratorImpl"))
 

@@ -122,8 +122,8 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
 
 /* The side of the cells by which pixels share samples; 0 where they share none. */
 static size_t cell_of(const aur_render *render, const aur_filter *filter) {
-    if (render->integrator->pixel_centre || aur_camera_factor(render->renderer->scene) != 1.0f ||
-        !aur_filter_shares_samples(filter))
+    if (render->integrator->pixel_centre || render->integrator->descriptor->round != NULL ||
+        aur_camera_factor(render->renderer->scene) != 1.0f || !aur_filter_shares_samples(filter))
         return 0;
     return render->integrator->whole_tiles || render->settings.samples_per_pixel < AUR_SAMPLES_PER_PIXEL_MAX
                ? AUR_TILE_SIZE
@@ -170,7 +170,8 @@ static aur_result prepare(aur_render *render, aur_error *error) {
     if (result != AUR_OK)
         return result;
     const float factor = aur_camera_factor(scene);
-    const bool is_box = render->film->spread != NULL || factor != 1.0f;
+    const bool is_box =
+        render->film->spread != NULL || factor != 1.0f || render->integrator->descriptor->round != NULL;
     render->view = (aur_view){.scene = scene,
                               .factor = factor,
                               .sampler = render->sampler,
@@ -365,6 +366,38 @@ static int ask_to_stop(void *user, const char *what, uint64_t done, uint64_t tot
     return progress->function != NULL ? progress->function(progress->user, what, done, total) : 0;
 }
 
+/* Sample by sample of the whole image, where light paths end anywhere in it. All pixels get as many as the
+ * one that is to have most. */
+static aur_result do_rounds(render_work *work, const aur_parallel_options *parallel, aur_error *error) {
+    aur_render *const render = work->render;
+    const size_t done = aur_render_samples(render);
+    size_t end = work->targets.all;
+    for (size_t i = 0; work->targets.pixels != NULL && i < aur_film_pixel_count(render->film); ++i)
+        end = work->targets.pixels[i] > end ? work->targets.pixels[i] : end;
+    aur_progress_span span = {.whole = parallel->progress};
+    aur_parallel_options inner = *parallel, tiles = *parallel;
+    inner.progress = aur_progress_within(&span);
+    tiles.progress = (aur_progress){NULL, NULL};
+    aur_result result = AUR_OK;
+    for (size_t i = done; i < end && result == AUR_OK; ++i) {
+        aur_counters counters = {0};
+        const uint64_t before = aur_rays_traced;
+        span.from = (double)(i - done) / (double)(end - done);
+        span.to = (double)(i + 1 - done) / (double)(end - done);
+        work->targets = (aur_film_targets){.all = (uint32_t)i + 1};
+        result = render->integrator->descriptor->round(render->integrator, &render->view,
+                                                       &render->film->layout.filter, (uint32_t)i, &inner,
+                                                       &counters, error);
+        if (result == AUR_OK)
+            result = aur_parallel_for(&tiles, render->film->tile_count, render_tile, work, error);
+        counters.rays = aur_rays_traced - before;
+        pthread_mutex_lock(render->film->lock);
+        aur_counters_add(&render->film->counters, &counters);
+        pthread_mutex_unlock(render->film->lock);
+    }
+    return result;
+}
+
 static aur_result do_work(aur_render *render, render_work *work, aur_error *error) {
     if (render->broken != AUR_OK)
         return aur_fail(error, render->broken, "rendering: an earlier step failed: %s",
@@ -382,7 +415,10 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
                                            .progress = {.function = ask_to_stop, .user = render},
                                            .flush_denormals = true,
                                            .share = &share};
-    const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);
+    const aur_result result =
+        render->integrator->descriptor->round != NULL
+            ? do_rounds(work, &parallel, error)
+            : aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);
     free(work->counted);
     add_seconds(render, &start, &render->statistics.render_seconds);
     warn_of_losses(render);

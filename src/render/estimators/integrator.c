@@ -15,6 +15,7 @@
     ROW(volpathmis)                                                                                          \
     ROW(final_gather)                                                                                        \
     ROW(ambient_occlusion)                                                                                   \
+    ROW(ptracer)                                                                                             \
     ROW(direct)                                                                                              \
     ROW(depth)                                                                                               \
     ROW(aov)                                                                                                 \

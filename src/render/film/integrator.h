@@ -62,6 +62,13 @@ typedef struct aur_integrator_descriptor {
      * camera ray after the other, as aur_integrator_add_samples does. The sums of a pixel must not depend on
      * which of its neighbours are wanted. */
     aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
+    /* For light paths, which end anywhere in the image: computes sample `index` of all pixels, which the
+     * tiles then take. Samples are weighed by `filter` as they are splatted. NULL: none. Errors: MEMORY,
+     * CANCELLED.
+     */
+    aur_result (*round)(aur_integrator *integrator, const aur_view *view, const aur_filter *filter,
+                        uint32_t index, const aur_parallel_options *parallel, aur_counters *counters,
+                        aur_error *error);
     /* Of `tile`: it adds a pixel's samples one after the other, so that any cut of them into calls gives the
      * same bits. Else it asks aur_tile_stops on the way, and returns AUR_ERROR_CANCELLED. */
     bool cuts;

@@ -239,6 +239,20 @@ aur_vector aur_camera_position(const aur_scene *scene);
 bool aur_camera_see(const aur_scene *scene, size_t width, size_t height, aur_vector direction,
                     aur_film_point *point);
 
+/* A point in space as the camera sees it. */
+typedef struct aur_camera_link {
+    aur_film_point film; /* of the point; its solid angle is seen from `origin` */
+    aur_vector origin;   /* of the camera's ray there: its place, or a point of its lens */
+    aur_vector direction;
+    float distance;
+    float nearest; /* the part of the distance in which nothing is seen */
+} aur_camera_link;
+/* Whether the camera has such links: a lens, or a point that all rays leave. */
+bool aur_camera_connects(const aur_scene *scene);
+/* False for points that the camera cannot see, whatever lies between. lens[2] in [0,1). */
+bool aur_camera_connect(const aur_scene *scene, size_t width, size_t height, const float lens[2],
+                        aur_vector point, aur_camera_link *link);
+
 /* Sixteen camera rays, an array a coordinate. */
 enum { AUR_CAMERA_LANES = 16 };
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "render/scene/materials/sampling.h"
 #include "render/scene/scene_data.h"
 
 float aur_sensor_half_width(const aur_sensor *sensor, float aspect) {
@@ -125,24 +126,69 @@ aur_vector aur_camera_position(const aur_scene *scene) {
     return (aur_vector){m[3], m[7], m[11]};
 }
 
-/* Directions are found by Cramer's rule from the columns of to_world, whose common scale they do not need. */
-bool aur_camera_see(const aur_scene *scene, size_t width, size_t height, aur_vector direction,
-                    aur_film_point *point) {
-    const aur_sensor *const sensor = &scene->sensor;
+/* A direction by its slopes in camera space, z = 1, and its depth, by Cramer's rule from the columns of
+ * to_world; false behind the camera. */
+static bool in_camera_space(const aur_sensor *sensor, aur_vector direction, aur_vector *slope, float *depth) {
     const float *const m = sensor->to_world;
     const aur_vector x = {m[0], m[4], m[8]}, y = {m[1], m[5], m[9]}, z = {m[2], m[6], m[10]};
-    const float sign = aur_vector_dot(x, aur_vector_cross(y, z)) < 0.0f ? -1.0f : 1.0f;
-    const float depth = sign * aur_vector_dot(direction, aur_vector_cross(x, y));
-    if (!(depth > 0.0f))
+    const float volume = aur_vector_dot(x, aur_vector_cross(y, z)), sign = volume < 0.0f ? -1.0f : 1.0f;
+    const float along = sign * aur_vector_dot(direction, aur_vector_cross(x, y));
+    if (!(along > 0.0f))
         return false;
-    const float right = sign * aur_vector_dot(direction, aur_vector_cross(y, z)) / depth;
-    const float up = sign * aur_vector_dot(direction, aur_vector_cross(z, x)) / depth;
+    *slope = (aur_vector){sign * aur_vector_dot(direction, aur_vector_cross(y, z)) / along,
+                          sign * aur_vector_dot(direction, aur_vector_cross(z, x)) / along, 1.0f};
+    *depth = along / fabsf(volume);
+    return true;
+}
+
+/* Where the film has a ray with these slopes from the camera's centre; `slope`: those of the ray itself. */
+static aur_film_point film_point_of(const aur_sensor *sensor, size_t width, size_t height, aur_vector seen,
+                                    aur_vector slope) {
     const float aspect = (float)width / (float)height, half = aur_sensor_half_width(sensor, aspect);
-    const float pixel = 2.0f * half / (float)width, square = 1.0f + right * right + up * up;
-    *point = (aur_film_point){
-        .x = (float)width * (0.5f * (1.0f - right / half) - sensor->offset_x),
-        .y = (float)height * (0.5f * (1.0f - up * aspect / half) - sensor->offset_y),
+    const float pixel = 2.0f * half / (float)width, square = 1.0f + slope.x * slope.x + slope.y * slope.y;
+    return (aur_film_point){
+        .x = (float)width * (0.5f * (1.0f - seen.x / half) - sensor->offset_x),
+        .y = (float)height * (0.5f * (1.0f - seen.y * aspect / half) - sensor->offset_y),
         .solid_angle = pixel * pixel / (square * sqrtf(square)),
     };
+}
+
+bool aur_camera_see(const aur_scene *scene, size_t width, size_t height, aur_vector direction,
+                    aur_film_point *point) {
+    aur_vector slope;
+    float depth;
+    if (!in_camera_space(&scene->sensor, direction, &slope, &depth))
+        return false;
+    *point = film_point_of(&scene->sensor, width, height, slope, slope);
+    return true;
+}
+
+bool aur_camera_connects(const aur_scene *scene) {
+    return scene->sensor.part_count == 0 && scene->sensor.tangent > 0.0f;
+}
+
+bool aur_camera_connect(const aur_scene *scene, size_t width, size_t height, const float lens[2],
+                        aur_vector point, aur_camera_link *link) {
+    const aur_sensor *const sensor = &scene->sensor;
+    aur_vector on_lens = {0.0f, 0.0f, 0.0f};
+    if (sensor->aperture_radius > 0.0f) {
+        aur_sample_disk(lens[0], lens[1], &on_lens.x, &on_lens.y);
+        on_lens = aur_vector_scale(on_lens, sensor->aperture_radius);
+    }
+    const aur_vector shift = to_world_direction(sensor->to_world, on_lens);
+    link->origin = aur_vector_add(aur_camera_position(scene), shift);
+    const aur_vector way = aur_vector_subtract(point, link->origin);
+    link->distance = aur_vector_length(way);
+    link->direction = aur_vector_scale(way, 1.0f / aur_larger(link->distance, 1e-30f));
+    aur_vector slope; /* of the ray in camera space, z = 1 */
+    float depth;
+    if (!in_camera_space(sensor, way, &slope, &depth) || depth < sensor->near_clip ||
+        depth > sensor->far_clip)
+        return false;
+    link->nearest = sensor->near_clip * link->distance / depth;
+    aur_vector seen = slope; /* all rays of a film point meet in the plane of focus */
+    if (sensor->aperture_radius > 0.0f)
+        seen = aur_vector_add_scaled(slope, 1.0f / sensor->focus_distance, on_lens);
+    link->film = film_point_of(sensor, width, height, seen, slope);
     return true;
 }

@@ -33,6 +33,7 @@ for work in path 'finalgather:photons=2000,diffuse_samples=16'; do
 done
 same 2 render "$source/scenes/keller/cube.xml" $small --spp 2 --integrator radiosity -o out.exr
 same 2 render "$scene" $small --error 30% -o out.exr
+same 2 render "$scene" $small --spp 3 --integrator ptracer -o out.exr
 # Rays of all ranks are counted, and once what each does for itself.
 for work in path finalgather:photons=2000 radiosity:paths=20000; do
   render=(render "$scene" $small --spp 2 --no-cache --integrator "$work" -t 1 --json -o out.exr)
