@@ -182,7 +182,8 @@ typedef struct aur_irradiance_columns {
 
 /* Writes to `path` ("-": standard output), replaced whole or not at all. Formats: "csv"; "json", an array of
  * objects; "npy", an array of float64 with a row a sensor; "ply", the mesh on which sensors stand, or points,
- * with colours and the columns as properties: sRGB of r, g, b over the largest of them, or of the luminance.
+ * with colours and the columns as properties: sRGB of r, g, b over the largest of them, or of the luminance;
+ * "rtrace", r, g and b alone as Radiance's rtrace -h -I writes them.
  * Errors: NAME, ARGUMENT, WRITE, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_irradiance_write(const char *path, const char *format,
                                                  const aur_irradiance_columns *columns,

@@ -1,21 +1,9 @@
 #!/usr/bin/env bash
 # aureole irradiance --weather: years with known sums, an hour by coefficients beside the same hour traced by itself, the same
 # bits on any number of threads, and what is refused or reported.
-set -u
-aureole=$1
+. "$2/tests/lighting/checks.sh.inc"
 weather=$2/scripts/weather.sh
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" irradiance "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+command=irradiance
 # cell COLUMN LINE FILE
 cell() {
   awk -F, -v name="$1" -v line="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) column = i }
@@ -285,4 +273,4 @@ refused "must be a direction like 0,0,1, not '0,0,0'" $yard mixed.epw --up 0,0,0
 refused "nor along 'up'" $yard mixed.epw --up 0,0,1 --north 0,0,1
 refused "ends in .npy or .csv, not to 'hours.txt'" $yard mixed.epw --series hours.txt
 
-[ $failures = 0 ]
+finish

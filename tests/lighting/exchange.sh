@@ -1,20 +1,7 @@
 #!/usr/bin/env bash
 # View factors for heat and cities: emittances and temperatures, script F, View3D's input, uDALES's files, and a target error.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-# refused TEXT ARGUMENTS...: status 2, and the text is printed.
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" viewfactors "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
+command=viewfactors
 near() { # WHAT VALUE EXPECTED TOLERANCE
   awk -v a="$2" -v b="$3" -v t="$4" 'BEGIN { d = a - b; exit !(a != "" && d <= t && -d <= t) }' || fail "$1: $2, not $3"
 }
@@ -125,4 +112,4 @@ awk -F, 'NR > 1 && $4 > .004 { rough = 1 } END { exit !rough }' rough.csv || fai
 refused "--error" room.obj --error 0
 refused "--error is of the matrix" room.obj --radiosity .5 --matrix-free --error .1
 
-[ "$failures" = 0 ]
+finish

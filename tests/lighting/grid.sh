@@ -1,19 +1,6 @@
 #!/usr/bin/env bash
 # Sensors by --grid: where they stand, against counts by hand; maps; and the daylight factor as one command.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
 # An L of 4 x 4 less 2 x 2, as two surfaces whose common edge no margin keeps away from; a wall; all outside-in.
 cat >room.rad <<'END'
 void plastic grey 0 0 5 .5 .5 .5 0 0
@@ -78,4 +65,4 @@ refused "the margin leaves nothing" irradiance room.rad --sky uniform --grid flo
 refused "a larger spacing expected" irradiance room.rad --sky uniform --grid floor.1:1e-5
 refused "have no area" irradiance room.rad --sky uniform --grid 0,0,0,1,1:1
 refused "none.obj" irradiance room.rad --sky uniform --grid none.obj:1
-exit $((failures > 0))
+finish

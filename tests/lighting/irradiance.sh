@@ -1,21 +1,8 @@
 #!/usr/bin/env bash
 # aureole irradiance: known irradiances, the same bits on any number of threads and beside any other sensors, and what it
 # refuses or reports.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-# refused TEXT ARGUMENTS...: the verb ends with status 2 and says the text.
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" irradiance "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
+command=irradiance
 # warned TEXT ARGUMENTS...: the verb ends well and says the text.
 warned() {
   local text=$1 said
@@ -254,4 +241,4 @@ near 4 "$(awk 'BEGIN { print .5 * 100 * .8 * .5 ^ (1 / .8) }')" floor.csv
 # A scene without a camera is no picture.
 "$aureole" render room.xml -o room.exr 2>&1 | grep -q 'room.xml:1:.*the scene has no <sensor>' || fail "rendered without a camera"
 
-[ $failures = 0 ]
+finish

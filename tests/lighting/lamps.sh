@@ -1,19 +1,6 @@
 #!/usr/bin/env bash
 # Measured lamps by option and in XML against intensity times cosine over the squared distance.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
 # 1000 cd straight down, 0 at 90 degrees, linear; in the plane of 90 degrees half of it.
 printf 'IESNA:LM-63-1995\nTILT=NONE\n1 1000 100 2 2 1 2 0 0 0 1 1 9\n0 90\n0 90\n10 0\n5 0\n' >lamp.ies
 printf 'void plastic black 0 0 5 0 0 0 0 0\nblack sphere far 0 0 4 0 0 -900 1\n' >open.rad
@@ -63,4 +50,4 @@ refused "must be a file and its place" irradiance open.rad --sensors one.pts --l
 refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3
 refused "points.pts" irradiance open.rad --sensors one.pts --lamp points.pts@1,2,3
 refused "it needs the string 'filename'" irradiance open.rad lamp.xml <(printf '<scene version="3.0.0"><emitter type="photometric"/></scene>') --sensors one.pts
-exit $((failures > 0))
+finish

@@ -2,13 +2,7 @@
 # A cover just before a light hides it, by irradiance and by every integrator, one path at a time and sixteen: a black plate nearer
 # to the light than a millionth of the way to it (3e-6 where both are tilted and stand far from the origin). The light itself never
 # hides its points: without the plate its light is the same at all these places.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+. "$2/tests/lighting/checks.sh.inc"
 black='<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf>'
 glow='<emitter type="area"/>'
 flip='<boolean name="flip_normals" value="true"/>'
@@ -80,4 +74,4 @@ for light in rectangle textured disk sphere polygon point; do
     fail "a rectangle that is flipped: $(cat open.csv)"
 done
 
-[ $failures = 0 ]
+finish

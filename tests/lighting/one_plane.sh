@@ -1,12 +1,6 @@
 #!/usr/bin/env bash
 # Surfaces in one plane: the first in the file wins, in irradiance, render and view factors, and a counted warning says so.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+. "$2/tests/lighting/checks.sh.inc"
 
 # --- irradiance: a small dark floor in the plane of a large bright one. Where it comes first it is what is seen: the same as
 # a bright floor with a hole of its shape, four polygons about it. Where it comes second it is not there.
@@ -180,4 +174,4 @@ grep -q "floors.obj:16: 2 facets lie in the plane of others .* of 'second', behi
   fail "the lid's factor: $("$aureole" viewfactors floors.obj --group --to csv -q)"
 "$aureole" viewfactors floors.obj --to vs3 -q | grep -c '^S ' | grep -qx '[6-9]' || fail "vs3 of parts"
 
-[ "$failures" = 0 ]
+finish

@@ -3,16 +3,9 @@
 # at the foot of a rectangle (Siegel and Howell, Thermal Radiation Heat Transfer, factor 1). Means of 32 seeds differ from it by less
 # than 5.5 standard errors (20 tests of t with 31 degrees of freedom: a chance of 1e-4 in all), and of the 640 intervals of 95 % no
 # more than 60 miss it (expected 32; a chance below 1e-3, were the four sensors of one run one only).
-set -u
-aureole=$1
-failures=0
+. "$2/tests/lighting/checks.sh.inc"
 seeds=32
 [ -n "${AUREOLE_SHORT_TESTS:-}" ] && seeds=2
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # street X Y Z: walls 6 m high, 6 m apart and 20 m long, the ground between them, and four sensors on it.
 street() {
@@ -72,4 +65,4 @@ awk -F, '{ k = NR % 2 } NR <= 2 { total[k] = $4; error[k] = $7; direct[k] = $10 
   { off = ($4 - total[k]) / sqrt(error[k] ^ 2 + $7 ^ 2); part = $10 / direct[k] - 1
     bad += off > 5 || off < -5 || part > 1e-6 || part < -1e-6 }
   END { exit bad > 0 || NR != 6 }' rooms || fail "rooms: $(cat rooms)"
-exit $((failures > 0))
+finish

@@ -1,14 +1,7 @@
 #!/usr/bin/env bash
 # Concave faces, whichever corner is first and whichever way they go round, in every format: closed forms of an L-shaped room, an
 # arrow under a plate, and sensors on the faces.
-set -u
-aureole=$1
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+. "$2/tests/lighting/checks.sh.inc"
 
 # turned SHIFT x y z x y z ...: the corners from number SHIFT on.
 turned() {
@@ -86,4 +79,4 @@ printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 2 3 2\n' >thin
 "$aureole" irradiance sky.xml --sensors thin.obj -n 16 2>message.txt >thin.csv && [ "$(wc -l <thin.csv)" -eq 2 ] &&
   grep -q 'thin.obj:5: 1 facets have no area' message.txt && grep -q 'thin.obj:7: 1 of 3 faces have no area and are left out (face 2 is' message.txt ||
   fail "facets without area: $(cat message.txt thin.csv)"
-[ $failures -eq 0 ]
+finish

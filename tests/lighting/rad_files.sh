@@ -1,20 +1,6 @@
 #!/usr/bin/env bash
 # Scenes of Radiance in several files, as oconv reads them: the same bits as from one file, and messages with file and line.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-# refused TEXT VERB ARGUMENTS...: status 2, and the text is said.
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
 
 mkdir parts
 printf 'void plastic white 0 0 5 .7 .7 .7 0 0\nvoid light lamp 0 0 3 9 9 9\n' >parts/colours.mat
@@ -90,4 +76,4 @@ refused "no material 'white' above" irradiance parts/room.rad colours.rad --sens
 printf '!cat loop.rad\n' >loop.rad
 refused "nested deeper than" irradiance loop.rad --sensors points.pts
 refused "none.rad" irradiance colours.rad none.rad --sensors points.pts
-exit $((failures > 0))
+finish

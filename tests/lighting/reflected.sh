@@ -1,20 +1,8 @@
 #!/usr/bin/env bash
 # Reflected light by a photon map or by radiosity, with their errors taken away, is that of paths: in three rooms, with so few
 # particles that what they say by themselves is far off.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" irradiance "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
+command=irradiance
 # agree FILE FILE: every value of two tables (x y z r g b and three standard errors) is within 5 joint standard errors, and the
 # mean square of their ratios is below 2.2. Errors of 16 randomisations have a Student's t of 15 degrees each: the mean of
 # such squares is 1.15, its standard error .35, as if the 24 sensors were independent and their colours were not.
@@ -73,4 +61,4 @@ refused "light" sky.xml --sensors points.pts --reflected radiosity
 refused "--particles is for --reflected" plain.xml --sensors points.pts --particles 9
 refused "'maps'" plain.xml --sensors points.pts --reflected maps
 refused "--reflected does not go with --weather" plain.xml --sensors points.pts --weather a.epw --reflected map
-exit $((failures > 0))
+finish

@@ -1,12 +1,6 @@
 #!/usr/bin/env bash
 # Skies by option and those that gensky and gendaylit write, beside closed forms and sums by midpoints.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+. "$2/tests/lighting/checks.sh.inc"
 # near FILE COLUMN VALUE... : the column of each sensor is within four standard errors and 1e-4 of the value; in daylight-factor
 # files the last two columns are value and error.
 near() {
@@ -15,13 +9,6 @@ near() {
   awk -F, -v c="$column" -v e="$error" -v all="$*" 'BEGIN { n = split(all, v, " ") }
     NR > 1 { d = $c - v[NR - 1]; if (d < 0) d = -d; if (!(d <= 4 * $e + 1e-4 * v[NR - 1])) { print FILENAME ": " $c ", not " v[NR - 1] " +- " $e; bad = 1 } }
     END { exit bad || NR != n + 1 }' "$file" || fail "$file"
-}
-refused() {
-  local text=$1 said
-  shift
-  said=$("$aureole" "$@" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$*: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
 }
 
 printf 'void plastic w 0 0 5 .1 .1 .1 0 0\nvoid light l 0 0 3 5 5 5\nw sphere far 0 0 4 0 0 -900 1\n' >open.rad
@@ -97,4 +84,4 @@ sky 'skybr skybright.cal' '2 1 30' >bad.sky
 refused "bad.sky:1: brightfunc: skybr takes 7 numbers, not 2" irradiance bad.sky open.rad --sensors points.pts
 sky 'skybr other.cal' '3 2 30 5' >bad.sky
 refused "bad.sky:2: glow" irradiance bad.sky open.rad --sensors points.pts
-exit $((failures > 0))
+finish

@@ -2,16 +2,9 @@
 # Light on and above large grounds that pass near the origin, however they are turned: above a ground of albedo 1 under a sky of
 # radiance 1 every sensor gets pi, whichever way it looks. The mean of 8 seeds is within t standard errors of it, t = 7.89 the
 # quantile of Student's t with 7 degrees of freedom for 1e-4; on the ground, where all directions see the sky, it is pi.
-set -u
-aureole=$1
-failures=0
+. "$2/tests/lighting/checks.sh.inc"
 seeds=8
 [ -n "${AUREOLE_SHORT_TESTS:-}" ] && seeds=2
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # A shape whose point (0, 0, 0) is moved to `away`, with a map `own` before.
 scene() { # scene SHAPE SIZE ANGLE AWAY
@@ -154,4 +147,4 @@ echo "<scene version=\"3.0.0\"><emitter type=\"constant\"/>$disk${disk/value=\"1
 printf '.8 0 0 0 0 1\n.1 .1 0 0 0 1\n' >disks.pts
 "$aureole" irradiance disks.xml --sensors disks.pts -n 64 2>&1 | grep -qF 'disks.pts:2: 1 of 2 sensors stand where surfaces are nearer to each other than numbers tell (the first of them is sensor 1)' ||
   fail "no warning of two disks in one place"
-exit $((failures > 0))
+finish

@@ -1,20 +1,7 @@
 #!/usr/bin/env bash
 # aureole viewfactors: its files, what it reports of odd meshes, and what it refuses.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-# refused STATUS TEXT ARGUMENTS...: the verb ends with the status and says the text.
-refused() {
-  local status=$1 text=$2 said
-  shift 2
-  said=$("$aureole" viewfactors "$@" 2>&1 >/dev/null)
-  [ $? = "$status" ] || fail "$*: status is not $status: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
+command=viewfactors
 
 corners='v 0 0 0
 v 1 0 0
@@ -78,15 +65,15 @@ XML
 "$aureole" viewfactors scene.xml --radiosity 0.5 --matrix-free -q >free.csv || fail "matrix-free"
 paste -d, matrix.csv free.csv | awk -F, 'NR > 1 && ($4 - $9) ^ 2 > .0004 { bad = 1 } END { exit bad || NR != 15 }' ||
   fail "radiosities with and without the matrix: $(paste -d, matrix.csv free.csv)"
-refused 2 "no row sees the sky" room.obj --radiosity 0.5
+refused "no row sees the sky" room.obj --radiosity 0.5
 # The sun alone, in the zenith: the house shades .36 of the ground's 4, and gives a little of its light back.
 "$aureole" viewfactors scene.xml --group --radiosity 0.5 --sun 0,0,4 --matrix-free -q >sun.csv || fail "sun"
 awk -F, 'NR == 2 && $4 > 4 * .5 * (4 - .36) / 4 - .05 && $4 < 4 * .5 * (4 - .36) / 4 + .15 && $5 > 0 && $5 < .02 { good = 1 }
   END { exit !(good && NR == 3) }' sun.csv || fail "the sun on the ground: $(cat sun.csv)"
-refused 2 "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 1,2
-refused 2 "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 0,0,0
-refused 2 "are for --radiosity" scene.xml --sky 2
-refused 2 "there is no light" scene.xml --radiosity 0.5 --sky 0
+refused "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 1,2
+refused "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 0,0,0
+refused "are for --radiosity" scene.xml --sky 2
+refused "there is no light" scene.xml --radiosity 0.5 --sky 0
 
 # --- odd meshes: counted warnings
 {
@@ -158,23 +145,23 @@ done
 [ $warned -gt 0 ] && [ $warned -lt 6 ] || fail "$warned of 6 seeds leave rows that do not add up"
 
 # --- bad input
-refused 2 "missing.obj" missing.obj
+refused "missing.obj" missing.obj
 printf 'v 0 0 0\nf 1 2 3\n' >bad.obj
-refused 2 "bad.obj:2" bad.obj
+refused "bad.obj:2" bad.obj
 printf 'v 0 0 nan\n' >nan.obj
-refused 2 "nan.obj:1" nan.obj
+refused "nan.obj:1" nan.obj
 : >empty.obj
-refused 2 "no face" empty.obj
-refused 2 "unknown kind of file" "$0"
+refused "no face" empty.obj
+refused "unknown kind of file" "$0"
 printf '<scene version="3.0.0"><sensor type="perspective"/>\n<shape type="sphere"/></scene>\n' >round.xml
-refused 2 "round.xml:2" round.xml
-refused 2 "tells no format" room.obj -o room.what
-refused 2 "--matrix-free makes no matrix" room.obj --matrix-free
-refused 2 "randomisations" room.obj --rays 4
-refused 2 "a mesh is one file" room.obj room.obj
-refused 2 "no-such-set" room.obj --set no-such-set
+refused "round.xml:2" round.xml
+refused "tells no format" room.obj -o room.what
+refused "--matrix-free makes no matrix" room.obj --matrix-free
+refused "randomisations" room.obj --rays 4
+refused "a mesh is one file" room.obj room.obj
+refused "no-such-set" room.obj --set no-such-set
 mkdir -p 'a & <b> $c'
 cp room.obj 'a & <b> $c/"room".obj'
 "$aureole" viewfactors 'a & <b> $c/"room".obj' >/dev/null || fail "a path with characters that XML escapes"
 
-[ "$failures" = 0 ]
+finish

@@ -1,18 +1,7 @@
 #!/usr/bin/env bash
 # The same days as EPW, Radiance's .wea and TMY3: the same bytes come out; and damage of the two, each with its line.
-set -u
-aureole=$1
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-refused() {
-  local text=$1 said
-  said=$("$aureole" irradiance open.rad --sensors points.pts --weather "$2" 2>&1 >/dev/null)
-  [ $? = 2 ] || fail "$2: status is not 2: $said"
-  grep -qF -- "$text" <<<"$said" || fail "$2: '$text' is not in: $said"
-}
+. "$2/tests/lighting/checks.sh.inc"
+command="irradiance open.rad --sensors points.pts --weather"
 printf 'void plastic black 0 0 5 0 0 0 0 0\nblack sphere far 0 0 4 0 0 -900 1\n' >open.rad
 printf '0 0 0 0 0 1\n0 0 0 0 -1 0\n' >points.pts
 awk 'function sky(h) { s = sin(3.14159265 * (h - 6.5) / 12); return s > 0 ? s : 0 }
@@ -70,4 +59,4 @@ sed '9s/,0,10$/,0,warm/' days.csv >bad.csv && refused "bad.csv:9: the dew point"
 sed '9s/^\(.*,1,1,\)[0-9]*,1,1/\15000,1,1/' days.csv >bad.csv && refused "bad.csv:9: the direct normal" bad.csv
 printf 'a,b\n' >bad.csv && refused "an EPW file begins with LOCATION" bad.csv
 : >empty.wea && refused "an EPW file begins with LOCATION" empty.wea
-exit $((failures > 0))
+finish

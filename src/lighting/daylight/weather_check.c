@@ -94,6 +94,9 @@ static void warn_of_form(const aur_weather_view *weather, const aur_warnings *wa
 void aur_weather_warn(const aur_weather_view *weather, const aur_warnings *warnings) {
     static const double HOURS = 3.0;
     warn_of_form(weather, warnings);
+    if (weather->latitude == 0.0 && weather->longitude == 0.0)
+        aur_warn_at(warnings, (aur_location){.file = weather->file, .line = 1},
+                    "the place is 0 degrees north and 0 east, in the sea: the file has no place");
     const double off = remainder(weather->timezone - weather->longitude / 15.0, 24.0);
     if (fabs(off) > HOURS)
         aur_warn_at(warnings, (aur_location){.file = weather->file, .line = 1},

@@ -22,6 +22,15 @@ static void write_csv(const aur_sensor_table *o, FILE *stream) {
                       k + 1 < o->width ? ',' : '\n');
 }
 
+/* As rtrace -h -I: three numbers a line. */
+static void write_rtrace(const aur_sensor_table *o, FILE *stream) {
+    for (size_t i = 0; i < o->sensors->count; ++i) {
+        for (size_t c = 0; c < 3; ++c)
+            aur_print(stream, "%e\t", value_of(o, i, o->color + (o->colors > 1 ? c : 0)));
+        fputc('\n', stream);
+    }
+}
+
 static void write_json(const aur_sensor_table *o, FILE *stream) {
     aur_json json = {.stream = stream};
     aur_json_open(&json, '[', true);
@@ -97,7 +106,7 @@ aur_result aur_sensor_table_write(const char *path, const char *format, const au
     static const struct {
         const char *name;
         void (*write)(const aur_sensor_table *table, FILE *stream);
-    } formats[] = {{"csv", write_csv}, {"json", write_json}, {"ply", write_ply}};
+    } formats[] = {{"csv", write_csv}, {"json", write_json}, {"ply", write_ply}, {"rtrace", write_rtrace}};
     if (strcmp(format, "npy") == 0)
         return write_npy(table, path, error);
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i) {
@@ -110,5 +119,6 @@ aur_result aur_sensor_table_write(const char *path, const char *format, const au
         formats[i].write(table, writer.stream);
         return aur_file_commit(&writer, error);
     }
-    return aur_fail(error, AUR_ERROR_NAME, "no format '%s': csv, json, npy and ply are known", format);
+    return aur_fail(error, AUR_ERROR_NAME, "no format '%s': csv, json, npy, ply and rtrace are known",
+                    format);
 }

@@ -3,6 +3,7 @@
 #include <aureole/text.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,8 +84,9 @@ static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
               "a line or row a sensor, in the format that the name ends in; '-' is standard output"),
      .letter = 'o', .content = "file", .writes = true},
-    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv", "format of the output"),
-     .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
+    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv",
+              "format of the output; rtrace: r, g, b a line, as rtrace -h -I"),
+     .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", "rtrace", NULL}},
     {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},
     {CLI_CHOICE(
          irradiance_command, definitions.model_light, "model-light", "WHEN", "none",
@@ -269,6 +271,29 @@ static aur_result place_grid(irradiance_command *given, const aur_scene *scene, 
     return aur_sensors_grid(scene, &given->grid, sensors, error);
 }
 
+/* What is likely a mistake of units or places. */
+static void warn_of_units(const irradiance_command *given, const aur_scene *scene) {
+    static const double LARGEST = 1000.0; /* metres, of a room with lamps */
+    const aur_warnings warnings = cli_warnings(given->common.quiet);
+    aur_scene_description d = {.size = sizeof d};
+    double zero[2] = {1.0, 1.0}, extent = 0.0;
+    char text[200];
+    aur_scene_get_description(scene, &d, NULL);
+    for (size_t i = 0; i < 3; ++i)
+        extent = fmax(extent, d.upper[i] - d.lower[i]);
+    if (warnings.function == NULL)
+        return;
+    if (given->sky.lamp_count > 0 && extent > LARGEST) {
+        aur_format(text, sizeof text,
+                   "the scene is %.4g units large and lamps are in metres: are its units metres?", extent);
+        warnings.function(warnings.user, text);
+    }
+    const char *const location = given->sky.sky.location;
+    if (location != NULL && sscanf(location, "%lf,%lf", &zero[0], &zero[1]) == 2 && zero[0] == 0.0 &&
+        zero[1] == 0.0)
+        warnings.function(warnings.user, "--location 0,0 is in the sea: degrees north, then degrees east");
+}
+
 static int run(const cli_call *call) {
     irradiance_command *const given = call->options;
     find_format(call, given);
@@ -293,6 +318,8 @@ static int run(const cli_call *call) {
         given->sensors != NULL ? aur_sensors_read(given->sensors, &given->stand, &sensors, &error) : AUR_OK;
     if (result == AUR_OK)
         result = aur_scene_load(call->operands[0], &load, &scene, &error);
+    if (result == AUR_OK)
+        warn_of_units(given, scene);
     if (result == AUR_OK && given->sensors == NULL)
         result = place_grid(given, scene, &sensors, &error);
     if (result == AUR_OK)

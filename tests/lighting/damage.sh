@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# Each kind of file that light is computed from, damaged in ten ways: the result is that of the whole file, or an error or a warning
+# that names the file; never a crash, a number that is none, or zeros without a word. And units and places that cannot be.
+. "$2/tests/lighting/checks.sh.inc"
+source_tree=$2
+
+printf 'void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey polygon floor 0 0 12\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n' >room.rad
+printf '1 1 .8 0 0 1\n2 2 .8 0 0 1\n3 1 .8 0 0 1\n' >desk.pts
+printf 'x,y,z,nx,ny,nz\n1,1,.8,0,0,1\n2,2,.8,0,0,1\n' >desk.csv
+printf 'IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0 1 1 9\n0 45 90\n0\n1000 500 10\n' >lamp.ies
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nf 1 2 3 4\nf 1 5 6 2\n' >mesh.obj
+printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nfacet normal 0 1 0\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 1 0 0\nendloop\nendfacet\nendsolid a\n' >mesh.stl
+printf 'T two\nF 3\nV 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nV 4 0 0 1\nS 1 1 2 3 0 0 0 .9 a\nS 2 1 4 2 0 0 0 .9 b\nEnd of data\n' >mesh.vs3
+printf 'row,emittance,temperature\n*,.9,300\n1,.5,350\n' >walls.csv
+bash "$source_tree/scripts/weather.sh" | head -56 >days.epw
+{
+  printf 'place Nowhere\nlatitude 48\nlongitude -11\ntime_zone -15\nsite_elevation 100\nweather_data_file_units 1\n'
+  awk 'BEGIN { for (d = 1; d <= 2; ++d) for (h = 1; h <= 24; ++h) { s = sin(3.14159265 * (h - 8.5) / 8); print 6, d, h - .5, int(s > 0 ? 500 * s : 0), int(s > 0 ? 100 * s : 0) } }'
+} >days.wea
+awk 'BEGIN { for (h = 0; h < 48; ++h) print (h % 24 > 8) }' >hours.csv
+
+# evaluate FILE: the command that reads the file of this kind, with the others whole; its numbers go to `result`.
+evaluate() {
+  local year="irradiance room.rad --sensors desk.pts -n 16 --to csv --weather"
+  case $kind in
+    room.rad) "$aureole" irradiance "$1" --sky uniform --sensors desk.pts -n 16 ;;
+    desk.*) "$aureole" irradiance room.rad --sky uniform --sensors "$1" -n 16 ;;
+    lamp.ies) "$aureole" irradiance room.rad --lamp "$1@2,2,3" --sensors desk.pts -n 16 ;;
+    days.*) "$aureole" $year "$1" ;;
+    hours.csv) "$aureole" $year days.epw --schedule "$1" ;;
+    walls.csv) "$aureole" viewfactors mesh.obj --rays 64 --surfaces "$1" ;;
+    *) "$aureole" viewfactors --rays 64 --to csv "$1" ;;
+  esac >result 2>said
+}
+
+damage() { # HOW FILE TARGET
+  local size
+  size=$(wc -c <"$2")
+  case $1 in
+    empty) : >"$3" ;;
+    half) head -c $((size / 2)) "$2" >"$3" ;;
+    tail) tail -c $((size / 2)) "$2" >"$3" ;;
+    zeros) { head -c $((size / 2)) "$2"; head -c 16 /dev/zero; tail -c $((size / 2)) "$2"; } >"$3" ;;
+    noise) { head -c $((size / 2)) "$2"; printf '\377\376\001\002\200\300'; tail -c +$((size / 2 + 6)) "$2"; } >"$3" ;;
+    letter) sed '$s/[0-9]/x/' "$2" >"$3" ;;
+    huge) sed '$s/[0-9][0-9.]*/1e999/' "$2" >"$3" ;;
+    nan) sed '$s/[0-9][0-9.]*/nan/' "$2" >"$3" ;;
+    windows) { printf '\357\273\277'; sed 's/$/\r/' "$2"; } >"$3" ;;
+    words) printf 'This is a letter and no file of numbers.\n' >"$3" ;;
+  esac
+}
+
+for kind in room.rad desk.pts desk.csv lamp.ies mesh.obj mesh.stl mesh.vs3 walls.csv days.epw days.wea hours.csv; do
+  evaluate $kind || fail "$kind: $(cat said)"
+  mv result whole
+  mkdir -p bad
+  for how in empty half tail zeros noise letter huge nan windows words; do
+    damage $how $kind "bad/$kind"
+    evaluate "bad/$kind"
+    status=$?
+    if [ $status = 0 ]; then
+      ! grep -qiE '(^|,)-?(nan|inf)' result || fail "$kind, $how: numbers that are none: $(cat result)"
+      cmp -s result whole || [ $how = half ] || [ $how = tail ] || [ -s said ] || fail "$kind, $how: another result without a word"
+    elif [ $status != 2 ]; then
+      fail "$kind, $how: status $status: $(cat said)"
+    else
+      grep -qF "bad/$kind" said || fail "$kind, $how: the file is not named: $(cat said)"
+    fi
+  done
+done
+
+# --- units and places
+warned() { # TEXT ARGUMENTS...
+  local text=$1
+  shift
+  "$aureole" "$@" >/dev/null 2>said || fail "$*: $(cat said)"
+  grep -qF -- "$text" said || fail "$*: '$text' is not in: $(cat said)"
+}
+sed 's/4/4000/g' room.rad >mm.rad
+warned "are its units metres?" irradiance mm.rad --lamp lamp.ies@2,2,3 --sensors desk.pts -n 16
+refused "a larger spacing expected" irradiance mm.rad --grid floor:.5@.8 --sky uniform -n 16
+warned "is in the sea" irradiance room.rad --sky cie-clear --date 2026-06-21T12:00 --location 0,0,0 --sensors desk.pts -n 16
+sed '1s/48\.0000,11\.0000/0.0000,0.0000/' days.epw >sea.epw
+warned "in the sea: the file has no place" irradiance room.rad --weather sea.epw --sensors desk.pts -n 16
+awk -F, -v OFS=, 'NR > 8 { $14 = $15 = $16 = 0 } 1' days.epw >dark.epw
+warned "see no light at all" irradiance room.rad --weather dark.epw --sensors desk.pts -n 16
+sed '$s/.*/0 0 0/' lamp.ies >dark.ies
+refused "the lamp gives no light" irradiance room.rad --lamp dark.ies@2,2,3 --sensors desk.pts
+
+# --- what rtrace -h -I writes
+"$aureole" irradiance room.rad --sky uniform --sensors - --to rtrace -n 16 <desk.pts >rtrace.txt
+"$aureole" irradiance room.rad --sky uniform --sensors desk.pts -n 16 | awk -F, 'NR > 1 { printf "%e\t%e\t%e\t\n", $4, $5, $6 }' | cmp - rtrace.txt || fail "--to rtrace"
+finish
