@@ -236,12 +236,12 @@ static void count_spent(const aur_adaptive *adaptive, aur_render_statistics *sum
     sum->cpu_seconds += adaptive->others.cpu_seconds;
 }
 
-/* How far the end at which rendering stops is above the interval's: where rounds go on until the error looks
- * small, the last one alone sees too little more often than too much. */
+/* How far the upper end moves towards the one at which rendering stops, half of the way in squares: where
+ * rounds go on until the error looks small, the last one alone sees too little more often than too much. */
 static double bound_part(const aur_adaptive *adaptive) {
     const double high = adaptive->candidate.interval.high, bound = adaptive->candidate.bound;
     const bool stops = adaptive->target.error > 0.0 && high > 0.0 && bound < INFINITY;
-    return stops ? fmax(bound / high, 1.0) : 1.0;
+    return stops && bound > high ? sqrt(0.5 + 0.5 * (bound / high) * (bound / high)) : 1.0;
 }
 
 /* The interval of noise and bias together by a measure; its ends are those of both. */

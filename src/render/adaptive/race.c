@@ -290,10 +290,11 @@ static size_t drop(aur_race *race, const race_scores *scores, size_t best) {
 
 /* What the request takes, as far as is known: by the best candidate, or all of its budget. */
 static double whole_work(const aur_race *race, size_t best) {
+    const double most = race->budget > 0.0 ? race->budget : INFINITY;
     if (race->error > 0.0)
-        return race->entries[best].need;
-    if (race->budget > 0.0)
-        return race->budget;
+        return fmin(race->entries[best].need, most);
+    if (most < INFINITY)
+        return most;
     const double rays_per_second =
         (double)race->spent.rays / fmax(race->spent.prepare_seconds + race->spent.render_seconds, 1e-9);
     return race->seconds * rays_per_second;
@@ -393,9 +394,9 @@ aur_result aur_race_run(aur_race *race, aur_error *error) {
     const size_t blocks = all < FIRST_BLOCKS ? all : FIRST_BLOCKS;
     aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
     aur_error refused = {0};
-    const bool worth = race->error > 0.0 ||
-                       race->budget * AUR_RACE_MAP_PART > aur_race_least_map(race->replica_count) ||
-                       (race->budget == 0.0 && race->seconds > LEAST_SECONDS);
+    const double least_map = aur_race_least_map(race->replica_count);
+    const bool worth = (race->budget == 0.0 || race->budget * AUR_RACE_MAP_PART > least_map) &&
+                       (race->seconds == 0.0 || race->seconds > LEAST_SECONDS);
     aur_result result = worth ? render_blocks(race, AUR_RACE_MIDDLE, blocks, order, &refused) : AUR_OK;
     if (!worth)
         say(middle, true, "not tried: its photons cost more than a quarter of the request");

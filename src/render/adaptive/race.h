@@ -53,8 +53,8 @@ typedef struct aur_race {
     size_t replica_count;
     aur_error_measure measure;
     double error;   /* target of the noise and the bias; 0: none */
-    double budget;  /* without a target error: rays of the request; 0: not known */
-    double seconds; /* or its time */
+    double budget;  /* rays of the request; 0: none */
+    double seconds; /* of the request; 0: none */
     const atomic_bool *cancelled;
     aur_race_entry entries[AUR_RACE_ROWS];
     size_t order[AUR_RACE_ROWS]; /* candidates that were measured, best first; path is always among them */
