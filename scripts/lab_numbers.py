@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""lab_numbers.py check|fill: whether the numbers on the pages of docs/papers are those of the lab's kept tables, or puts them there.
+"""lab_numbers.py check|fill: whether the numbers on the pages of docs are those of the lab's kept tables, or puts them there.
 
 docs/papers/numbers.py binds them: it writes lines of the pages with values of docs/report/results in the place of numbers. A number is
 right when it is the value, rounded to its digits; fill writes the others with as many digits. A line that is not on its page is an error,
@@ -13,7 +13,7 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 PAGES, KEPT = TOP / "docs/papers", TOP / "docs/report/results"
-NUMBER = r"[-+]?(?:\d[\d,]*)?\.?\d+"
+NUMBER = r"[-+]?(?:\d[\d,]*)?\.?\d+(?:e[-+]?\d+)?"
 
 
 @functools.lru_cache(None)
@@ -53,7 +53,7 @@ def value(name, column, by=1.0, plus=0.0, **where):
 
 def cell(name, form, **where):
     """The one row's values in a text: "{ratio} ({low} to {high})", "{shares*100}"."""
-    return re.sub(r"\{(\w+)\*?([^}]*)\}", lambda m: value(name, m.group(1), float(m.group(2) or 1), **where), form)
+    return re.sub(r"\{([\w.]+)\*?([^}]*)\}", lambda m: value(name, m.group(1), float(m.group(2) or 1), **where), form)
 
 
 def count(name, **where):
@@ -75,12 +75,16 @@ def note(name, pattern):
 
 
 def right(text, wanted):
+    if "e" in text:
+        return float(rounded(text, wanted)) == float(text)
     digits = len(text.partition(".")[2])
     return abs(float(text.replace(",", "")) - wanted) <= 0.5001 * 10.0**-digits
 
 
 def rounded(text, wanted):
     """The value with the digits of a text: after the point, or significant ones where either is below .1."""
+    if "e" in text:
+        return f"{wanted:.{len(text.partition('e')[0].partition('.')[2])}e}"
     digits = len(text.partition(".")[2])
     if digits and min(abs(wanted), abs(float(text))) < 0.1 and wanted:
         significant = len(text.partition(".")[2].lstrip("0"))
@@ -99,7 +103,7 @@ class Pages:
         text = self.texts.setdefault(path, path.read_text(encoding="utf-8"))
         values = [float(v) for v in re.findall("\x01(.*?)\x02", template)]
         parts = [re.sub(r"(\\ |\\\n)+", r"\\s+", re.escape(part)) for part in re.split("\x01.*?\x02", template)]
-        found = list(re.finditer(f"({NUMBER})".join(parts), text))
+        found = list(re.finditer(rf"\**({NUMBER})\**".join(parts), text))  # bold or not
         if len(found) != 1:
             plain = re.sub("\x01.*?\x02", "#", template)
             self.wrong.append(f"{page}: {len(found)} places are as numbers.py has: {plain}")
