@@ -10,6 +10,12 @@ foreach(library IN LISTS libraries)
             LIBRARY COMPONENT ${component} NAMELINK_COMPONENT dev INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endforeach()
 
+if(TARGET aureole-lab)
+    install(TARGETS aureole-lab EXPORT aureole-targets
+            LIBRARY COMPONENT lib-lighting NAMELINK_COMPONENT dev INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    install(DIRECTORY include/aureole-lab DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
+
 # Program and libraries find each other wherever the tree is moved to.
 foreach(name render lighting)
     if(TARGET aureole-${name})
@@ -36,12 +42,15 @@ endif()
 # What the wheel aureole-render holds (python/render): libraries and modules beside each other in a folder of Python's.
 if(AUREOLE_RENDER AND BUILD_SHARED_LIBS)
     set(wheel_targets ${libraries})
+    if(TARGET aureole-lab)
+        list(APPEND wheel_targets aureole-lab)
+    endif()
     if(TARGET aureole-import)
         list(APPEND wheel_targets aureole-import)
     endif()
     add_custom_target(aureole-python-render DEPENDS ${wheel_targets})
     if(SKBUILD) # a wheel has no links
-        set_target_properties(${libraries} PROPERTIES VERSION 1)
+        set_target_properties(${libraries} aureole-lab PROPERTIES VERSION 1)
     endif()
     install(TARGETS ${wheel_targets} LIBRARY DESTINATION aureole_render COMPONENT python-render NAMELINK_SKIP EXCLUDE_FROM_ALL
             RUNTIME DESTINATION aureole_render COMPONENT python-render EXCLUDE_FROM_ALL)
@@ -104,7 +113,11 @@ if(BUILD_SHARED_LIBS)
 
     # pkg-config files name the prefix, which `cmake --install --prefix` may change, so they say it by their own place.
     file(RELATIVE_PATH AUREOLE_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
-    foreach(name IN LISTS libraries)
+    set(packages ${libraries})
+    if(TARGET aureole-lab)
+        list(APPEND packages aureole-lab)
+    endif()
+    foreach(name IN LISTS packages)
         configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
         install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
     endforeach()

@@ -1,35 +1,18 @@
-# The program aureole. Its files stand by the library that they need: what is in cli and report itself needs libaureole alone.
-function(aureole_program_part name)
-    set(patterns ${ARGN})
-    list(TRANSFORM patterns PREPEND "${PROJECT_SOURCE_DIR}/")
-    file(GLOB files CONFIGURE_DEPENDS ${patterns})
-    # Main is not in the harness of options, and the integrator of the lab is one that `render` offers.
-    list(FILTER files EXCLUDE REGEX "/cli/main\\.c$")
-    if(NOT name STREQUAL "render")
-        list(FILTER files EXCLUDE REGEX "/lab/gathering/")
-    endif()
-    add_library(aureole_cli_${name} OBJECT ${files})
-    target_link_libraries(aureole_cli_${name} PRIVATE aureole_flags)
-    target_compile_definitions(aureole_cli_${name} PRIVATE AUR_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
-endfunction()
-
-aureole_program_part(points src/program/cli/*.[ch] src/program/cli/points/*.[ch] src/program/report/*.[ch])
-set(program_parts aureole_cli_points)
+# The program aureole. Its files stand by the library that they need: what is in cli itself needs libaureole alone.
+aureole_program_part(points src/program/cli/*.[ch] src/program/cli/points/*.[ch])
+set(points_parts aureole_cli_report aureole_cli_points)
+set(program_parts ${points_parts})
 if(AUREOLE_RENDER)
-    # Styles and scripts of pages are files of their own, and stand in the program.
-    file(GLOB page_files CONFIGURE_DEPENDS src/program/report/page/*.css src/program/report/page/*.js)
-    set(page_assets "${PROJECT_BINARY_DIR}/page_assets.c")
-    add_custom_command(OUTPUT "${page_assets}" VERBATIM DEPENDS cmake/embed.cmake ${page_files}
-        COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${page_assets}" -DHEADER=program/report/page/page.h -DARRAY=report_assets "-DFILES=${page_files}" -P "${PROJECT_SOURCE_DIR}/cmake/embed.cmake")
     file(GLOB watch_files CONFIGURE_DEPENDS src/program/watch/page/*.js)
     set(watch_assets "${PROJECT_BINARY_DIR}/watch_assets.c")
     add_custom_command(OUTPUT "${watch_assets}" VERBATIM DEPENDS cmake/embed.cmake ${watch_files}
         COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${watch_assets}" -DHEADER=program/watch/watch.h -DARRAY=watch_assets "-DFILES=${watch_files}"
                 -P "${PROJECT_SOURCE_DIR}/cmake/embed.cmake")
-    aureole_program_part(render src/program/cli/render/*.[ch] src/program/watch/*.[ch] src/program/report/page/*.[ch] lab/gathering/*.[ch])
-    target_sources(aureole_cli_render PRIVATE "${page_assets}" "${watch_assets}")
+    aureole_program_part(render src/program/cli/render/*.[ch] src/program/watch/*.[ch])
+    target_sources(aureole_cli_render PRIVATE "${watch_assets}")
     target_link_libraries(aureole_cli_render PRIVATE Stb::Stb PUBLIC ZLIB::ZLIB)
-    list(APPEND program_parts aureole_cli_render)
+    set(render_parts aureole_cli_page aureole_cli_render)
+    list(APPEND program_parts ${render_parts})
     # Loaded where `--serve` is given: libmicrohttpd brings ten libraries along.
     add_library(aureole-serve MODULE src/program/serve/serve.c)
     target_link_libraries(aureole-serve PRIVATE aureole_flags PkgConfig::MICROHTTPD)
@@ -38,8 +21,8 @@ else()
     set(absent render lighting)
 endif()
 if(AUREOLE_LIGHTING)
-    aureole_program_part(lighting src/program/cli/lighting/*.[ch] src/program/cli/lab/*.[ch] src/program/lab/*.[ch] lab/*/*.[ch])
-    list(APPEND program_parts aureole_cli_lighting)
+    aureole_program_part(lighting src/program/cli/lighting/*.[ch] src/program/cli/lab/*.[ch])
+    list(APPEND program_parts aureole_cli_lab aureole_cli_lighting)
 elseif(AUREOLE_RENDER)
     set(absent lighting)
 endif()
@@ -53,6 +36,8 @@ function(aureole_program target)
 endfunction()
 aureole_program(aureole-program LIBRARIES ${libraries} PARTS ${program_parts} ABSENT ${absent})
 set_target_properties(aureole-program PROPERTIES OUTPUT_NAME aureole BUILD_RPATH "${PROJECT_BINARY_DIR}") # where modules are
+# Modules of experiments (`aureole lab --module`) call the functions of aureole-lab/lab.h.
+set_target_properties(aureole-program PROPERTIES ENABLE_EXPORTS ON)
 if(TARGET aureole-serve)
     add_dependencies(aureole-program aureole-serve)
 endif()

@@ -23,8 +23,9 @@ set(python_package "${PROJECT_BINARY_DIR}/python/aureole")
 set(bridge "${PROJECT_SOURCE_DIR}/python/declare.py")
 set(native "${PROJECT_BINARY_DIR}/python/native.c")
 set(library "${python_package}/_library.py")
+file(GLOB lab_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/aureole-lab/*.h")
 add_custom_command(OUTPUT "${native}" "${library}" VERBATIM
-    DEPENDS "${bridge}" "${PROJECT_SOURCE_DIR}/python/native.c" ${public_headers}
+    DEPENDS "${bridge}" "${PROJECT_SOURCE_DIR}/python/native.c" ${public_headers} ${lab_headers}
     COMMAND "${Python_EXECUTABLE}" "${bridge}" native "${PROJECT_SOURCE_DIR}/include" "${native}"
     COMMAND "${Python_EXECUTABLE}" "${bridge}" library "${PROJECT_SOURCE_DIR}/include" "${library}")
 # What cffi writes keeps to the stable interface of Python by itself. A free-threaded Python has none, and needs its own build.

@@ -12,7 +12,7 @@ case $1 in
   --experimental) kinds=AUR_EXPERIMENTAL; shift ;;
 esac
 names() {
-  sed '/^#/d' "${@:2}" | tr '\n' ' ' | grep -oE "($1) [^(;]*\(" | sed -E 's/.*[ *](aur_[a-z0-9_]+)\($/\1/' | sort -u
+  sed '/^#/d' "${@:2}" | tr '\n' ' ' | grep -oE "($1) [^(;]*\(" | sed -E 's/.*[ *]((aur|lab)_[a-z0-9_]+)\($/\1/' | sort -u
 }
 [ -n "$map" ] || { names "$kinds" "$@"; exit; }
 printf '%s_1 {\n  global:\n' "$node"

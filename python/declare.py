@@ -1,7 +1,7 @@
 """Makes the bridge between Python and the C libraries from their public headers, by cffi.
 
 declare.py native INCLUDE OUT.c   the extension's source: libaureole's functions, types and constants, which the compiler checks
-declare.py library INCLUDE OUT.py the same of libaureole-render and libaureole-lighting, for the library to be opened at run time
+declare.py library INCLUDE OUT.py the same of libaureole-render, -lighting and -lab, for the library to be opened at run time
 
 Nothing is declared by hand: a function that a header gains is there after the next build.
 """
@@ -16,7 +16,7 @@ NATIVE = [f"aureole/{name}.h" for name in
           "core text tables pointset sphere rotations symmetry nearest statistics quadrature quality exact estimate integrate".split()]
 LIBRARY = ["aureole/core.h", "aureole/tables.h", "aureole-render/image.h", "aureole-render/scene.h", "aureole-render/film.h",
            "aureole-render/render.h", "aureole-render/adaptive.h", "aureole-lighting/view_factors.h", "aureole-lighting/irradiance.h",
-           "aureole-lighting/daylight.h"]
+           "aureole-lighting/daylight.h", "aureole/pointset.h", "aureole-lab/plot.h", "aureole-lab/lab.h"]
 
 # What the libraries call, which cffi writes as C functions that call Python.
 CALLBACKS = """
@@ -25,6 +25,7 @@ void aureole_warning(void *user, const char *message);
 aur_result aureole_integrand(void *user, size_t count, const double *points, const double *along, double *values,
                              aur_error *error);
 aur_result aureole_functional(void *user, const aur_estimate_points *points, double *values, aur_error *error);
+aur_result aureole_set(void *user, uint64_t count, size_t dimension, double *points, double *weights, aur_error *error);
 aur_result aureole_density(void *user, size_t count, const double *directions, double *values, aur_error *error);
 """
 

@@ -8,8 +8,9 @@ functions of their arguments and the seed: no bit depends on threads or on the m
 >>> round(measure(xyz, "min-distance"), 6)
 0.096622
 
-`aureole.qmc` has engines for scipy.stats.qmc, `aureole.plot` draws points by matplotlib; both are loaded when they are
-asked for. `render`, `compare`, `viewfactors`, `irradiance` and `daylight` need libaureole-render (see `render_library`).
+`aureole.qmc` has engines for scipy.stats.qmc, `aureole.plot` draws points by matplotlib, `aureole.lab` runs experiments; they are
+loaded when they are asked for. `render`, `compare`, `viewfactors`, `irradiance`, `daylight` and `lab` need libaureole-render
+(see `render_library`).
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ from ._maps import (
 )
 from ._measures import Nearest, measure, student_quantile, weights_voronoi
 from ._points import Directions, PointSet, Rotations, points, read, write
+from ._sets import register_set
 from ._tables import Key, Measure, Row, Set, measures, names, sets, tables
 from ._weights import (
     ExactReport,
@@ -142,6 +144,7 @@ __all__ = [
     "points",
     "read",
     "read_image",
+    "register_set",
     "render",
     "render_library",
     "render_tables",
@@ -177,7 +180,7 @@ def __getattr__(name: str) -> object:
     """What needs more than NumPy is loaded when it is asked for: the renderer, scipy, matplotlib."""
     import importlib
 
-    if name in ("qmc", "plot"):
+    if name in ("lab", "qmc", "plot"):
         return importlib.import_module(f"{__name__}.{name}")
     if name in __all__:
         module = "_daylight" if name.lower() == "daylight" else "_render"
@@ -186,4 +189,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "plot", "qmc"]
+    return [*__all__, "lab", "plot", "qmc"]

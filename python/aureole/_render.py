@@ -13,19 +13,20 @@ from numpy.typing import ArrayLike, NDArray
 from ._bridge import ArgumentError, Bridge, Call, Error, Progress, Rebuilt, encode, kept, rows
 from ._core import core
 from ._library import ffi
+from ._sets import attach
 from ._tables import Row, read_tables
 
 Array = NDArray[np.float64]
 Picture = NDArray[np.float32]
 Path = Union[str, os.PathLike[str]]
 
-_NAMES = "libaureole-lighting.so.1", "libaureole-render.so.1"  # the first loads the second
+_NAMES = "libaureole-lab.so.1", "libaureole-lighting.so.1", "libaureole-render.so.1"  # each loads those after it
 _opened: dict[str, Bridge] = {}
 
 
 def render_library() -> str:
-    """Where libaureole-lighting, which loads libaureole-render, was found; or libaureole-render alone, which has no view factors
-    and no irradiance.
+    """Where libaureole-lab, which loads libaureole-lighting and libaureole-render, was found; or one of these, which has no
+    experiments, or no view factors and no irradiance either.
 
     It is looked for in the file that the environment's AUREOLE_RENDER_LIBRARY names, in the package aureole-render, and
     where the system has its libraries. Raises ImportError, with what was tried, where there is none.
@@ -57,6 +58,7 @@ def _library() -> Bridge:
         if version != own:
             raise ImportError(f"{place} is of version {version}, and this package of {own}: install the same of both")
         _opened[place] = bridge
+        attach(bridge)
         return bridge
     raise ImportError(
         "pictures, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found. "

@@ -30,7 +30,7 @@ for path in sorted((source / "include").glob("aureole*/*.h")):
 lost, ffi = [], cffi.FFI()
 for name in ordered:
     ffi.cdef(declare.declarations(texts[name], False))
-library = ffi.dlopen(str(build / "libaureole-lighting.so"))
+library = ffi.dlopen(str(build / "libaureole-lab.so"))
 public = pathlib.Path("functions.txt").read_text().split()
 for function in public:
     if not hasattr(library, function):
@@ -77,8 +77,8 @@ python3 read.py "$source_tree" "$build" || exit 1
 # bindgen finds the same functions, and its structs have the places that the compiler gives them.
 if bindgen --version >/dev/null 2>&1 && rustc --version >/dev/null 2>&1; then
   (cd "$source_tree/include" && printf '#include <%s>\n' aureole*/*.h) >all.h
-  bindgen all.h --allowlist-function 'aur_.*' --allowlist-type 'aur_.*' -o bindings.rs -- -I "$source_tree/include" || exit 1
-  sed -n 's/.*pub fn \(aur_[a-z0-9_]*\).*/\1/p' bindings.rs | sort -u | diff - <(sort -u functions.txt) || { echo "bindgen does not find these"; exit 1; }
+  bindgen all.h --allowlist-function '(aur|lab)_.*' --allowlist-type '(aur|lab|report)_.*' -o bindings.rs -- -I "$source_tree/include" || exit 1
+  sed -n 's/.*pub fn \(\(aur\|lab\)_[a-z0-9_]*\).*/\1/p' bindings.rs | sort -u | diff - <(sort -u functions.txt) || { echo "bindgen does not find these"; exit 1; }
   rustc --test -A warnings bindings.rs -L "$build" -l aureole-lighting -o bindings || exit 1
   LD_LIBRARY_PATH=$build ./bindings --quiet >tests.txt || { cat tests.txt; exit 1; }
   sed -n 's/^test result: ok. \([0-9]* passed\).*/bindgen: tests of layouts: \1/p' tests.txt

@@ -3,7 +3,7 @@
 set -eu
 build=$(dirname "$1")
 [ -e "$build/libaureole.so" ] || { echo "skipped: a static build is no package"; exit 77; }
-rm -rf prefix moved consumer bare bare-prefix
+rm -rf prefix moved module consumer bare bare-prefix
 cmake --install "$build" --prefix "$PWD/prefix" >install.log || { cat install.log; exit 1; }
 # The tree may be moved after it was installed.
 mv prefix moved
@@ -72,7 +72,18 @@ finds() {
     "$*" >finder/CMakeLists.txt
   cmake -S finder -B finder/build -G Ninja -DCMAKE_PREFIX_PATH="$folder" >finder/log 2>&1
 }
-finds "$prefix" aureole render lighting || { cat finder/log; echo "a component is not found"; exit 1; }
+# A module of the lab, by both ways.
+mkdir module && cp "$2"/examples/lab/* module/
+cmake -S module -B module/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 && cmake --build module/build >>cmake.log 2>&1 ||
+  { cat cmake.log; echo "the lab's module does not compile"; exit 1; }
+# shellcheck disable=SC2046 # the flags are words
+cc -std=c17 -shared -fPIC module/own_experiment.c $(PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name aureole-lab.pc)") pkg-config --cflags aureole-lab) \
+  -lm -o module/by-pkg-config.so || { echo "the lab's module does not compile by pkg-config"; exit 1; }
+for module in module/build/own_experiment.so module/by-pkg-config.so; do
+  "$prefix/bin/aureole" lab run own-distances -q --module "$module" -o module/results >module.txt 2>&1 && grep -q ': holds' module.txt ||
+    { cat module.txt; echo "$module does not run"; exit 1; }
+done
+finds "$prefix" aureole render lighting lab || { cat finder/log; echo "a component is not found"; exit 1; }
 finds "$prefix" aureole nonsense && { echo "the component 'nonsense' is found"; exit 1; }
 # Without the renderer its component is not found, and every header that is installed can be compiled and linked.
 cmake -S "$2" -B bare -G Ninja -DAUREOLE_RENDER=OFF -DAUREOLE_PROGRAM=OFF -DAUREOLE_TESTS=OFF -DAUREOLE_PYTHON=OFF -DCMAKE_BUILD_TYPE=Release >cmake.log 2>&1 &&

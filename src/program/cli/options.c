@@ -32,7 +32,7 @@ const cli_option cli_threads_option[] = {
      .letter = 't'},
     {.key = {0}}};
 
-static aur_result add_definition(const char *text, void *field, aur_error *error) {
+aur_result cli_add_definition(const char *text, void *field, aur_error *error) {
     cli_definitions *const definitions = field; /* begins with its count */
     char *const equals = strchr(text, '=');
     if (equals == NULL || equals == text)
@@ -47,7 +47,7 @@ static aur_result add_definition(const char *text, void *field, aur_error *error
 const cli_option cli_definitions_option[] = {
     {CLI_TEXT(cli_definitions, count, "define", "NAME=VALUE", NULL,
               "set a <default> of the scene; may be repeated"),
-     .letter = 'D', .parse = add_definition},
+     .letter = 'D', .parse = cli_add_definition},
     {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that names a file outside of its folder")},
     {CLI_FLAG(cli_definitions, diffuse, "diffuse",
               "in Radiance's files: replace materials, patterns and textures that are not supported by their "

@@ -143,6 +143,8 @@ typedef struct cli_definitions {
     bool confine, diffuse;
     aur_model_light model_light;
 } cli_definitions;
+/* Reads NAME=VALUE; `field` is the definitions' count. */
+aur_result cli_add_definition(const char *text, void *field, aur_error *error);
 extern const cli_option cli_definitions_option[], cli_model_light_option[]; /* of a cli_definitions */
 
 /* Reads the name of a file for a figure: --plot. Errors: ARGUMENT when its ending is no format of one. */

@@ -31,6 +31,26 @@ const lab_options *lab_run_options(const lab_run *run) {
     return &run->options;
 }
 
+void *lab_run_user(const lab_run *run) {
+    return run->experiment->user;
+}
+
+const char *lab_parameter_text(const lab_run *run, const char *name) {
+    for (size_t i = run->options.parameter_count; i-- > 0;) /* the last one that is given */
+        if (strcmp(run->options.parameters[i].name, name) == 0)
+            return run->options.parameters[i].value;
+    for (const lab_parameter *p = run->experiment->parameters; p != NULL && p->name != NULL; ++p)
+        if (strcmp(p->name, name) == 0)
+            return p->default_text;
+    return NULL;
+}
+
+double lab_parameter_number(const lab_run *run, const char *name) {
+    const char *const text = lab_parameter_text(run, name);
+    double value;
+    return text != NULL && aur_parse_double(text, &value) ? value : NAN;
+}
+
 /* --- cells */
 
 static const char *column_name(const lab_run *run, size_t index) {

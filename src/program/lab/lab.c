@@ -1,9 +1,13 @@
 /* The table of experiments: a new one is one file and one line here. */
-#include "program/lab/lab.h"
+#include <string.h>
+
+#include "program/lab/run.h"
 
 extern const lab_experiment lab_analytical_cases;
 extern const lab_experiment lab_aureole_correlated_rotations;
 extern const lab_experiment lab_aureole_every_measure;
+extern const lab_experiment lab_aureole_integrand;
+extern const lab_experiment lab_aureole_scene;
 extern const lab_experiment lab_domains_axes;
 extern const lab_experiment lab_domains_every_number;
 extern const lab_experiment lab_domains_grids;
@@ -62,6 +66,8 @@ static const lab_experiment *const experiments[] = {
     &lab_analytical_cases,
     &lab_aureole_correlated_rotations,
     &lab_aureole_every_measure,
+    &lab_aureole_integrand,
+    &lab_aureole_scene,
     &lab_domains_axes,
     &lab_domains_every_number,
     &lab_domains_grids,
@@ -116,10 +122,57 @@ static const lab_experiment *const experiments[] = {
 };
 /* clang-format on */
 
+enum { OWN_COUNT = sizeof experiments / sizeof experiments[0], MOST_ADDED = 256 };
+
+/* What modules and programs have added, for the whole process, before the first run. */
+static const lab_experiment *added[MOST_ADDED];
+static size_t added_count;
+
 size_t lab_experiment_count(void) {
-    return sizeof experiments / sizeof experiments[0];
+    return OWN_COUNT + added_count;
 }
 
 const lab_experiment *lab_experiment_at(size_t index) {
-    return index < lab_experiment_count() ? experiments[index] : NULL;
+    return index < OWN_COUNT                ? experiments[index]
+           : index < lab_experiment_count() ? added[index - OWN_COUNT]
+                                            : NULL;
+}
+
+const lab_experiment *lab_find_experiment(const char *name) {
+    for (size_t i = lab_experiment_count(); i-- > 0;) /* what was added last */
+        if (strcmp(lab_experiment_at(i)->name, name) == 0)
+            return lab_experiment_at(i);
+    return NULL;
+}
+
+static aur_result add_experiment(const lab_experiment *experiment, aur_error *error) {
+    if (experiment->name == NULL || experiment->columns == NULL || experiment->run == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "an experiment must have a name, columns and a function");
+    for (size_t i = 0; i < OWN_COUNT; ++i)
+        if (strcmp(experiments[i]->name, experiment->name) == 0)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "the lab has an experiment '%s' already",
+                            experiment->name);
+    size_t at = 0;
+    while (at < added_count && strcmp(added[at]->name, experiment->name) != 0)
+        ++at;
+    if (at == MOST_ADDED)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "at most %d experiments can be added", MOST_ADDED);
+    added[at] = experiment;
+    added_count += at == added_count;
+    return AUR_OK;
+}
+
+aur_result lab_add(const lab_module *module, aur_error *error) {
+    if (module->size != sizeof *module || strcmp(module->version, aur_version()) != 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "built for version %s: expected %s (build it again with this version's headers)",
+                        module->size == sizeof *module ? module->version : "another", aur_version());
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < module->experiment_count && result == AUR_OK; ++i)
+        result = add_experiment(module->experiments[i], error);
+    for (size_t i = 0; i < module->set_count && result == AUR_OK; ++i)
+        result = aur_set_register(&module->sets[i], error);
+    for (size_t i = 0; i < module->integrand_count && result == AUR_OK; ++i)
+        result = lab_add_integrand(&module->integrands[i], error);
+    return result;
 }

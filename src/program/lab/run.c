@@ -29,14 +29,34 @@ static void add_columns(report_table *table, const char *const *columns) {
 }
 
 /* What a run must share with another one to go on with its results. */
-static void identify(const lab_experiment *experiment, const lab_options *options, char text[512]) {
-    snprintf(text, 512, "aureole %s, %s, %s form, set %s, rows %s", aur_version(), experiment->name,
-             options->quick ? "quick" : "full", options->set != NULL ? options->set : "none",
-             options->rows != NULL ? options->rows : "all");
+static void identify(const lab_experiment *experiment, const lab_options *options, char text[LAB_IDENTITY]) {
+    int at =
+        snprintf(text, LAB_IDENTITY, "aureole %s, %s, %s form, set %s, rows %s", aur_version(),
+                 experiment->name, options->quick ? "quick" : "full",
+                 options->set != NULL ? options->set : "none", options->rows != NULL ? options->rows : "all");
+    for (size_t i = 0; i < options->parameter_count && at >= 0 && at < LAB_IDENTITY; ++i)
+        at += snprintf(text + at, (size_t)(LAB_IDENTITY - at), ", %s=%s", options->parameters[i].name,
+                       options->parameters[i].value);
+}
+
+/* Whether the experiment has all parameters that are given. */
+static aur_result check_parameters(const lab_run *run, aur_error *error) {
+    for (size_t i = 0; i < run->options.parameter_count; ++i) {
+        const char *const name = run->options.parameters[i].name;
+        const lab_parameter *p = run->experiment->parameters;
+        char known[512] = "";
+        for (; p != NULL && p->name != NULL && strcmp(p->name, name) != 0; ++p)
+            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s",
+                     known[0] != '\0' ? ", " : "", p->name);
+        if (p == NULL || p->name == NULL)
+            return aur_fail(error, AUR_ERROR_NAME, "experiment '%s': unknown parameter '%s': expected %s",
+                            run->experiment->name, name, known[0] != '\0' ? known : "no parameters");
+    }
+    return AUR_OK;
 }
 
 bool lab_is_finished(const lab_experiment *experiment, const lab_options *options) {
-    char path[AUR_ERROR_FILE_CAPACITY], identity[512];
+    char path[AUR_ERROR_FILE_CAPACITY], identity[LAB_IDENTITY];
     report_table *table = NULL;
     identify(experiment, options, identity);
     snprintf(path, sizeof path, "%s/%s/%s-run.csv", options->folder, experiment->name, experiment->name);
@@ -51,7 +71,7 @@ bool lab_is_finished(const lab_experiment *experiment, const lab_options *option
 static aur_result begin(lab_run *run, aur_error *error) {
     static const char *const of_pictures[] = {"view", "name", "file", "role", "exposure", NULL};
     static const char *const of_times[] = {"what", "cpu_seconds", NULL};
-    char path[AUR_ERROR_FILE_CAPACITY], identity[512];
+    char path[AUR_ERROR_FILE_CAPACITY], identity[LAB_IDENTITY];
     snprintf(run->folder, sizeof run->folder, "%s/%s", run->options.folder, run->experiment->name);
     if (aur_ranks_rank() == 0 && mkdir(run->folder, 0777) != 0 && errno != EEXIST)
         return aur_fail(error, AUR_ERROR_WRITE, "%s: cannot make the folder: %s", run->folder,
@@ -120,7 +140,7 @@ static void note_verdicts(lab_run *run) {
 
 /* Files and the mark that the run is finished, in the end. */
 static aur_result save_all(lab_run *run, aur_error *error) {
-    char path[AUR_ERROR_FILE_CAPACITY], identity[512];
+    char path[AUR_ERROR_FILE_CAPACITY], identity[LAB_IDENTITY];
     aur_result result = lab_run_save(run, run->result->table, NULL, run->result->notes, true, error);
     for (size_t i = 0; i < run->further_count && result == AUR_OK; ++i)
         result = lab_run_save(run, run->further[i], run->further_names[i], NULL, true, error);
@@ -166,6 +186,8 @@ aur_result lab_run_experiment(const lab_experiment *experiment, const lab_option
     aur_result outcome = AUR_OK;
     const bool ready = run.notes != NULL && run.files != NULL;
     if (ready)
+        outcome = check_parameters(&run, error);
+    if (outcome == AUR_OK && ready)
         outcome = begin(&run, error);
     if (outcome == AUR_OK && ready)
         outcome = experiment->run(&run, error);

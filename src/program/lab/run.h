@@ -26,7 +26,7 @@ bool lab_store_find(const lab_store *store, const char *key, size_t count, doubl
 aur_result lab_store_add(lab_store *store, const char *key, size_t count, const double *values,
                          double seconds, aur_error *error);
 
-enum { LAB_FURTHER_TABLES = 8 };
+enum { LAB_FURTHER_TABLES = 8, LAB_IDENTITY = 1024 };
 
 struct lab_run {
     const lab_experiment *experiment;
@@ -43,6 +43,9 @@ struct lab_run {
     aur_progress shown;
     char folder[AUR_ERROR_FILE_CAPACITY - 256];
 };
+
+/* One of a module. Errors: ARGUMENT. */
+aur_result lab_add_integrand(const lab_named_integrand *integrand, aur_error *error);
 
 double lab_clock_seconds(clockid_t clock);
 /* Processor seconds, with those before interruptions. */

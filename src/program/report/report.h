@@ -1,13 +1,12 @@
 /* Tables of results, as aligned text, CSV or JSON. */
 #pragma once
 
+#include <aureole-lab/plot.h>
 #include <aureole/core.h>
 #include <stdbool.h>
 #include <stdio.h>
 
 typedef enum report_format { REPORT_TABLE, REPORT_CSV, REPORT_JSON } report_format;
-
-typedef struct report_table report_table;
 
 /* Returns NULL when out of memory; the functions below accept NULL and then do nothing, and writing fails. */
 report_table *report_create(size_t column_count, const char *const *columns);
@@ -48,21 +47,6 @@ size_t report_find(const report_table *table, const char *name);
 const char *report_cell(const report_table *table, size_t row, size_t column);
 /* A cell as a number; NaN when it is none, or `column` is SIZE_MAX. */
 double report_value(const report_table *table, size_t row, size_t column);
-
-/* Plots of tables of results: which columns are drawn, and how. */
-
-/* Names of columns; where several make a name, commas stand between them. */
-typedef struct report_plot {
-    const char *name;       /* a part of file names: "energy"; NULL ends a list of plots */
-    const char *title;      /* what is seen, in a line */
-    const char *table;      /* of an experiment's further tables; NULL: the first one */
-    const char *x, *y;      /* numbers */
-    const char *low, *high; /* the interval of y; or NULL */
-    const char *series;     /* columns whose words name a line: "set,map"; NULL: there is one */
-    const char *panel;      /* columns whose words name a panel beside the others; NULL: there is one */
-    bool log_x, log_y;
-    bool points; /* no lines between the points, and one scale for x and y */
-} report_plot;
 
 /* Writes the plot to `path`, in a format of report/figure.h that its name ends in; no file, and *drawn false,
  * when a column is missing or no row has numbers. Errors: NAME, MEMORY, WRITE. */

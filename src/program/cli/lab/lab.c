@@ -1,4 +1,5 @@
 /* aureole lab: the papers' experiments. */
+#include <dlfcn.h>
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -6,6 +7,24 @@
 #include "program/cli/lab/lab_run.h"
 #include "program/cli/listing.h"
 #include "program/lab/lab.h"
+
+static aur_result add_named(cli_definitions *definitions, const char *name, const char *value,
+                            aur_error *error) {
+    if (definitions->count == CLI_DEFINITION_LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: more than %d parameters", name,
+                        CLI_DEFINITION_LIMIT);
+    definitions->items[definitions->count++] = (aur_definition){name, value};
+    return AUR_OK;
+}
+
+/* The field of both is the count that the definitions begin with. */
+static aur_result add_scene(const char *text, void *field, aur_error *error) {
+    return add_named(field, "scene", text, error);
+}
+
+static aur_result add_integrand(const char *text, void *field, aur_error *error) {
+    return add_named(field, "integrand", text, error);
+}
 
 static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results; lab-check for check, lab-report for report",
@@ -21,6 +40,18 @@ static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.set, "set", "SET", NULL,
               "compare one more point set, file:PATH for points of one's own"),
      .content = "set"},
+    {CLI_TEXT(cli_lab, module, "module", "FILE", NULL,
+              "load experiments, sets (callback:NAME) and integrands of a shared library (docs/lab.md)"),
+     .content = "file"},
+    {CLI_TEXT(cli_lab, definitions.count, "define", "NAME=VALUE", NULL,
+              "set a parameter of the experiment; may be repeated"),
+     .letter = 'D', .parse = cli_add_definition},
+    {CLI_TEXT(cli_lab, definitions.count, "scene", "FILE", NULL,
+              "the same as -D scene=FILE: of experiments that render any scene"),
+     .parse = add_scene, .content = "file"},
+    {CLI_TEXT(cli_lab, definitions.count, "integrand", "NAME", NULL,
+              "the same as -D integrand=NAME: of experiments that integrate any function"),
+     .parse = add_integrand},
     {CLI_TEXT(cli_lab, lab.rows, "rows", "PATTERN", NULL,
               "make only the rows that match, such as '*/bnot'; of experiments whose rows have names")},
     {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, else those of the source tree",
@@ -72,8 +103,28 @@ static int report(const char *results, const char *folder, bool small) {
     return status;
 }
 
+/* The library stays until the process ends. */
+static int load_module(const char *path) {
+    char place[AUR_ERROR_FILE_CAPACITY];
+    aur_error error = {0};
+    snprintf(place, sizeof place, "%s%s", strchr(path, '/') != NULL ? "" : "./", path);
+    void *const library = dlopen(place, RTLD_NOW | RTLD_LOCAL);
+    const lab_module *(*find)(void) = NULL;
+    *(void **)&find = library != NULL ? dlsym(library, "aureole_lab_module") : NULL;
+    if (find == NULL) {
+        fprintf(stderr, "aureole: --module %s: %s\n", path, dlerror());
+        return CLI_FAILURE;
+    }
+    const aur_result result = lab_add(find(), &error);
+    snprintf(error.file, sizeof error.file, "%s", path);
+    return cli_status(result, &error);
+}
+
 static int run(const cli_call *call) {
     cli_lab *const command = call->options;
+    const int loaded = command->module != NULL ? load_module(command->module) : CLI_SUCCESS;
+    if (loaded != CLI_SUCCESS)
+        return loaded;
     const char *const action = call->operands[0], *const folder = command->lab.folder;
     command->check = strcmp(action, "check") == 0;
     command->lab.folder = folder != NULL ? folder : command->check ? "lab-check" : "lab-results";

@@ -164,13 +164,6 @@ static int run_all(schedule *plan) {
     return worst;
 }
 
-static const lab_experiment *find(const char *name) {
-    for (size_t i = 0; i < lab_experiment_count(); ++i)
-        if (strcmp(lab_experiment_at(i)->name, name) == 0)
-            return lab_experiment_at(i);
-    return NULL;
-}
-
 /* Whether there is a file of any size of file:NAME-%d.csv; of a folder nothing is said. */
 static bool has_some_size(const char *set) {
     const char *const mark = strstr(set, "%d");
@@ -236,7 +229,7 @@ static int choose(schedule *plan, size_t count, char **names) {
     if (plan->experiments == NULL)
         return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY});
     for (size_t i = 0; i < plan->count; ++i) {
-        plan->experiments[i] = every ? lab_experiment_at(i) : find(names[i]);
+        plan->experiments[i] = every ? lab_experiment_at(i) : lab_find_experiment(names[i]);
         if (plan->experiments[i] == NULL)
             return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", names[i]);
         if (plan->command->lab.rows != NULL && plan->experiments[i]->rows == NULL)
@@ -260,6 +253,8 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
         status = CLI_FAILURE;
     }
     lab->threads = command->common.threads;
+    lab->parameter_count = command->definitions.count;
+    lab->parameters = command->definitions.items;
     lab->progress = cli_progress_of_kept(command->common.quiet);
     lab->warnings = cli_warnings(command->common.quiet);
     if (status == CLI_SUCCESS) {

@@ -1,0 +1,46 @@
+# What the program and libaureole-lab have in common: tables and plots, pages, the lab; parts of the program.
+function(aureole_program_part name)
+    set(patterns ${ARGN})
+    list(TRANSFORM patterns PREPEND "${PROJECT_SOURCE_DIR}/")
+    file(GLOB files CONFIGURE_DEPENDS ${patterns})
+    # Main is not in the harness of options, and the integrator of the lab is one that `render` offers.
+    list(FILTER files EXCLUDE REGEX "/cli/main\\.c$")
+    if(NOT name STREQUAL "page")
+        list(FILTER files EXCLUDE REGEX "/lab/gathering/")
+    endif()
+    add_library(aureole_cli_${name} OBJECT ${files})
+    target_link_libraries(aureole_cli_${name} PRIVATE aureole_flags)
+    target_compile_definitions(aureole_cli_${name} PRIVATE AUR_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
+endfunction()
+
+aureole_program_part(report src/program/report/*.[ch])
+if(AUREOLE_RENDER)
+    # Styles and scripts of pages are files of their own, and stand in the program.
+    file(GLOB page_files CONFIGURE_DEPENDS src/program/report/page/*.css src/program/report/page/*.js)
+    set(page_assets "${PROJECT_BINARY_DIR}/page_assets.c")
+    add_custom_command(OUTPUT "${page_assets}" VERBATIM DEPENDS cmake/embed.cmake ${page_files}
+        COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${page_assets}" -DHEADER=program/report/page/page.h -DARRAY=report_assets "-DFILES=${page_files}" -P "${PROJECT_SOURCE_DIR}/cmake/embed.cmake")
+    aureole_program_part(page src/program/report/page/*.[ch] lab/gathering/*.[ch])
+    target_sources(aureole_cli_page PRIVATE "${page_assets}")
+    target_link_libraries(aureole_cli_page PRIVATE Stb::Stb PUBLIC ZLIB::ZLIB)
+endif()
+if(NOT AUREOLE_LIGHTING)
+    return()
+endif()
+aureole_program_part(lab src/program/lab/*.[ch] lab/*/*.[ch])
+if(NOT BUILD_SHARED_LIBS)
+    return()
+endif()
+
+# libaureole-lab: the lab as a library, for experiments in Python and in programs (aureole-lab/lab.h). The program has the same
+# files itself.
+add_library(aureole-lab SHARED $<TARGET_OBJECTS:aureole_cli_report> $<TARGET_OBJECTS:aureole_cli_page> $<TARGET_OBJECTS:aureole_cli_lab>)
+target_link_libraries(aureole-lab PUBLIC aureole-lighting PRIVATE ZLIB::ZLIB Threads::Threads m)
+file(WRITE "${PROJECT_BINARY_DIR}/aureole-lab.map" "AUREOLE_LAB_${PROJECT_VERSION} { global: lab_*; local: *; };\n")
+target_link_options(aureole-lab PRIVATE "-Wl,--version-script=${PROJECT_BINARY_DIR}/aureole-lab.map" -Wl,-Bsymbolic-functions)
+if(AUREOLE_SANITIZE)
+    target_link_options(aureole-lab PUBLIC -fsanitize=${AUREOLE_SANITIZE})
+endif()
+set_target_properties(aureole-lab PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 1 EXPORT_NAME lab INSTALL_RPATH "$ORIGIN")
+target_include_directories(aureole-lab PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
+add_library(Aureole::lab ALIAS aureole-lab)
