@@ -23,7 +23,10 @@ RAYS = "src/render/trace/accel.c"
 def read_symbols(build):
     """The file that defines each symbol, and the symbols that each file needs, of the libraries and the program."""
     folders = [f for f in (build / "CMakeFiles").glob("*.dir") if re.match(r"aureole_|aureole-program", f.name)]
-    objects = sorted(o for f in folders for o in f.rglob("*.c.o"))
+    # A build folder still has the objects of targets that a file has left: the newest object of a source comes last and counts.
+    objects = sorted((o for f in folders for o in f.rglob("*.c.o")), key=lambda o: o.stat().st_mtime)
+    newest = {re.sub(r".*?\.dir/", "", str(o)): o for o in objects}
+    objects = sorted(newest.values())
     defined, needed = {}, {}
     text = subprocess.run(["nm", "-A", *objects], capture_output=True, text=True, check=True).stdout
     for line in text.splitlines():
