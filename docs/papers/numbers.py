@@ -130,6 +130,11 @@ for name, set_, light, degrees in (("Sobol, smooth, 0 degrees", "sobol", "smooth
                                    ("spherical Fibonacci, smooth, 0", "spherical-fibonacci", "smooth", 0), ("random, smooth, 0", "random", "smooth", 0)):
     line(page, f"| {name} | " + " | ".join(
         value(t, "relative_to_equal", set=set_, light=light, degrees=degrees, method=m) for m in METHODS) + " |")
+controls = {}
+for row in rows(t):
+    controls.setdefault((row["set"], row["light"], row["degrees"]), {})[row["method"]] = float(row["rmse"])
+below = sum(of["OSWA, clipped"] < min(of["optimal MIS"], of["regression of degree 2"]) for of in controls.values())
+line(page, f"is below both in {put(below)} of {put(len(controls))} cases")
 t = "marques-2018-table1"
 _, agree, _, differ = verdicts(t)
 line(page, f"{agree} of 9 published values agree, {differ} differ")
@@ -152,6 +157,10 @@ t = "marques-2018-lobes"
 merged = {light: [float(row["over_plain"]) for row in rows(t, light=light, method="OSWA")] for light in ("smooth", "hard edges")}
 line(page, f"RMSE {put(min(merged['smooth']))} to {put(max(merged['smooth']))} of p/q under smooth light, "
            f"{put(min(merged['hard edges']))} to {put(max(merged['hard edges']))} with hard edges")
+lobes = {}
+for row in rows(t):
+    lobes.setdefault((row["lobes"], row["set"], row["light"]), {})[row["method"]] = float(row["rmse"])
+line(page, f"below MIS in {put(sum(of['OSWA'] < of['MIS'] for of in lobes.values()))} of {put(len(lobes))}")
 t = "marques-2018-learned"
 learned = [float(row["over_fixed"]) for row in rows(t, light="smooth", way="s learned")]
 places = [[float(row["over_fixed"]) for row in rows(t, way="half placed by spread", set=s)] for s in ("random", lambda text: text != "random")]

@@ -276,9 +276,14 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (s.truth == NULL)
         return AUR_ERROR_MEMORY;
     aur_result result = AUR_OK;
-    const char *const sets[] = {"sobol", "spherical-fibonacci", options->quick ? NULL : "random",
+    const bool whole = !options->quick;
+    const char *const sets[] = {"sobol",
+                                "spherical-fibonacci",
+                                whole ? "random" : NULL,
+                                whole ? "pmj02" : NULL,
+                                whole ? "sliced" : NULL,
                                 options->set};
-    for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
+    for (size_t i = 0; i < sizeof sets / sizeof sets[0] && result == AUR_OK; ++i) {
         s.set = sets[i];
         if (s.set != NULL)
             result = lab_forgive(run, s.set, study_set(&s, error), error);
@@ -292,7 +297,7 @@ const lab_experiment lab_marques_2018_rivals = {
     .reproduces = "none: lights of known truth for 6.3's weights",
     .summary = "equal weights, MIS, optimal MIS, regression, OSW and OSWA under random lights",
     .columns = columns,
-    .seconds = 52,
+    .seconds = 165,
     .quick_seconds = 7,
     .run = run,
 };

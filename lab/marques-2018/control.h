@@ -1,5 +1,5 @@
-/* Weights by control variates whose coefficients are fitted to the same samples: the rivals of optimal
- * weights that solve as large a system or a smaller one. */
+/* Weights by control variates whose coefficients are fitted to the same samples: published methods that solve
+ * a system as optimal weights do. */
 #ifndef LAB_MARQUES_2018_CONTROL_H
 #define LAB_MARQUES_2018_CONTROL_H
 

@@ -136,7 +136,7 @@ static double spread_near(const double *u, const double *xyz, const double *valu
     return sqrt(fmax(0.0, squares - sum * sum));
 }
 
-/* The second half of xyz: candidates in their order, each as often as its share of the spread asks for. */
+/* The second half of xyz: candidates in their order, in proportion to the spread about them. */
 static void place(const learned_study *of, double *xyz, const double *values) {
     double spreads[CANDIDATES], sum = 0.0, squares = 0.0, total = 0.0, passed = 0.0;
     for (size_t i = 0; i < FIRST; ++i) {
