@@ -148,6 +148,12 @@ AUR_EXPERIMENTAL aur_result aur_scene_load(const char *path, const aur_scene_opt
 AUR_EXPERIMENTAL aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
                                                   const aur_scene_options *options, aur_scene **scene,
                                                   aur_error *error) AUR_NONNULL(1, 3, 5);
+/* Moves the camera about the middle of the scene: by `azimuth` to the right and `elevation` up, degrees, to
+ * `distance` times its distance; never through the poles or below the ground of the stage. Not while a
+ * renderer of the scene lives, whose caches may be of the camera before. Errors: ARGUMENT for numbers that
+ * are not finite, a distance that is not above 0, and cameras that cannot turn (a batch). */
+AUR_EXPERIMENTAL aur_result aur_scene_turn(aur_scene *scene, double azimuth, double elevation,
+                                           double distance, aur_error *error) AUR_NONNULL(1);
 /* Not while a renderer of the scene lives. */
 AUR_EXPERIMENTAL void aur_scene_destroy(aur_scene *scene); /* NULL is allowed */
 

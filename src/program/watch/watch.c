@@ -38,6 +38,9 @@ struct watch_session {
     uint64_t serial;              /* of the state */
     char what[TEXT_CAPACITY], known[TEXT_CAPACITY], ended[TEXT_CAPACITY];
     double share;
+    bool turns, has_turned; /* pages may turn the camera; one has */
+    bool turned;            /* `turn` is to be taken */
+    watch_turn turn;
     bool wanted;           /* a page asks for a newer picture */
     aur_image *fresh;      /* which the server's thread takes over */
     const aur_image *last; /* what the render has ended with; its owner's */
@@ -121,6 +124,8 @@ static char *state_text(watch_session *watch, size_t *size) {
     aur_json_integer(&json, watch->serial);
     aur_json_name(&json, "share");
     aur_json_number(&json, watch->share);
+    aur_json_name(&json, "turns");
+    aur_json_boolean(&json, watch->turns);
     pthread_mutex_unlock(&watch->lock);
     aur_json_name(&json, "version");
     aur_json_integer(&json, watch->version);
@@ -193,6 +198,33 @@ static bool answer_goodbye(watch_session *watch, const char *text, watch_answer 
     return answer_text(answer, 200, NULL, strdup("Goodbye.\n"), strlen("Goodbye.\n"));
 }
 
+/* "turn/AZIMUTH/ELEVATION/DISTANCE": adds to what is to be turned. */
+static bool answer_turn(watch_session *watch, const char *text, watch_answer *answer) {
+    double numbers[3];
+    for (size_t i = 0; i < 3; ++i) {
+        char piece[32] = "";
+        const size_t length = strcspn(text, "/");
+        if (length >= sizeof piece || !aur_parse_double(memcpy(piece, text, length), &numbers[i]) ||
+            !(fabs(numbers[i]) <= 1e4) || (text[length] == '/') != (i < 2))
+            return answer_status(answer, 404);
+        text += length + (i < 2);
+    }
+    pthread_mutex_lock(&watch->lock);
+    const bool allowed = watch->turns && numbers[2] > 1e-4;
+    if (allowed) {
+        watch_turn *const turn = &watch->turn;
+        *turn = watch->turned ? *turn : (watch_turn){.distance = 1.0};
+        turn->azimuth += numbers[0];
+        turn->elevation += numbers[1];
+        turn->distance = fmin(fmax(turn->distance * numbers[2], 1e-3), 1e3);
+        watch->has_turned = true; /* also by nothing, which a page begins with */
+        watch->turned = watch->turned || numbers[0] != 0.0 || numbers[1] != 0.0 || numbers[2] != 1.0;
+    }
+    pthread_mutex_unlock(&watch->lock);
+    return allowed ? answer_text(answer, 200, NULL, strdup("Turning.\n"), strlen("Turning.\n"))
+                   : answer_status(answer, 404);
+}
+
 /* What comes after "/TOKEN/", or NULL. How long it takes tells nothing of the token. */
 static const char *after_token(const watch_session *watch, const char *target) {
     unsigned char difference = 0;
@@ -207,7 +239,8 @@ static bool handle(void *user, const char *method, const char *target, bool last
     watch_session *const watch = user;
     const char *const what = after_token(watch, target);
     const bool reads = strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0;
-    const bool acts = what != NULL && (strcmp(what, "stop") == 0 || strncmp(what, "bye/", 4) == 0);
+    const bool acts = what != NULL && (strcmp(what, "stop") == 0 || strncmp(what, "bye/", 4) == 0 ||
+                                       strncmp(what, "turn/", 5) == 0);
     if (what == NULL)
         return answer_status(answer, 404);
     if (acts ? strcmp(method, "POST") != 0 : !reads)
@@ -223,6 +256,8 @@ static bool handle(void *user, const char *method, const char *target, bool last
         return answer_picture(watch, what + 8, answer);
     if (!acts)
         return answer_status(answer, 404);
+    if (what[0] == 't')
+        return answer_turn(watch, what + 5, answer);
     if (what[0] == 'b')
         return answer_goodbye(watch, what + 4, answer);
     atomic_store(&watch->stop, true);
@@ -326,8 +361,59 @@ static aur_image *develop(watch_session *watch) {
     return fresh;
 }
 
+void watch_allow_turns(watch_session *watch) {
+    pthread_mutex_lock(&watch->lock);
+    watch->turns = true;
+    pthread_mutex_unlock(&watch->lock);
+}
+
+static bool is_turned(watch_session *watch) {
+    pthread_mutex_lock(&watch->lock);
+    const bool turned = watch->turned;
+    pthread_mutex_unlock(&watch->lock);
+    return turned;
+}
+
+bool watch_take_turn(watch_session *watch, watch_turn *turn) {
+    pthread_mutex_lock(&watch->lock);
+    const bool turned = watch->turned && !atomic_load(&watch->stop);
+    *turn = watch->turn;
+    watch->turned = false;
+    watch->share = 0.0;
+    pthread_mutex_unlock(&watch->lock);
+    watch->developed = watch->cost = watch->told = 0.0; /* the first image is wanted at once */
+    return turned;
+}
+
+/* All channels of an image, up to a number that few have more than. */
+static aur_result copy_of(const void *user, aur_image **image, aur_error *error) {
+    enum { MOST_CHANNELS = 128 };
+    const aur_image *const from = user;
+    const char *names[MOST_CHANNELS];
+    const size_t all = aur_image_channel_count(from), count = all < MOST_CHANNELS ? all : MOST_CHANNELS;
+    for (size_t c = 0; c < count; ++c)
+        names[c] = aur_image_channel_name(from, c);
+    return aur_image_select(from, count, names, image, error);
+}
+
+bool watch_wait_for_turn(watch_session *watch, aur_image *image) {
+    const struct timespec moment = {.tv_nsec = 50000000};
+    watch_set_source(watch, &(watch_source){.user = image, .develop = copy_of});
+    watch->cost = 0.0;
+    for (bool open = true; open && !is_turned(watch); nanosleep(&moment, NULL)) {
+        pthread_mutex_lock(&watch->lock);
+        open = watch->has_turned && now() - watch->asked < SILENCE;
+        for (size_t i = 0, gone = 0; i < watch->page_count; ++i)
+            open = open && (gone += watch->pages[i].has_all) < watch->page_count;
+        pthread_mutex_unlock(&watch->lock);
+        open = open && !watch_progress(watch, "finished: turn the camera, or stop", 1.0);
+    }
+    watch_set_source(watch, &(watch_source){0});
+    return is_turned(watch);
+}
+
 bool watch_progress(watch_session *watch, const char *what, double share) {
-    if (atomic_load(&watch->stop))
+    if (atomic_load(&watch->stop) || is_turned(watch))
         return true;
     const double time = now();
     if (time - watch->told < PAUSE)
@@ -373,13 +459,8 @@ bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text) {
 
 /* The whole picture as it is written. */
 static void send_last(watch_session *watch, const aur_image *image) {
-    enum { MOST_CHANNELS = 128 };
-    const char *names[MOST_CHANNELS];
-    const size_t count = aur_image_channel_count(image);
     aur_image *copy = NULL;
-    for (size_t c = 0; c < count && c < MOST_CHANNELS; ++c)
-        names[c] = aur_image_channel_name(image, c);
-    if (count <= MOST_CHANNELS && aur_image_select(image, count, names, &copy, NULL) == AUR_OK)
+    if (copy_of(image, &copy, NULL) == AUR_OK)
         watch_display_show(watch->display, copy);
     watch_display_finish(watch->display);
 }

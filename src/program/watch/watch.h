@@ -17,6 +17,20 @@ typedef struct watch_options {
 
 /* Errors: ARGUMENT (no such place), OPEN (it cannot be listened at or connected to), MEMORY. */
 aur_result watch_create(const watch_options *options, watch_session **made, aur_error *error);
+/* How far somebody has turned the camera in the page: degrees to the right and up, and a factor of the
+ * distance. */
+typedef struct watch_turn {
+    double azimuth, elevation, distance;
+} watch_turn;
+
+/* From now on pages can turn the camera; watch_progress is true when one has. */
+void watch_allow_turns(watch_session *watch);
+/* What pages have turned since the last call; false: nothing. */
+bool watch_take_turn(watch_session *watch, watch_turn *turn);
+/* Waits, when the render has ended with `image`, as long as a page that has turned the camera stays open;
+ * true when it has turned it again. */
+bool watch_wait_for_turn(watch_session *watch, aur_image *image);
+
 /* NULL is allowed. */
 void watch_destroy(watch_session *watch);
 

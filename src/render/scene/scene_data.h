@@ -86,7 +86,8 @@ struct aur_scene {
     aur_light_choice choice; /* of a point on a light that is seen from a reference */
     size_t environment_count, environment_capacity;
     const aur_emitter **environments; /* those of them whose radiance_from is for rays that hit nothing */
-    bool has_background;
+    double middle[3];                 /* of all but the ground of the stage, in the world */
+    bool has_ground, has_background;
     float background[3]; /* radiance, RGB, where camera rays meet nothing, in place of the environments' */
     bool has_sensor, has_integrator;
     aur_sensor sensor;

@@ -110,6 +110,30 @@ for place in x 65536 :80 '[::1' a:b:80 -1; do
   [ $? -eq 2 ] && grep -qF -- "--serve: expected PORT, HOST:PORT or [HOST]:PORT, with a port of at most 65535, not '$place'" message.txt || fail "$place: $(cat message.txt)"
 done
 
+# A page turns the camera: the image is that of a camera there. The middle of the wedge is (1.5, .75, .5).
+printf 'v %s\n' '0 0 0' '3 0 0' '3 0 1' '0 0 1' '0 1.5 0' '0 1.5 1' >wedge.obj
+printf 'f %s\n' '1 2 3 4' '1 5 2' '4 3 6' '2 5 6 3' '1 4 6 5' >>wedge.obj
+turned() { # turned TURN PLACE: from (1.5, .75, 8.5)
+  local plain=$scene
+  scene=wedge.obj
+  begin turned --height 48 --ground none --integrator depth --filter box --spp 3000 --camera 1.5,.75,8.5,1.5,.75,.5,40
+  scene=$plain
+  ask GET "/$token/state/1/0" >/dev/null # from which on it is rendering
+  status 200 "$(ask POST "/$token/turn/$1")" "turning by $1"
+  status 200 "$(ask POST "/$token/bye/1")" "goodbye"
+  wait "$pid" || fail "turned by $1: $(cat turned.txt)"
+  "$aureole" render wedge.obj -q --width 64 --height 48 --ground none --integrator depth --filter box --spp 3000 --camera "$2,1.5,.75,.5,40" -o there.exr
+  "$aureole" compare there.exr turned.exr --metric relative-rmse --tolerance 1e-3 >compared.txt || fail "turned by $1: $(cat compared.txt)"
+}
+turned 90/0/1 9.5,.75,.5
+turned 0/30/2 1.5,8.75,14.356406460551018
+turned 0/0/1 1.5,.75,8.5
+begin refused --spp 2000 --checkpoint kept.chk
+for wrong in 1/2 1/2/0 1/2/nan 1/2/3/4 x/0/1; do status 404 "$(ask POST "/$token/turn/$wrong")" "turning by $wrong"; done
+status 404 "$(ask POST "/$token/turn/1/1/1")" "turning what a checkpoint keeps"
+status 200 "$(ask POST "/$token/stop")" "stop"
+wait "$pid"
+
 # The file that the page saves, by its own script.
 if command -v node >/dev/null; then
   node - "$source/src/program/watch/page/live.js" >values.exr <<'END'

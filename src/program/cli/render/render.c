@@ -265,6 +265,8 @@ static aur_result begin(render_command *command, aur_error *error) {
     result = cli_watch_begin(&command->watch, command->output, error);
     if (result != AUR_OK)
         cli_denoise_end(&command->denoise);
+    if (command->checkpoint.path == NULL && command->errors == NULL && command->options.shard_count == 0)
+        cli_watch_allow_turns(&command->watch);
     command->options.progress = cli_checkpoint_progress(
         &command->checkpoint,
         cli_watch_progress(&command->watch, cli_progress_of_kept(command->common.quiet)));
@@ -296,6 +298,35 @@ static aur_scene_options loading(const render_command *command) {
                                .warnings = command->options.warnings};
 }
 
+/* What a render has made, to be destroyed in the order of the fields. */
+typedef struct rendered {
+    aur_image *image;
+    aur_adaptive *adaptive;
+    aur_render *work;
+    aur_renderer *renderer;
+} rendered;
+
+static void release(rendered *made) {
+    aur_image_destroy(made->image);
+    aur_adaptive_destroy(made->adaptive);
+    aur_render_destroy(made->work);
+    aur_renderer_destroy(made->renderer);
+    *made = (rendered){NULL};
+}
+
+static aur_result render_once(aur_scene *scene, render_command *command, cli_errors *errors, rendered *made,
+                              aur_error *error) {
+    const cli_surroundings beside = {&command->checkpoint,  &command->watch, command->output,
+                                     command->common.quiet, command->json,   command->statistics};
+    const aur_result result = aur_renderer_create(scene, &made->renderer, error);
+    if (result != AUR_OK)
+        return result;
+    return cli_is_target(&command->target)
+               ? cli_render_target(made->renderer, &command->options, &command->target, &beside,
+                                   &made->adaptive, &made->image, error)
+               : render_samples(made->renderer, command, errors, &made->work, &made->image, error);
+}
+
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
     aur_result result = begin(command, &error);
@@ -303,47 +334,40 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         return cli_fail(&error);
     const aur_scene_options scene_options = loading(command);
     aur_scene *scene = NULL;
-    aur_renderer *renderer = NULL;
-    aur_render *work = NULL;
-    aur_adaptive *adaptive = NULL;
-    aur_image *image = NULL;
+    rendered made = {NULL};
     result = aur_scene_load(path, &scene_options, &scene, &error);
     command->scene = scene;
     if (result == AUR_OK && !cli_is_target(&command->target)) /* whose progress is one phase */
         plan(command);
+    while (result == AUR_OK) {
+        result = render_once(scene, command, errors, &made, &error);
+        if (!cli_watch_turn(&command->watch, result, scene, made.image))
+            break;
+        release(&made);
+        command->options.use_cache = false; /* which may have been made for the camera before */
+        result = AUR_OK;
+    }
     if (result == AUR_OK)
-        result = aur_renderer_create(scene, &renderer, &error);
-    if (result == AUR_OK)
-        result = cli_is_target(&command->target)
-                     ? cli_render_target(renderer, &command->options, &command->target,
-                                         &(cli_surroundings){&command->checkpoint, &command->watch,
-                                                             command->output, command->common.quiet,
-                                                             command->json, command->statistics},
-                                         &adaptive, &image, &error)
-                     : render_samples(renderer, command, errors, &work, &image, &error);
-    if (result == AUR_OK)
-        result = denoise(command, renderer, adaptive, &image, &error);
+        result = denoise(command, made.renderer, made.adaptive, &made.image, &error);
     cli_progress_clear();
-    if (result == AUR_ERROR_CANCELLED && image != NULL)
-        cli_write_partial(command->output, image);
+    if (result == AUR_ERROR_CANCELLED && made.image != NULL)
+        cli_write_partial(command->output, made.image);
     if (result == AUR_OK && command->options.shard_count == 0)
-        result = cli_display_write(&command->display, command->output, image, &error);
-    cli_checkpoint_end(&command->checkpoint, true); /* the image is safe now, or only this is left of it */
+        result = cli_display_write(&command->display, command->output, made.image, &error);
+    cli_checkpoint_end(&command->checkpoint,
+                       true); /* the made.image is safe now, or only this is left of it */
     if (result == AUR_OK)
-        result = cli_denoise_keep(&command->denoise, command->output, image, &error);
+        result = cli_denoise_keep(&command->denoise, command->output, made.image, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
     if (result == AUR_OK && !command->common.quiet &&
         !cli_is_target(&command->target)) /* which says it itself */
-        say_end(command, image);
-    if (result == AUR_OK && !command->common.quiet && image != NULL)
-        cli_explain_black(scene, image);
-    cli_watch_end(&command->watch, image, result, &error);
+        say_end(command, made.image);
+    if (result == AUR_OK && !command->common.quiet && made.image != NULL)
+        cli_explain_black(scene, made.image);
+    cli_watch_end(&command->watch, made.image, result, &error);
     cli_denoise_end(&command->denoise);
-    aur_image_destroy(image);
-    aur_adaptive_destroy(adaptive);
-    aur_render_destroy(work);
-    aur_renderer_destroy(renderer);
+    release(&made);
     aur_scene_destroy(scene);
     return cli_status(result, &error);
 }

@@ -95,6 +95,12 @@ static inline bool cli_watch_is_asked(const cli_watch *watch) {
     return watch->serve != NULL || watch->display != NULL;
 }
 
+/* Lets pages turn the camera of the scene, whose renders are not kept otherwise. */
+void cli_watch_allow_turns(cli_watch *watch);
+/* After a render that ended as `result`: whether it is to be rendered again, by a camera that a page has
+ * turned. Waits for pages that turn it where the render was not stopped. */
+bool cli_watch_turn(cli_watch *watch, aur_result result, aur_scene *scene, aur_image *image);
+
 /* Begins to serve, and says where; connects to a display server. */
 aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *error);
 /* The progress callback, over all steps, that also tells who watches; who watches may stop the render by it.

@@ -48,6 +48,21 @@ aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *erro
     return result;
 }
 
+void cli_watch_allow_turns(cli_watch *watch) {
+    if (watch->watch != NULL && aur_ranks_count() == 1)
+        watch_allow_turns(watch->watch);
+}
+
+bool cli_watch_turn(cli_watch *watch, aur_result result, aur_scene *scene, aur_image *image) {
+    watch_turn turn;
+    if (watch->watch == NULL || (result != AUR_OK && result != AUR_ERROR_CANCELLED))
+        return false;
+    if (result == AUR_OK && !watch_wait_for_turn(watch->watch, image))
+        return false;
+    return watch_take_turn(watch->watch, &turn) &&
+           aur_scene_turn(scene, turn.azimuth, turn.elevation, turn.distance, NULL) == AUR_OK;
+}
+
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress) {
     watch->progress = progress;
     return (aur_progress){.function = show, .user = watch};

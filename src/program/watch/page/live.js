@@ -76,11 +76,71 @@ class Live {
       this.stop.disabled = true;
       fetch('stop', {method: 'POST'});
     });
+    if (this.state.turns)
+      this.addTurning(button);
     this.viewer.bar.append(button('Save PNG', 'as it is seen', () => this.savePng()),
       button('Save EXR', 'the values, as 16-bit floats', () => this.saveExr()), this.stop);
     for (const choice of [...this.viewer.names, ...this.viewer.modes])
       choice.addEventListener('click', () => this.take(false).catch(() => {}));
     goToAddress();
+  }
+  // Dragging turns the camera where the button is pressed, or with the shift key; two fingers or the wheel change its distance.
+  // The program is told what has been turned since the last time, and renders anew.
+  addTurning(button) {
+    const fingers = new Map(), canvas = this.viewer.canvas;
+    const turn = button('Turn', 'dragging turns the camera', () => {
+      turn.setAttribute('aria-pressed', String(turn.getAttribute('aria-pressed') !== 'true'));
+      fetch('turn/0/0/1', {method: 'POST'}).catch(() => {}); // the program waits for turns when the image is finished
+    });
+    turn.setAttribute('aria-pressed', 'false');
+    this.viewer.bar.append(turn);
+    const active = event => event.shiftKey || turn.getAttribute('aria-pressed') === 'true';
+    const pending = {azimuth: 0, elevation: 0, distance: 1, waits: false};
+    const send = () => {
+      if (pending.waits)
+        return;
+      pending.waits = true;
+      setTimeout(() => {
+        const path = `turn/${pending.azimuth.toFixed(3)}/${pending.elevation.toFixed(3)}/${pending.distance.toFixed(5)}`;
+        Object.assign(pending, {azimuth: 0, elevation: 0, distance: 1, waits: false});
+        fetch(path, {method: 'POST'}).catch(() => {});
+      }, 100);
+    };
+    const spread = () => {
+      const [a, b] = [...fingers.values()];
+      return b === undefined ? 0 : Math.hypot(a.x - b.x, a.y - b.y);
+    };
+    const on = (name, act) => canvas.addEventListener(name, event => {
+      if (!active(event) && !fingers.has(event.pointerId))
+        return;
+      event.stopImmediatePropagation();
+      event.preventDefault();
+      act(event);
+    }, {capture: true, passive: false});
+    on('pointerdown', event => {
+      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+      canvas.setPointerCapture(event.pointerId);
+    });
+    on('pointermove', event => {
+      const last = fingers.get(event.pointerId);
+      if (last === undefined)
+        return;
+      const before = spread(), degrees = 180 / canvas.getBoundingClientRect().width;
+      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
+      if (fingers.size === 1) {
+        pending.azimuth -= degrees * (event.clientX - last.x);
+        pending.elevation += degrees * (event.clientY - last.y);
+      } else if (before > 0 && spread() > 0) {
+        pending.distance *= before / spread();
+      }
+      send();
+    });
+    for (const end of ['pointerup', 'pointercancel'])
+      on(end, event => fingers.delete(event.pointerId));
+    on('wheel', event => {
+      pending.distance *= Math.exp(event.deltaY / 500);
+      send();
+    });
   }
   end() {
     this.stop?.remove();

@@ -227,3 +227,49 @@ aur_stage_axes aur_stage_axes_of(const aur_scene *scene, bool z_up) {
     aur_cross3(axes.up, axes.toward, axes.right);
     return axes;
 }
+
+/* --- turning */
+
+static double clamp(double value, double lower, double upper) {
+    return fmin(fmax(value, lower), upper);
+}
+
+/* About a unit axis, by Rodrigues' formula. */
+static void rotate(const double axis[3], double angle, double v[3]) {
+    double across[3];
+    const double c = cos(angle), s = sin(angle), along = aur_dot3(axis, v) * (1.0 - c);
+    aur_cross3(axis, v, across);
+    for (size_t d = 0; d < 3; ++d)
+        v[d] = c * v[d] + s * across[d] + along * axis[d];
+}
+
+aur_result aur_scene_turn(aur_scene *scene, double azimuth, double elevation, double distance,
+                          aur_error *error) {
+    aur_sensor *const sensor = &scene->sensor;
+    if (!scene->has_sensor || sensor->part_count > 0 || !isfinite(azimuth) || !isfinite(elevation) ||
+        !(distance > 0.0 && distance < HUGE_VAL))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "this camera cannot be turned so");
+    const aur_stage_axes axes = aur_stage_axes_of(scene, scene->document.stage.z_up);
+    double from[3];
+    for (size_t d = 0; d < 3; ++d)
+        from[d] = sensor->place[d] - scene->middle[d];
+    const double length = aur_length3(from);
+    const double now = length > 0.0 ? asin(clamp(aur_dot3(from, axes.up) / length, -1.0, 1.0)) : 0.0;
+    const double most = 89.0 * AUR_PI / 180.0, least = scene->has_ground ? AUR_PI / 180.0 : -most;
+    const double rise = clamp(now + elevation * AUR_PI / 180.0, fmin(least, now), fmax(most, now)) - now;
+    rotate(axes.right, -rise, from);
+    rotate(axes.up, azimuth * AUR_PI / 180.0, from);
+    const bool flat = strcmp(sensor->descriptor->row.name, "orthographic") == 0;
+    for (size_t k = 0; k < 3; ++k) {
+        double column[3];
+        for (size_t d = 0; d < 3; ++d)
+            column[d] = (double)sensor->to_world[4 * d + k] * (flat && k < 2 ? distance : 1.0);
+        rotate(axes.right, -rise, column);
+        rotate(axes.up, azimuth * AUR_PI / 180.0, column);
+        for (size_t d = 0; d < 3; ++d)
+            sensor->to_world[4 * d + k] = (float)column[d];
+    }
+    for (size_t d = 0; d < 3; ++d)
+        sensor->place[d] = scene->middle[d] + from[d] * (flat ? 1.0 : distance);
+    return aur_sensor_recenter(sensor, scene->origin, error);
+}

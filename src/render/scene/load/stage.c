@@ -222,9 +222,14 @@ aur_result aur_stage_set(aur_loader *loader, const aur_scene_options *options) {
     if (environment != NULL)
         result = add_environment(&self, environment);
     double lower[3], upper[3];
-    if (result == AUR_OK && aur_stage_bounds(scene, lower, upper) && is_above(scene, lower, self.axes.up) &&
-        (ground == AUR_SCENE_GROUND_SHADOW || (ground == AUR_SCENE_GROUND_AUTO && (studio || sky))))
+    const bool there = aur_stage_bounds(scene, lower, upper);
+    for (size_t d = 0; d < 3 && there; ++d)
+        scene->middle[d] = 0.5 * lower[d] + 0.5 * upper[d];
+    if (result == AUR_OK && there && is_above(scene, lower, self.axes.up) &&
+        (ground == AUR_SCENE_GROUND_SHADOW || (ground == AUR_SCENE_GROUND_AUTO && (studio || sky)))) {
         add_ground(&self, lower, upper, sky);
+        scene->has_ground = true;
+    }
     scene->has_background = self.options->has_background || studio;
     for (size_t d = 0; d < 3; ++d)
         scene->background[d] =
