@@ -45,12 +45,14 @@ AUR_API aur_result aur_map_from_cap(aur_map map, double height, size_t count, co
 /* The uniform density over the map's own: 1, and 2u for POLAR. Its mean over the square is 1. */
 AUR_API double aur_map_weight(aur_map map, const double square[2]) AUR_NONNULL(2);
 
-typedef enum aur_lobe_kind { AUR_LOBE_COSINE_POWER, AUR_LOBE_GGX } aur_lobe_kind;
+typedef enum aur_lobe_kind { AUR_LOBE_COSINE_POWER, AUR_LOBE_GGX, AUR_LOBE_VISIBLE } aur_lobe_kind;
 
 /* A density about +z. COSINE_POWER: (M+1)/(2 pi) cos^M theta on the hemisphere with M = exponent >= 0; M = 0
- * is uniform. GGX: the reflection of a view direction at `view_degrees` from +z (towards +x) by the visible
- * normals of a surface of roughness `alpha`; part of it lies below the horizon, z < 0, where it carries no
- * light. A zero lobe is uniform. */
+ * is uniform. VISIBLE: the reflection of a view direction at `view_degrees` from +z (towards +x) by the
+ * visible normals of a surface of roughness `alpha`; part of it lies below the horizon, z < 0, where it
+ * carries no light. GGX: the light that the surface reflects, D G2 cos above the horizon (height-correlated
+ * Smith). That is what weights are for; its points, pdf and warps are those of VISIBLE, which samples it. A
+ * zero lobe is uniform. */
 typedef struct aur_lobe {
     aur_lobe_kind kind;
     double exponent;     /* M in [0, 1e9] */
@@ -58,7 +60,7 @@ typedef struct aur_lobe {
     double view_degrees; /* in [0, 90) */
 } aur_lobe;
 
-/* "uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]". */
+/* "uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]", "visible:ALPHA[:VIEW_DEGREES]". */
 AUR_API aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) AUR_NONNULL(1, 2);
 /* `count` uniform directions of the hemisphere to ones that follow the lobe, at the same azimuths about +z
  * (GGX: about the normal of the stretched space): z' = z^{1/(M+1)}; GGX by spherical caps (Dupuy and Benyoub

@@ -212,7 +212,9 @@ def integrate(
     array([1.+0.j  , 0.+0.64j])
     """
     most = evaluations if max_points is None else max_points
-    group = ffi.NULL if symmetry is None else parse_symmetry(symmetry, domain if domain == "sphere" else "cube")[0]
+    if symmetry is not None and domain != "sphere":
+        raise UnsupportedError("a symmetry is for the whole sphere")
+    group = ffi.NULL if symmetry is None else parse_symmetry(symmetry, domain)[0]
     integrand, integral, results = _integrate(
         f, domain, dimension, axis, peaks, progress, None, cap_degrees=cap, exponent=exponent, relative=tol,
         absolute=absolute, confidence=confidence, replicates=replicates, first=first, seed=seed, separate=separate,

@@ -35,7 +35,7 @@ def parse_symmetry(symmetry: Optional[str], domain: str) -> tuple[Any, int, int]
         return None, 0, 0
     if domain == "rotations":
         crystal, _, sample = symmetry.partition(":")
-        return None, core.value("symmetry", crystal), core.value("symmetry", sample or "1")
+        return None, core.value("symmetry", crystal), core.value("symmetry", sample if ":" in symmetry else "1")
     if domain != "sphere":
         raise UnsupportedError(f"a symmetry is for the sphere and rotations, not for the domain {domain!r}")
     group = ffi.new("aur_point_group *")
@@ -51,6 +51,8 @@ def _select(found: Array, weights: Optional[Array], symmetry: str, domain: str) 
         kept = lib.aur_symmetry_select(crystal, len(array), core.output(array))
     else:
         kept = lib.aur_point_group_select(group, len(array), core.output(array), core.output(mass))
+    if kept == 0:
+        raise ArgumentError(f"none of the {len(found)} points is in the fundamental region: take more")
     total = mass[:kept].sum()
     if weights is not None and (group is None or abs(total - 1.0) > 1e-9):
         raise ArgumentError(f"the set has weights and not this symmetry: those of the region add up to {total:.6g}")
@@ -116,8 +118,9 @@ def points(
     map : how sets of the square come to other domains. "lambert" (the cylindrical equal-area map), "concentric"
         (Shirley, Chiu 1997), "azimuthal" and "polar" (Schretter 2012).
     lobe : what points of the whole hemisphere follow: "uniform", "cosine", "phong:M" (cos^M of the polar angle, M from
-        0 to 1e9), "ggx:ALPHA[:VIEW_DEGREES]" (Dupuy, Benyoub 2023; alpha from 1e-4 to 1): the density of reflections at
-        visible normals, some of which are below the horizon (14 % of "ggx:0.4:30", 45 % of "ggx:0.9:0"): z < 0.
+        0 to 1e9), "visible:ALPHA[:VIEW_DEGREES]" (Dupuy, Benyoub 2023; alpha from 1e-4 to 1): reflections by the visible
+        normals of a GGX surface, some of which are below the horizon, z < 0 (14 % of "visible:0.4:30", 45 % of
+        "visible:0.9:0"); an AureoleWarning says how many. "ggx:ALPHA[:VIEW_DEGREES]", the reflected light, has these points.
     density : "same": points follow the lobe; "optimal": its power 2/(s+1), with weights (Marques 2018).
     smoothness : s of the optimal density, in (1, 6).
     cap : degrees; not 0: the points fill the cap of this polar angle about +z.
@@ -159,6 +162,12 @@ def points(
         core.call(lib.aur_points_generate, encode(set), request, made)
         found, found_weights, of = look(core.own("points", made))
     mass = np.full(len(found), 1.0 / len(found)) if found_weights is None and weights else found_weights
+    below = int((found[:, 2] < 0.0).sum()) if of == "hemisphere" and lobe.startswith(("ggx", "visible")) else 0
+    if below:
+        warnings.warn(
+            f"{below} of {len(found)} points lie below the horizon, where reflection is 0: integrals count them as 0",
+            AureoleWarning, stacklevel=2,
+        )  # fmt: skip
     if symmetry is not None:
         found, mass = _select(found, found_weights, symmetry, of)
     found = _deliver(found, out, dtype, cut=of in ("square", "cube"))

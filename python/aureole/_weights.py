@@ -288,6 +288,10 @@ def weights_nested(
     One function value a point gives an integral for every level; differences of neighbours estimate the error.
     """
     array = rows(xyz, 0, "xyz")
+    try:
+        numbers = ffi.new("size_t[]", list(counts))
+    except OverflowError as error:
+        raise ArgumentError(f"counts: {list(counts)} are out of range") from error
     found = np.empty((len(counts), len(array)))
     reports = ffi.new("aur_exact_report[]", max(1, len(counts)))
     with CoreCall() as call:
@@ -295,7 +299,7 @@ def weights_nested(
             call, array, domain, degree, lobe, cap, near, negative, threads, tolerance, symmetry
         )
         core.call(
-            lib.aur_weights_nested, len(array), core.input(array), len(counts), ffi.new("size_t[]", list(counts)),
+            lib.aur_weights_nested, len(array), core.input(array), len(counts), numbers,
             options, found.size, core.output(found), reports,
         )  # fmt: skip
     return found, [_exact_report(report) for report in reports[0 : len(counts)]]

@@ -40,7 +40,9 @@ class Points(unittest.TestCase):
             ("electrostatic", 20, "--domain axes", dict(domain="axes")),
         ]:  # fmt: skip
             expected = written(name, "-n", str(n), *arguments.split())
-            found = aureole.points(name, n, **options)
+            with warnings.catch_warnings():
+                warnings.filterwarnings("ignore", message=".*below the horizon")
+                found = aureole.points(name, n, **options)
             self.assertTrue((found == expected[:, : found.shape[1]]).all())  # and weights after them
 
     def test_weights_of_the_optimal_density(self):
@@ -436,6 +438,47 @@ class Figures(unittest.TestCase):
             aureole.points("lebedev", 110, domain="sphere", symmetry="D5h")
         with self.assertRaises(aureole.UnsupportedError):
             aureole.points("sobol", 16, symmetry="D2h")
+        with self.assertRaisesRegex(aureole.ArgumentError, "none of the 1 points"):
+            aureole.points("spherical-fibonacci", 1, domain="sphere", symmetry="Oh")
+        for bad in ("432:", "432:7:8", ":", "Oh"):
+            with self.assertRaises(aureole.UnknownNameError):
+                aureole.weights_exact([[1.0, 0, 0, 0]], domain="rotations", symmetry=bad)
+        with self.assertRaises(TypeError):
+            aureole.points("lebedev", 110, symmetry=5)
+
+    def test_few_points_and_numbers_out_of_range(self):
+        for domain, columns in (("square", 2), ("cube", 3), ("disk", 2), ("rotations", 4), ("sphere", 3), ("axes", 3)):
+            x = np.zeros((2, columns))
+            x[:, 0 if domain == "rotations" else columns - 1] = 1.0
+            with self.assertRaisesRegex(aureole.ArgumentError, "at least one point"):
+                aureole.weights_exact(x[:0], domain=domain)
+            for n in (1, 2):  # doubled points share
+                np.testing.assert_allclose(aureole.weights_exact(x[:n], domain=domain)[0], 1 / n)
+            x[1, 0] = np.nan
+            with self.assertRaisesRegex(aureole.ArgumentError, "2"):
+                aureole.weights_exact(x, domain=domain)
+        square = np.array(aureole.points("sobol", 8))[:5]
+        for degree in (-1, 2**63, 9):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.weights_exact(square, degree)
+        for counts in ([0, 5], [3, 2], [-1], [2**64], [6]):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.weights_nested(square, counts)
+        for near in ([1, 2], [-1] * 5, [0] * 5, [np.nan] * 5):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.weights_exact(square, near=near)
+        for set, n in (("max-determinant", 5), ("max-determinant", 1), ("pmj02", 2**17), ("sliced", 2**63), ("cascaded", 2**63)):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.points(set, n)
+
+    def test_points_below_the_horizon_are_counted(self):
+        with self.assertWarnsRegex(aureole.AureoleWarning, "7 of 64 points lie below the horizon"):
+            visible = aureole.points("sobol", 64, lobe="visible:0.4:30", domain="hemisphere")
+        with self.assertWarns(aureole.AureoleWarning):
+            ggx = aureole.points("sobol", 64, lobe="ggx:0.4:30", domain="hemisphere")
+        np.testing.assert_array_equal(visible, ggx)
+        with self.assertRaisesRegex(aureole.UnsupportedError, "not for visible normals"):
+            aureole.weights(visible, lobe="visible:0.4:30", domain="hemisphere")
 
     def test_integrate(self):
         with_axis = aureole.integrate(lambda u, r: r**2 * u[:, 2] ** 2, 1e-3, axis=(0, 2))
@@ -527,6 +570,12 @@ class Figures(unittest.TestCase):
             aureole.symmetric_rule(1, "C5v")
         with self.assertRaises(aureole.UnsupportedError):
             aureole.average(prism, 900, "hemisphere", symmetry="D2h")
+        with self.assertRaises(aureole.UnsupportedError):
+            aureole.integrate(prism, domain="rotations", symmetry="432")
+        for bad, error in ((lambda u: 1 / 0, ZeroDivisionError), (lambda u: np.ones(3), aureole.ArgumentError),
+                           (lambda u: u[:, 0] * np.nan, aureole.ArgumentError), (lambda u: "x", ValueError)):
+            with self.assertRaises(error):
+                aureole.integrate(bad, symmetry="Oh")
 
     def test_bad_integrands(self):
         for bad in (lambda u: u[:3, 0], lambda u: "x", lambda u: u[:, 2] / 0, lambda u: {}):

@@ -18,7 +18,7 @@ aur_result aur_lobe_check(const aur_lobe *lobe, aur_error *error) {
                             lobe->exponent);
         return AUR_OK;
     }
-    if (lobe->kind != AUR_LOBE_GGX)
+    if (!aur_lobe_reflects(lobe))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown kind of lobe %d", (int)lobe->kind);
     if (!(lobe->alpha >= 1e-4 && lobe->alpha <= 1.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a ggx lobe's alpha must be between 0.0001 and 1, not %g",
@@ -59,12 +59,16 @@ aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) {
         lobe->exponent = values[0];
         return aur_lobe_check(lobe, error);
     }
-    if (strncmp(text, "ggx:", 4) == 0 && parse_pair(text + 4, values) != 0) {
-        *lobe = (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = values[0], .view_degrees = values[1]};
+    const bool visible = strncmp(text, "visible:", 8) == 0;
+    if ((visible || strncmp(text, "ggx:", 4) == 0) && parse_pair(text + (visible ? 8 : 4), values) != 0) {
+        *lobe = (aur_lobe){
+            .kind = visible ? AUR_LOBE_VISIBLE : AUR_LOBE_GGX, .alpha = values[0], .view_degrees = values[1]};
         return aur_lobe_check(lobe, error);
     }
     return aur_fail(error, AUR_ERROR_NAME,
-                    "'%s' is no lobe; it must be uniform, cosine, phong:M or ggx:ALPHA[:VIEW_DEGREES]", text);
+                    "'%s' is no lobe; it must be uniform, cosine, phong:M, ggx:ALPHA[:VIEW_DEGREES] or "
+                    "visible:ALPHA[:VIEW_DEGREES]",
+                    text);
 }
 
 /* --- GGX: reflection by the visible normals of a surface
@@ -166,7 +170,7 @@ static void raise_cosine(double power, const double from[3], double to[3]) {
 }
 
 void aur_lobe_warp(const aur_lobe *lobe, size_t count, const double *uniform, double *xyz) {
-    if (lobe->kind == AUR_LOBE_GGX)
+    if (aur_lobe_reflects(lobe))
         for (size_t i = 0; i < count; ++i)
             ggx_warp(lobe, uniform + 3 * i, xyz + 3 * i);
     else if (lobe->exponent != 0.0)
@@ -177,7 +181,7 @@ void aur_lobe_warp(const aur_lobe *lobe, size_t count, const double *uniform, do
 }
 
 void aur_lobe_unwarp(const aur_lobe *lobe, size_t count, const double *xyz, double *uniform) {
-    if (lobe->kind == AUR_LOBE_GGX)
+    if (aur_lobe_reflects(lobe))
         for (size_t i = 0; i < count; ++i)
             ggx_unwarp(lobe, xyz + 3 * i, uniform + 3 * i);
     else if (lobe->exponent != 0.0)
@@ -188,7 +192,7 @@ void aur_lobe_unwarp(const aur_lobe *lobe, size_t count, const double *xyz, doub
 }
 
 double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) {
-    if (lobe->kind == AUR_LOBE_GGX)
+    if (aur_lobe_reflects(lobe))
         return ggx_pdf(lobe, direction);
     if (direction[2] < 0.0)
         return 0.0;
@@ -200,9 +204,9 @@ aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *d
     if (!(smoothness > 1.0 && smoothness < 6.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the smoothness must be above 1 and below 6, not %g",
                         smoothness);
-    if (lobe->kind == AUR_LOBE_GGX)
+    if (aur_lobe_reflects(lobe))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "the optimal density of a ggx lobe has no closed form: use density same");
+                        "the optimal density of a ggx or visible lobe has no closed form: use density same");
     *density = *lobe;
     density->exponent *= 2.0 / (smoothness + 1.0);
     return AUR_OK;

@@ -18,7 +18,11 @@ static void texts_become_lobes(void **state) {
     (void)state;
     assert_true(parse("cosine").exponent == 1.0);
     assert_true(parse("phong:2.5").exponent == 2.5);
+    const aur_lobe visible = parse("visible:0.2:30");
+    assert_true(visible.kind == AUR_LOBE_VISIBLE && visible.alpha == 0.2 && visible.view_degrees == 30.0);
     const aur_lobe ggx = parse("ggx:0.2:30");
+    const double at[3] = {0.6, 0.0, 0.8};
+    assert_true(aur_lobe_pdf(&visible, at) == aur_lobe_pdf(&ggx, at));
     assert_true(ggx.kind == AUR_LOBE_GGX && ggx.alpha == 0.2 && ggx.view_degrees == 30.0);
     static const char *const wrong[] = {"",          "phong",     "phong:",    "phong:-1",   "phong:nan",
                                         "phong:inf", "phong:1:2", "ggx:0",     "ggx:0.5:90", "ggx:0.5:x",

@@ -93,7 +93,21 @@ static void weights_are_exact(void **state) {
     }
 }
 
+static void other_sizes_are_refused(void **state) {
+    (void)state;
+    for (size_t count = 1; count < 40; ++count) {
+        aur_directions_options options = {.size = sizeof options};
+        aur_directions_options_init(count, AUR_DOMAIN_SPHERE, &options, NULL);
+        aur_directions *directions = NULL;
+        const bool has = count == 4 || count == 9 || count == 16 || count == 25 || count == 36;
+        if (!has)
+            assert_int_equal(aur_directions_create("max-determinant", &options, &directions, NULL),
+                             AUR_ERROR_ARGUMENT);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds), cmocka_unit_test(weights_are_exact)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds), cmocka_unit_test(weights_are_exact),
+                                       cmocka_unit_test(other_sizes_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,6 +80,9 @@ for domain in square cube disk rotations; do
   try "caps and lobes are for directions" $domain --domain $domain --cap 20
   try "(functions|polynomials) of degree 7" $domain --domain $domain --degree 7
 done
+try "not for visible normals" good --domain hemisphere --lobe visible:0.4:30
+try "not for visible normals" good --domain hemisphere --lobe visible:0.4:30 --method exact
+try "not for visible normals" good --domain hemisphere --lobe visible:0.4:30 --method voronoi
 try "unknown point group 'Q'" good --domain sphere --method exact --symmetry Q
 try "unknown symmetry '5'" rotations --symmetry 5
 try "needs --domain sphere or rotations" good --domain hemisphere --method exact --symmetry Oh

@@ -40,6 +40,11 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
     if (result != AUR_OK)
         return result;
     const bool ggx = o->lobe.kind == AUR_LOBE_GGX;
+    if (o->lobe.kind == AUR_LOBE_VISIBLE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "weights are for the light that is reflected, ggx:ALPHA:VIEW, not for visible "
+                        "normals, which are for "
+                        "points");
     if (o->lobe.exponent > AUR_EXACT_EXPONENT_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the exponent of a lobe of exact weights must be between 0 and %g, not %g",

@@ -234,6 +234,11 @@ aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_de
     aur_density own = {.size = sizeof own};
     aur_density_init(&own, NULL);
     const bool sphere = domain == AUR_DOMAIN_SPHERE, ggx = lobe->kind == AUR_LOBE_GGX;
+    if (lobe->kind == AUR_LOBE_VISIBLE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "weights are for the light that is reflected, ggx:ALPHA:VIEW, not for visible "
+                        "normals, which are for "
+                        "points");
     if (sphere && (ggx || lobe->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "on the sphere the lobe must be uniform: others live on the hemisphere");

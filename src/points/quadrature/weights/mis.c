@@ -10,7 +10,7 @@
 /* The density that a strategy draws a direction with. */
 static double drawn_density(const aur_strategy *strategy, const double direction[3]) {
     const double *const axis = strategy->axis;
-    if (strategy->sampled.kind == AUR_LOBE_GGX || aur_is_default_axis(axis))
+    if (aur_lobe_reflects(&strategy->sampled) || aur_is_default_axis(axis))
         return aur_lobe_pdf(&strategy->sampled, direction);
     /* A cos^m lobe asks for the angle to its axis only. */
     const double cosine = aur_dot3(direction, axis);

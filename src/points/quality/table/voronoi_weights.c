@@ -49,6 +49,11 @@ aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domai
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "areas of cells are for the sphere, the hemisphere and axes, not for the domain '%s'",
                         aur_domain_name(domain));
+    if (density->kind == AUR_LOBE_VISIBLE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "weights are for the light that is reflected, ggx:ALPHA:VIEW, not for visible "
+                        "normals, which are for "
+                        "points");
     if (domain != AUR_DOMAIN_HEMISPHERE && (ggx || density->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "areas of cells of the whole sphere and of axes are for the uniform lobe");

@@ -78,7 +78,7 @@ static aur_result choose_density(aur_directions *directions, const aur_direction
         if (result != AUR_OK)
             return result;
     }
-    const bool ggx = options->lobe.kind == AUR_LOBE_GGX;
+    const bool ggx = aur_lobe_reflects(&options->lobe);
     directions->warped = ggx || directions->density.exponent != 0.0;
     directions->weighted = ggx || directions->density.exponent != directions->lobe.exponent;
     return AUR_OK;
@@ -247,7 +247,7 @@ static void take_from_file(const aur_directions *directions, uint64_t first, siz
 
 /* A density's weight p/q, or what is below the horizon. */
 static double density_weight(const aur_directions *directions, const double direction[3]) {
-    if (directions->lobe.kind == AUR_LOBE_GGX)
+    if (aur_lobe_reflects(&directions->lobe))
         return direction[2] >= 0.0 ? 1.0 : 0.0;
     const double p = directions->lobe.exponent;
     const double q = directions->density.exponent;

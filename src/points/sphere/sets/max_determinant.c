@@ -193,6 +193,11 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
                         row->name);
     const size_t bytes = (1 + 4 * (size_t)request->count) * sizeof(double);
     const size_t degree = (size_t)(sqrt((double)request->count) + 0.5) - 1;
+    const size_t below = (size_t)sqrt((double)request->count);
+    if (degree < 1 || below * below != request->count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu or %zu points, not %llu", row->name,
+                        below > 1 ? below * below : 4, below > 1 ? (below + 1) * (below + 1) : 9,
+                        (unsigned long long)request->count);
     char key[64];
     size_t size;
     snprintf(key, sizeof key, "%s %d %zu", row->name, VERSION, degree);

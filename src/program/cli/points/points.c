@@ -190,16 +190,19 @@ static int write_points(const char *set, points_command *wanted, const aur_point
 /* A GGX lobe's visible normals reflect some directions below the horizon. */
 static void warn_below(const points_command *wanted, const aur_points_view *view) {
     const aur_warnings warnings = wanted->from.options.warnings;
-    if (wanted->from.options.lobe.kind != AUR_LOBE_GGX || view->domain != AUR_DOMAIN_HEMISPHERE ||
+    const aur_lobe_kind kind = wanted->from.options.lobe.kind;
+    if ((kind != AUR_LOBE_GGX && kind != AUR_LOBE_VISIBLE) || view->domain != AUR_DOMAIN_HEMISPHERE ||
         warnings.function == NULL)
         return;
     size_t below = 0;
     for (size_t i = 0; i < view->count; ++i)
         below += view->coordinates[3 * i + 2] < 0.0;
-    char text[160];
+    char text[256];
     snprintf(text, sizeof text,
-             "%zu of %zu points lie below the horizon, where reflection is 0: integrals count them as 0",
-             below, view->count);
+             "%zu of %zu points lie below the horizon, where reflection is 0: integrals count them as 0%s",
+             below, view->count,
+             kind == AUR_LOBE_GGX ? " (points of ggx are those of its visible normals, visible:ALPHA:VIEW)"
+                                  : "");
     if (below > 0)
         warnings.function(warnings.user, text);
 }

@@ -99,7 +99,7 @@ static aur_result load_one(weights_job *task, aur_error *error) {
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "lobes and caps are for directions: the file must have the columns x,y,z");
     for (size_t i = 0; *domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
-        if (xyz[3 * i + 2] < -1e-9 && options->lobe.kind != AUR_LOBE_GGX)
+        if (xyz[3 * i + 2] < -1e-9 && options->lobe.kind == AUR_LOBE_COSINE_POWER)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
                             "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i + 1,
                             xyz[3 * i + 2]);
