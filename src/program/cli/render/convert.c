@@ -1,10 +1,13 @@
 /* aureole convert: from one picture format to another. */
 #include <string.h>
 
+#include "program/cli/render/luminance.h"
 #include "program/cli/render/picture.h"
 
 typedef struct convert_options {
     aur_image_write_options write;
+    cli_luminance luminance;
+    double falsecolor; /* the end of the scale */
     cli_picture picture;
 } convert_options;
 
@@ -18,6 +21,15 @@ static const cli_option options[] = {
     {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
               "the format, where the name of OUT does not tell"),
      .name = cli_picture_format},
+    {CLI_CHOICE(
+         convert_options, luminance, "luminance", "WEIGHTS", NULL,
+         "one channel Y in cd/m2: 179 lm/W and Radiance's weights of r, g, b; 179 lm/W and those of Rec. "
+         "709; or these and 683 lm/W"),
+     .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
+    {CLI_REAL(
+        convert_options, falsecolor, "falsecolor", "MAX", 0, 1e30, NULL,
+        "draw a map of --luminance in false colours with a scale up to MAX cd/m2 (0: the largest): PNG, SVG, "
+        "PDF or TeX")},
     {.key = {0}}};
 
 /* Options that would have no effect are mistakes. */
@@ -41,16 +53,38 @@ static void warn_of_values(const char *path, const aur_image *image, const char 
         cli_warn_of_values(path, image, false, "they are written as they are");
 }
 
+/* Another format than an image's may stand there: a figure's. */
+static int draw_map(const cli_call *call, const char *output) {
+    convert_options *const given = call->options;
+    aur_image *image = NULL;
+    aur_error error;
+    if (cli_given(call, "luminance") == NULL)
+        return cli_bad_usage("convert: --falsecolor is of --luminance WEIGHTS");
+    int status = cli_read_picture(call->operands[0], &given->picture, &image);
+    if (status == CLI_SUCCESS) {
+        aur_result result = cli_image_luminance(given->luminance, &image, &error);
+        if (result == AUR_OK)
+            result = cli_image_map(output, image, given->falsecolor, &error);
+        status = cli_status(result, &error);
+    }
+    aur_image_destroy(image);
+    return status;
+}
+
 static int run(const cli_call *call) {
     convert_options *const given = call->options;
     const char *const output = call->operands[1];
     const aur_row *format;
     aur_error error;
+    if (cli_given(call, "falsecolor") != NULL)
+        return draw_map(call, output);
     int status = cli_status(aur_image_find_writer(output, given->write.format, &format, &error), &error);
     if (status != CLI_SUCCESS || !options_fit(call, format))
         return CLI_BAD_INPUT;
     aur_image *image = NULL;
     status = cli_read_picture(call->operands[0], &given->picture, &image);
+    if (status == CLI_SUCCESS && cli_given(call, "luminance") != NULL)
+        status = cli_status(cli_image_luminance(given->luminance, &image, &error), &error);
     if (status == CLI_SUCCESS) {
         warn_of_values(call->operands[0], image, format->name);
         given->write.size = sizeof given->write;

@@ -48,3 +48,9 @@ aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *pa
  * it can be said at once; a material that no surface uses may be of any kind. */
 aur_result aur_rad_next(aur_rad *rad, const char **included);
 void aur_rad_close(aur_rad *rad); /* NULL is allowed */
+
+/* Whether text is a view file: after comments it begins with VIEW=, rvu, rview, rpict or -vt. */
+bool aur_rad_is_view(size_t size, const char *data);
+/* Adds the camera of a view file, 768 pixels along the longer side: -vtv with -vp, -vd, -vu, -vh, -vv, -vo
+ * and -va. Errors: FORMAT; UNSUPPORTED for other projections and shifted views; MEMORY. */
+aur_result aur_rad_read_view(aur_nodes *nodes, aur_xml_node *parent, size_t size, const char *data);

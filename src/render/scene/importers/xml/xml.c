@@ -306,6 +306,13 @@ static aur_result read_rad(file_reading *reader, const char *data, size_t size) 
     return result;
 }
 
+/* A camera of Radiance's, whose scene has +z up. */
+static aur_result read_view(file_reading *reader, const char *data, size_t size) {
+    aur_nodes nodes = begin_nodes(reader, 1);
+    reader->shared->document->from_radiance = true;
+    return nodes.result != AUR_OK ? nodes.result : aur_rad_read_view(&nodes, reader->target, size, data);
+}
+
 static aur_result read_model(file_reading *reader, const char *data, size_t size) {
     const bool included = reader->include_depth > 0;
     aur_nodes nodes = begin_nodes(reader, 0);
@@ -382,6 +389,8 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
     }
     if (aur_xml_is_model(path, size, data))
         return read_model(&reader, data, size);
+    if (aur_rad_is_view(size, data))
+        return read_view(&reader, data, size);
     const bool rad = !begins_as_xml(size, data) && (reader.from_rad || aur_rad_is_text(size, data));
     return rad ? read_rad(&reader, data, size) : read_xml(&reader, data, size);
 }

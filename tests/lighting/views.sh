@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Views of Radiance's files: where a lit rectangle stands in the image, by its directions; luminances in cd/m2 and their maps.
+. "$2/tests/lighting/checks.sh.inc"
+command=render
+# Seen from (1, 2, 3) along +y, 90 degrees across: x from .25 to .75 and z from .5 to .75 at the distance 1.
+printf 'void light l 0 0 3 1 2 3\nl polygon p 0 0 12  1.25 3 3.5  1.75 3 3.5  1.75 3 3.75  1.25 3 3.75\n' >lamp.rad
+printf '# a view\nVIEW= -vtv -vp 1 2 3 -vd 0 2 0 -vu 0 0 1 -vh 90 -vv 90 -vo 0 -va 0 -vs 0 -vl 0\n' >front.vf
+lit() { # NAME: columns and rows of the lit pixels of 16 x 16, the top row first
+  tail -c $((16 * 16 * 4)) "$1" | od -A n -t f4 -v -w4 | awk '$1 > .01 { printf "%d,%d:%.4g ", (NR - 1) % 16, 15 - int((NR - 1) / 16), $1 }'
+}
+"$aureole" render -q lamp.rad front.vf --width 16 --spp 16 --filter box -o front.pfm || fail "a view"
+"$aureole" convert front.pfm luminance.pfm --luminance radiance || fail "luminance"
+expected=
+for row in 3 2; do for column in 10 11 12 13; do expected+="$column,$row:322.2 "; done; done # 179 (.265 + .670 * 2 + .065 * 3)
+[ "$(lit luminance.pfm)" = "$expected" ] || fail "lit pixels: $(lit luminance.pfm), not $expected"
+for word in rec709:332.9 photopic:1270; do # 179 and 683 times .2126 + .7152 * 2 + .0722 * 3
+  "$aureole" convert front.pfm luminance.pfm --luminance ${word%:*} && lit luminance.pfm | grep -q ":${word#*:} " || fail "$word: $(lit luminance.pfm)"
+done
+# The words of rvu, and a view beside a scene whose camera it is; the shape of the image follows from both angles.
+printf 'rvu -vtv -vp 0 0 0 -vd 0 1 0 -vh 90 -vv 53.13010235415598 -x 512\n' >wide.txt
+"$aureole" render -q lamp.rad wide.txt --spp 1 -o wide.pfm && [ "$(sed -n 2p wide.pfm | tr -d '\0')" = "768 384" ] || fail "the shape of a view"
+"$aureole" convert front.pfm map.svg --luminance radiance --falsecolor 500 && grep -q 'cd/m2' map.svg && grep -q '>500<' map.svg || fail "a map"
+"$aureole" convert front.pfm map.png --luminance radiance --falsecolor 0 && [ "$(head -c 4 map.png | tail -c 3)" = PNG ] || fail "a map as PNG"
+printf 'VIEW= -vta -vp 0 0 0\n' >bad.vf
+refused "bad.vf:1: view: only perspective views" lamp.rad bad.vf
+printf 'VIEW= -vtv -vp 0 0\n' >bad.vf
+refused "bad.vf:1: view: 3 numbers expected after '-vp'" lamp.rad bad.vf
+printf 'VIEW= -vtv -vh 180\n' >bad.vf
+refused "bad.vf:2: view: -vh and -vv must be" lamp.rad bad.vf
+printf 'VIEW= -vtv -vs .5\n' >bad.vf
+refused "bad.vf:1: view: a view that is shifted" lamp.rad bad.vf
+printf 'VIEW= -vd 0 0 0\n' >bad.vf
+refused "view: -vd and -vu must not be 0" lamp.rad bad.vf
+command=convert
+refused "--falsecolor is of --luminance" front.pfm map.png --falsecolor 5
+refused "map.what" front.pfm map.what --luminance radiance --falsecolor 5
+finish
