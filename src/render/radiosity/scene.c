@@ -46,6 +46,10 @@ static aur_bsdf_point texture_at(const aur_triangle *triangle, float u, float v)
     return (aur_bsdf_point){.u = t[0].u + u * (t[1].u - t[0].u) + v * (t[2].u - t[0].u),
                             .v = t[0].v + u * (t[1].v - t[0].v) + v * (t[2].v - t[0].v),
                             .vertex_color = color,
+                            .position = aur_vector_add_scaled(
+                                aur_vector_add_scaled(aur_vector_scale(triangle->corner[0], 1.0f - u - v), u,
+                                                      triangle->corner[1]),
+                                v, triangle->corner[2]),
                             .face_color = t[0].face_color};
 }
 

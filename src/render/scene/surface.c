@@ -162,6 +162,8 @@ void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit
         instance_surface(scene->instances[hit->instance], shape, ray, hit, surface);
     finish_frame(shape->bsdf, surface);
     surface->bsdf = shape->bsdf;
+    if (shape->bsdf->attributes.position)
+        surface->texture.position = surface->position;
     surface->shape = hit->shape;
     surface->primitive = hit->primitive;
     surface->emitter = shape->emitter;

@@ -18,8 +18,8 @@ static aur_shape_class class_of(const aur_scene *scene, uint32_t shape) {
                              .emits = aur_shape_emitter(scene, shape) != AUR_NO_EMITTER};
     class.plain = bsdf->plain_diffuse && !class.curved && !class.emits;
     class.plain_flat = class.plain && aur_shape_is_flat(scene, shape);
-    class.textured_flat =
-        !class.plain && !class.curved && !class.emits && is_diffuse(bsdf) && aur_shape_is_flat(scene, shape);
+    class.textured_flat = !class.plain && !class.curved && !class.emits && is_diffuse(bsdf) &&
+                          !bsdf->attributes.position && aur_shape_is_flat(scene, shape);
     for (size_t side = 0; side < (bsdf->scatters_from_behind ? 2 : 1) && class.plain; ++side) {
         class.albedo[side] = aur_bsdf_diffuse_albedo(bsdf, (aur_bsdf_point){0}, side == 0 ? 1.0f : -1.0f);
         class.albedo_on_pi[side] = aur_vector_scale(class.albedo[side], 1.0f / AUR_PI_F);

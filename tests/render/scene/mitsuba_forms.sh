@@ -91,6 +91,25 @@ floor() { echo "$camera$light<shape type='rectangle'><bsdf type='diffuse'>$1</bs
 same "a spectrum that is a texture" "$(floor "<spectrum type='checkerboard' $check</spectrum>")" "$(floor "<texture type='checkerboard' $check</texture>")"
 same "merge" "$camera$light<shape type='merge'><shape type='rectangle'/><shape type='sphere'/></shape>" "$camera$light<shape type='rectangle'/><shape type='sphere'/>"
 
+# A volume as a texture: constant, it is a colour; else it is where the surface is, whatever paths go in packets.
+inside() { floor "<texture type='volume' name='reflectance'><volume name='volume' $1</volume></texture>"; }
+near "a constant volume as a texture" "$(inside "type='constvolume'><float name='value' value='.4'/>")" \
+  "$(floor "<rgb name='reflectance' value='.4'/>")"
+cp "$2/bench/peers/plugins/tint.vol" .
+grid="type='gridvolume'><string name='filename' value='tint.vol'/><transform name='to_world'><translate x='-.5' y='-.5' z='-.5'/><scale value='2'/>"
+render a "$(inside "$grid</transform>")"
+render b "$(inside "$grid</transform>")" --integrator path:packets=false
+cmp -s a.pfm b.pfm || fail "a volume as a texture: packets show another picture"
+# Moved with the volume by 10, the floor is the same; without it, it is not.
+far() { inside "$grid$1</transform>" | sed "s|origin='0,-4,3' target='0,0,0'|origin='10,-4,3' target='10,0,0'|; s|x='1' y='1' z='3'|x='11' y='1' z='3'|
+  s|<shape type='rectangle'>|&<transform name='to_world'><translate x='10'/></transform>|"; }
+near "a volume that is moved" "$(inside "$grid</transform>")" "$(far "<translate x='10'/>")"
+render a "$(inside "$grid</transform>")"
+render b "$(far "")"
+cmp -s a.pfm b.pfm && fail "a volume as a texture is not where the surface is"
+refused "its radiance cannot be a texture 'volume'" "$camera<shape type='sphere'><emitter type='area'><texture type='volume' name='radiance'><volume name='volume' type='constvolume'/></texture></emitter></shape>"
+refused "it needs a <volume>" "$(floor "<texture type='volume' name='reflectance'/>")"
+
 # A mixture of Mitsuba 0.6 is blends of each material and the rest; what its weights lack is black, and too large ones are scaled.
 grey() { echo "<bsdf type='diffuse'><float name='reflectance' value='$1'/></bsdf>"; }
 mixture() { floor "<bsdf type='mixturebsdf'><string name='weights' value='$1'/>$2</bsdf>" | sed "s|<bsdf type='diffuse'><bsdf|<bsdf|; s|</bsdf></bsdf></shape>|</bsdf></shape>|"; }
@@ -108,6 +127,10 @@ render a "$others$(floor "")" --integrator path
 render b "$(floor "")"
 cmp -s a.pfm b.pfm || fail "an integrator that is not known: not the same picture"
 refused "unknown integrator 'statistical'" "$others$(floor "")"
+deep="<integrator type='OUTER'><integrator type='aov'><string name='aovs' value='d:depth'/><integrator type='path'/></integrator></integrator>"
+render a "${deep/OUTER/statistical}$(floor "")" --integrator path
+cmp -s a.pfm b.pfm || fail "an integrator around two: not the same picture"
+for outer in moment aov; do refused "a second <integrator> inside another" "${deep/OUTER/$outer}$(floor "")"; done
 
 # What is not supported is refused by name, with the reason.
 refused "integrator 'stokes' is not supported: light is unpolarised here" "<integrator type='stokes'><integrator type='path'/></integrator>$(floor "")"

@@ -271,16 +271,25 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
     bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
     aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
     *object = made;
-    /* What holds two is refused when it is created, unless another integrator takes its place. */
-    if (*has && nested && aur_parameters_find(parameters, "integrator") == NULL)
+    /* What holds two, or one that holds another, is refused when it is created, unless another integrator
+     * takes its place. */
+    if (*has && nested) {
+        if (aur_parameters_find(parameters, "integrator") != NULL)
+            self->deep_integrator = parameters->location;
         return AUR_OK;
-    if (*has && nested)
-        return fail_second(self, parameters->location);
+    }
     if (*has) {
         aur_warn_at(self->warnings, parameters->location, "a second integrator is left out");
         return AUR_OK;
     }
     *has = true;
+    if (!nested && self->deep_integrator.file != NULL &&
+        aur_parameters_find(parameters, "integrator2") == NULL) {
+        const aur_result result = aur_parameters_add_object(parameters, "integrator2", "integrator", made,
+                                                            self->deep_integrator, self->error);
+        if (result != AUR_OK)
+            return result;
+    }
     if (!nested && strcmp(parameters->plugin, "moment") == 0)
         return unwrap_moment(self, parameters);
     for (size_t i = 0; i < parameters->count; ++i) {

@@ -30,7 +30,8 @@ struct aur_loader {
     bool said_unpolarized;        /* that light is, which is said once */
     aur_image *image;             /* the last picture of a texture, or NULL */
     char *image_name;
-    size_t depth; /* objects that are being built, each inside the one before */
+    aur_location deep_integrator; /* of one inside another that holds one itself; file NULL: none */
+    size_t depth;                 /* objects that are being built, each inside the one before */
     aur_error *error;
 };
 

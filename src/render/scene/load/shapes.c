@@ -122,6 +122,9 @@ static aur_result use_attribute(aur_loader *self, aur_shape *shape, const char *
 /* What the material or the light of a shape reads of its mesh. */
 static aur_result take_attributes(aur_loader *self, aur_shape *shape, const aur_emitter *emitter) {
     const aur_texture *const radiance = emitter != NULL ? emitter->radiance.texture : NULL;
+    if (radiance != NULL && radiance->attributes.position)
+        return aur_fail_at(self->error, emitter->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter 'area': its radiance cannot be a texture 'volume'");
     aur_attributes read = shape->bsdf->attributes;
     if (radiance != NULL)
         aur_attributes_add(&read, &radiance->attributes);

@@ -23,6 +23,7 @@ typedef struct aur_bsdf_point {
      * along its x and y for one of v. */
     float tangents[3];
     aur_vector vertex_color, face_color; /* the mesh's, 0 where it has none */
+    aur_vector position;                 /* in the scene, where the material reads it */
 } aur_bsdf_point;
 
 /* The attributes of meshes that a material reads: one of vertices and one of faces are what a shape can have.
@@ -30,6 +31,7 @@ typedef struct aur_bsdf_point {
 typedef struct aur_attributes {
     const char *vertex, *face; /* with their beginnings, "vertex_color"; NULL: none */
     bool too_many;
+    bool position; /* and where a point is */
 } aur_attributes;
 
 /* Adds what another material or texture reads. */

@@ -132,7 +132,9 @@ static void note_range(aur_texture *texture, const bitmap *self) {
 }
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_CHOICE(bitmap, "filter_type", filter, "bilinear", "between pixels", "bilinear", "nearest")},
+    {AUR_KEY_OF_CHOICE(bitmap, "filter_type", filter, "bilinear",
+                       "between pixels; trilinear and ewa of Mitsuba 0.6 are read as bilinear", "bilinear",
+                       "nearest", "trilinear", "ewa")},
     {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode", wrap, "repeat", "beyond the picture", "repeat", "mirror",
                        "clamp")},
     {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},

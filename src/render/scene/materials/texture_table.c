@@ -10,6 +10,7 @@
     ROW(bitmap)                                                                                              \
     ROW(checkerboard)                                                                                        \
     ROW(mesh_attribute)                                                                                      \
+    ROW(volume)                                                                                              \
     ROW(uniform)                                                                                             \
     ROW(rawconstant)                                                                                         \
     ROW(srgb)
@@ -30,6 +31,7 @@ static void add_attribute(const char **name, const char *other, bool *too_many) 
 
 void aur_attributes_add(aur_attributes *attributes, const aur_attributes *others) {
     attributes->too_many = attributes->too_many || others->too_many;
+    attributes->position = attributes->position || others->position;
     add_attribute(&attributes->vertex, others->vertex, &attributes->too_many);
     add_attribute(&attributes->face, others->face, &attributes->too_many);
 }
