@@ -1,5 +1,5 @@
-/* Command lines: every verb's options are read by their tables, but no verb is run. An input is one line of
- * arguments, cut at its blanks; the first is the verb. */
+/* Command lines: every command's options are read by their tables, but no command is run. An input is one
+ * line of arguments, cut at its blanks; the first is the command. */
 int program_main(int argc, char **argv);
 #define main program_main
 #include "program/cli/main.c"
@@ -12,7 +12,7 @@ int program_main(int argc, char **argv);
 
 enum { MOST_ARGUMENTS = 32 };
 
-/* What a verb says of a bad command line is not for the fuzzer's own output. */
+/* What a command says of a bad command line is not for the fuzzer's own output. */
 static int turn_off(int stream) {
     fflush(stderr);
     const int kept = dup(stream), null = open("/dev/null", O_WRONLY);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Renders the bundled scenes by --error and writes docs/gallery.md with the pictures, from what the run itself says. Names of pictures
-# as arguments render these only, again: of the others the page keeps what it has, as it keeps what bench/peers/equal_time.py wrote.
+# Renders the bundled scenes by --error and writes docs/gallery.md with the images, from what the run itself reports. With names as
+# arguments only these images are rendered; the page keeps its other sections, and the one that bench/peers/equal_time.py writes.
 #
 #     scripts/gallery.sh [NAME...]
 set -euo pipefail
@@ -9,11 +9,11 @@ cd "$(dirname "$0")/.."
 bash scripts/scenes.sh >/dev/null
 [ -x build/release/aureole ] || cmake --build --preset release -j "$(nproc)" --target aureole-program
 aureole=build/release/aureole
-out=out/gallery pictures=docs/gallery page=docs/gallery.md
-mkdir -p "$out" "$pictures"
+out=out/gallery images=docs/gallery page=docs/gallery.md
+mkdir -p "$out" "$images"
 
 radiosity="--integrator radiosity:epsilon=1e-4,sequence=halton,walk=paper"
-# name | scene | how it is asked for | exposure | tone | title
+# name | scene | options | exposure | tone | title
 gallery() {
   cat <<ROWS
 room|room/room.xml|--width 960 --error 10% --error-measure mean|0.9|filmic|Tea and fruit by a window
@@ -31,7 +31,7 @@ teapot|keller/teapot-box.xml|$radiosity --width 960 --error 7% --error-measure m
 ROWS
 }
 
-# CPU seconds of a command, user and system time of all its threads; what it says goes to $said.
+# CPU seconds of a command, user and system time of all its threads; its messages go to $said.
 cpu_seconds() {
   local TIMEFORMAT='%U %S'
   { time "$@" </dev/null >/dev/null 2>"$said"; } 2>&1 | awk '{ printf "%.0f", $1 + $2 }'
@@ -42,7 +42,7 @@ old_section() {
   awk -v title="## $1" '/^## / { inside = $0 == title } inside' "$page"
 }
 
-# A picture's section of the page, by what its rendering said.
+# The section of an image, from what its render reported.
 new_section() {
   local name=$1 scene=$2 options=$3 exposure=$4 tone=$5 title=$6 triangles size error
   triangles=$("$aureole" info "scenes/$scene" -q | awk '$1 == "triangles" { print $2 }')
@@ -51,8 +51,7 @@ new_section() {
   printf '## %s\n\n[![%s](gallery/%s.jpg)](gallery/%s.jpg)\n\n' "$title" "$title" "$name" "$name"
   printf '    aureole render scenes/%s %s -o %s.exr\n' "$scene" "$options" "$name"
   printf '    aureole convert %s.exr %s.jpg --exposure %s --tone %s\n\n' "$name" "$name" "$exposure" "$tone"
-  printf '| triangles | size | error of the mean, with its 95 %% interval | CPU seconds |\n|---|---|---|---|\n'
-  printf '| %s | %s | %s | %s |\n\n' "$triangles" "$size" "$error" "$(cat "$out/$name.seconds")"
+  printf '%s triangles, %s pixels, error %s, %s CPU seconds.\n\n' "$triangles" "$size" "$error" "$(cat "$out/$name.seconds")"
 }
 
 while IFS='|' read -r name scene options exposure tone title; do
@@ -61,15 +60,15 @@ while IFS='|' read -r name scene options exposure tone title; do
   said=$out/$name.said
   read -ra words <<<"$options"
   cpu_seconds "$aureole" render "scenes/$scene" "${words[@]}" -o "$out/$name.exr" >"$out/$name.seconds"
-  "$aureole" convert "$out/$name.exr" "$pictures/$name.jpg" --exposure "$exposure" --tone "$tone"
+  "$aureole" convert "$out/$name.exr" "$images/$name.jpg" --exposure "$exposure" --tone "$tone"
 done < <(gallery)
 
 {
   echo "# Gallery"
   echo
-  echo "The bundled scenes ([how they are made](scenes.md)), rendered by \`scripts/gallery.sh\`, which writes this page. The error is the"
-  echo "root mean square error over the picture's mean, as the program says it. CPU seconds are those of the whole program on all threads,"
-  echo "loading the scene and its photon map included, on $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo) while other work ran. Each picture is a link to its full size."
+  echo "The bundled scenes ([how to build them](scenes.md)), rendered by \`scripts/gallery.sh\`, which writes this page. The error is the root mean"
+  echo "square error relative to the mean of the image, with its 95 % interval, as the program reports it. CPU seconds are those of the whole"
+  echo "program on shared processors ($(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo)). Images link to their full size."
   echo
   old_section "At equal time"
   while IFS='|' read -r name scene options exposure tone title; do

@@ -4,7 +4,7 @@
 # choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
 set -eu
 program=$1
-kinds='set measure integrator bsdf texture spectrum shape emitter sensor medium phase volume film rfilter sampler ignored refused picture lab-integrator'
+kinds='set measure integrator bsdf texture spectrum shape emitter sensor medium phase volume film rfilter sampler ignored refused image lab-integrator'
 
 if [ "${2:-}" = --words ]; then
   for kind in $kinds; do

@@ -271,7 +271,7 @@ def main():
     if len(paths) > 1 and paths[0] == "--only":
         only, paths = paths[1], paths[2:]
     good = True
-    print(f"# Mitsuba 3, scene by scene\n\nWritten by `bench/peers/mitsuba3.py` with Mitsuba {mi.__version__}: {SEEDS} seeds of {SAMPLES} samples a pixel each (bundled scenes: 64), "
+    print(f"# Mitsuba 3, scene by scene\n\nWritten by `bench/peers/mitsuba3.py` with Mitsuba {mi.__version__}: {SEEDS} seeds of {SAMPLES} samples per pixel each (bundled scenes: 64), "
           f"{SIZE} x {SIZE} pixels.\n\"Difference\" is ours from Mitsuba's in the mean of the picture, with its 95 % interval; t is the largest of\n"
           f"{BLOCKS} x {BLOCKS} blocks and three channels, which chance lets pass what is allowed in {100 * CHANCE:g} % of equal scenes.\n")
     print("| scene | mean (Mitsuba) | difference | 95 % interval | largest t | allowed | |\n|---|---|---|---|---|---|---|")

@@ -198,7 +198,7 @@ def render(
     ----------
     scene : a Scene or the path of one.
     integrator, sampler, filter : NAME[:key=value,...] in the place of the scene's; `render_tables()` lists them.
-    spp : samples a pixel; 0: the scene's.
+    spp : samples per pixel; 0: the scene's.
     width, height : in pixels; 0: the scene's, or its shape where the other one is given.
     crop : (x0, x1, y0, y1): the pixels x0 <= x < x1, y0 <= y < y1 alone.
     error : render until the error by `error_measure` is below this, such as .05; `spp` has no meaning then.

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# What the pages show as a command, the program and the tree know: in blocks of code every verb and every option of `aureole`, every
+# What the pages show as a command, the program and the tree know: in blocks of code every command and every option of `aureole`, every
 # experiment of `aureole lab run`, every bench, every script. (pages.sh runs the commands of the README and the guide.)
 set -u
 program=$1
 cd "$2" || exit 1
-"$program" help verb --format csv | tail -n +2 | cut -d, -f1 | while read -r verb; do
+"$program" help command --format csv | tail -n +2 | cut -d, -f1 | while read -r verb; do
   echo "$verb"
-  "$program" help verb "$verb" --format csv | tail -n +2 | grep -oE '^"?(-[a-zA-Z]|-[a-zA-Z], )?-?-[a-z][a-z-]*' | grep -oE '(^|[ "])--?[a-zA-Z][a-z-]*' |
+  "$program" help command "$verb" --format csv | tail -n +2 | grep -oE '^"?(-[a-zA-Z]|-[a-zA-Z], )?-?-[a-z][a-z-]*' | grep -oE '(^|[ "])--?[a-zA-Z][a-z-]*' |
     sed "s/[ \"]//g; s/^/$verb /"
 done >"$OLDPWD/known"
 "$program" lab list --format csv 2>/dev/null | tail -n +2 | cut -d, -f1 | sed 's/^/experiment /' >>"$OLDPWD/known"
-for name in bench/bench_*.c; do name=${name#bench/bench_}; echo "bench ${name%.c}"; done >>"$OLDPWD/known"
+cat bench/bench_*.c | tr '\n' ' ' | grep -oE 'const bench bench_[a-z_]+ = \{ *"[a-z-]+"' | sed 's/.*"\(.*\)"/bench \1/' >>"$OLDPWD/known"
 for name in scripts/*; do echo "script ${name#scripts/}"; done >>"$OLDPWD/known"
 find . -name '*.md' -not -path './build/*' -not -path './out/*' -not -path './CHANGELOG.md' -print0 | sort -z | xargs -0 awk -v known="$OLDPWD/known" '
   BEGIN { while ((getline line < known) > 0) is[line] }
@@ -33,7 +33,7 @@ find . -name '*.md' -not -path './build/*' -not -path './out/*' -not -path './CH
       if (word[at] !~ /(^|\/)aureole$/) continue
       verb = word[at + 1]
       if (verb !~ /^[a-z]/ || verb == "help") continue
-      if (!(verb in is)) { wrong("aureole has no verb " verb); continue }
+      if (!(verb in is)) { wrong("aureole has no command " verb); continue }
       ++seen
       name = word[at + 3]
       if (verb " " word[at + 2] == "lab run" && name ~ /^[a-z0-9-]+$/ && name !~ /^-/ && !(("experiment " name) in is)) wrong("there is no experiment " name)

@@ -77,7 +77,7 @@ warned() { # TEXT ARGUMENTS...
   grep -qF -- "$text" said || fail "$*: '$text' is not in: $(cat said)"
 }
 sed 's/4/4000/g' room.rad >mm.rad
-warned "are its units metres?" irradiance mm.rad --lamp lamp.ies@2,2,3 --sensors desk.pts -n 16
+warned "check the units of the scene" irradiance mm.rad --lamp lamp.ies@2,2,3 --sensors desk.pts -n 16
 refused "a larger spacing expected" irradiance mm.rad --grid floor:.5@.8 --sky uniform -n 16
 warned "is in the sea" irradiance room.rad --sky cie-clear --date 2026-06-21T12:00 --location 0,0,0 --sensors desk.pts -n 16
 sed '1s/48\.0000,11\.0000/0.0000,0.0000/' days.epw >sea.epw

@@ -252,8 +252,8 @@ awk -F, -v OFS=, 'NR > 8 && $2 == 1 && $3 >= 5 && $4 == 1 { $14 = 100; $16 = 100
 warned night.epw "night.epw:105: there is light with the sun below the horizon in 27 of $(awk -F, 'NR > 8 && ($14 > 20 || $16 > 20)' night.epw | wc -l) hours"
 
 # Bad options.
-refused "--threshold is for a year of weather: --weather FILE" plane.xml --sensors up.pts --threshold 500
-refused "--parts does not go with --weather" $yard mixed.epw --parts
+refused "--threshold needs --weather FILE" plane.xml --sensors up.pts --threshold 500
+refused "--parts cannot be used with --weather" $yard mixed.epw --parts
 refused "must be tregenza or reinhart:M with M from 1 to 6, not 'reinhart:7'" $yard mixed.epw --patches reinhart:7
 # Hours over midnight are those that are not between, and a file says the same hour by hour.
 for hours in 8-18 18-8; do

@@ -45,7 +45,7 @@ printf 'name,reflectance\nfloor,.5\n' >bad.csv
 refused "no line is of row 1, rest of it" room.obj --group --surfaces bad.csv
 refused "cannot be opened" room.obj --surfaces none.csv
 refused "--script-f needs emittances" room.obj --script-f
-refused "leave --radiosity out" room.obj --surfaces same.csv --radiosity .5
+refused "--radiosity cannot be used" room.obj --surfaces same.csv --radiosity .5
 
 # --- View3D's input: what is written is read again; combined surfaces, and one on another
 "$aureole" viewfactors room.obj --group -q -o room.csv && "$aureole" viewfactors room.obj --group -o room.vs3 && "$aureole" viewfactors room.vs3 -q -o again.csv || fail "vs3"
@@ -110,6 +110,6 @@ awk -F, 'NR > 1 && $4 > .004 { bad = 1 } END { exit bad }' precise.csv || fail "
 "$aureole" viewfactors open.obj -q --rays 64 -o rough.csv 2>/dev/null
 awk -F, 'NR > 1 && $4 > .004 { rough = 1 } END { exit !rough }' rough.csv || fail "64 rays reach the error already"
 refused "--error" room.obj --error 0
-refused "--error is of the matrix" room.obj --radiosity .5 --matrix-free --error .1
+refused "--error cannot be used" room.obj --radiosity .5 --matrix-free --error .1
 
 finish

@@ -56,11 +56,11 @@ grep -q 'daylight factor' df.svg || fail "the scale has no label"
 
 refused "did you mean 'floor.1'" irradiance room.rad --sky uniform --grid flour.1:1
 refused "has such a name" irradiance room.rad --sky uniform --grid ball:1
-refused "must be a surface" irradiance room.rad --sky uniform --grid floor.1
-refused "must be a surface" irradiance room.rad --sky uniform --grid floor.1:0
-refused "must be a surface" irradiance room.rad --sky uniform --grid floor.1:1@high
-refused "--sensors does not go with --grid" irradiance room.rad --sky uniform --grid floor.1:1 --sensors desk.pts
-refused "--margin is for --grid" irradiance room.rad --sky uniform --sensors desk.pts --margin 1
+refused "expected a surface" irradiance room.rad --sky uniform --grid floor.1
+refused "expected a surface" irradiance room.rad --sky uniform --grid floor.1:0
+refused "expected a surface" irradiance room.rad --sky uniform --grid floor.1:1@high
+refused "--sensors cannot be used with --grid" irradiance room.rad --sky uniform --grid floor.1:1 --sensors desk.pts
+refused "--margin needs --grid" irradiance room.rad --sky uniform --sensors desk.pts --margin 1
 refused "the margin leaves nothing" irradiance room.rad --sky uniform --grid floor.1:1 --margin 1
 refused "a larger spacing expected" irradiance room.rad --sky uniform --grid floor.1:1e-5
 refused "have no area" irradiance room.rad --sky uniform --grid 0,0,0,1,1:1

@@ -3,7 +3,7 @@
 # refuses or reports.
 . "$2/tests/lighting/checks.sh.inc"
 command=irradiance
-# warned TEXT ARGUMENTS...: the verb ends well and says the text.
+# warned TEXT ARGUMENTS...: the command ends well and says the text.
 warned() {
   local text=$1 said
   shift
@@ -98,7 +98,7 @@ warned "did not reach the error with 256 directions" room.xml --sensors room.pts
 printf '3 0 0 0 0 1\n0 0 0 0 0 1\n.5 0 0 1 1 0\n.4 0 0 0 -.3 1\n.2 0 0 0 0 1\n' >near.pts
 "$aureole" irradiance screen.xml --sensors near.pts --error 1% -n 512 --illuminance rec709 --intervals -o unreached.csv 2>said || fail "unreached"
 awk -F, 'NR > 1 { ratio = $6 / $4; if (ratio > .01) { if (n++ == 0) first = NR - 2; if (ratio > worst) worst = ratio } ; if (least == 0 || ratio < least) least = ratio }
-  END { printf "near.pts:%d: %d of 5 sensors did not reach the error with 512 directions (the first of them is sensor %d); the worst reached %.3g\n",
+  END { printf "near.pts:%d: %d of 5 sensors did not reach the error with 512 directions (the first is sensor %d); the worst reached %.3g\n",
           first + 1, n, first, worst; exit !(n > 1 && n < 5 && first > 0) }' unreached.csv >expected || fail "unreached: $(cat expected unreached.csv)"
 grep -qFf expected said || fail "unreached: $(cat said), not $(cat expected)"
 
@@ -165,7 +165,7 @@ refused "gap.csv:3: column 4: '' is not a finite number" room.xml --sensors gap.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >sheet.obj
 warned "sheet.obj:5: 1 facets lie back to back with others" room.xml --sensors sheet.obj
 refused "the columns of sensors are x,y,z,nx,ny,nz" room.xml --sensors header.csv
-refused "the points are missing: --sensors POINTS" room.xml
+refused "no sensors given: expected --sensors POINTS" room.xml
 refused "must be an error like 1% or 0.01" room.xml --sensors room.pts --error 100%
 refused "unknown set 'spiral'" room.xml --sensors room.pts --set spiral
 printf '<scene version="3.0.0"><shape type="cube"/></scene>' >unlit.xml
@@ -174,14 +174,14 @@ refused "the scene has no light" unlit.xml --sensors room.pts
 printf '<scene version="3.0.0"><emitter type="constant"/><shape type="cube"/></scene>' >solid.xml
 warned "3 of 3 sensors see mostly the black backs of surfaces" solid.xml --sensors room.pts
 printf '0 0 3 0 0 1\n0 3 0 0 1 0\n' | cat - room.pts >mixed.pts
-warned "mixed.pts:3: 3 of 5 sensors see mostly the black backs of surfaces (the first of them is sensor 2)" solid.xml --sensors mixed.pts
-warned "room.pts:4: 1 of 3 sensors lie on surfaces (the first of them is sensor 2)" room.xml --sensors room.pts
+warned "mixed.pts:3: 3 of 5 sensors see mostly the black backs of surfaces (the first is sensor 2)" solid.xml --sensors mixed.pts
+warned "room.pts:4: 1 of 3 sensors lie on surfaces (the first is sensor 2)" room.xml --sensors room.pts
 # A sensor sealed in a box that is grey on both sides of its walls, and one that stands on it.
 printf 'void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 1 1 1\nlamp source sky 0 0 4 0 0 1 180\n' >box.rad
 printf 'grey polygon %s 0 0 12 %s\n' a '0 0 0 1 0 0 1 1 0 0 1 0' b '0 0 1 1 0 1 1 1 1 0 1 1' c '0 0 0 1 0 0 1 0 1 0 0 1' \
   d '0 1 0 1 1 0 1 1 1 0 1 1' e '0 0 0 0 1 0 0 1 1 0 0 1' f '1 0 0 1 1 0 1 1 1 1 0 1' >>box.rad
 printf '.5 .5 1 0 0 1\n.5 .5 .5 0 0 1\n' >sealed.pts
-warned "sealed.pts:2: 1 of 2 sensors see no light at all (the first of them is sensor 1)" box.rad --sensors sealed.pts
+warned "sealed.pts:2: 1 of 2 sensors see no light at all (the first is sensor 1)" box.rad --sensors sealed.pts
 # In the corner of three walls, looking along one of them.
 printf '%s\n' '-1 -1 -1 1 0 0' '-1 -1 -1 1 1 1' '-1 -1 0 0 1 0' >corner.pts
 "$aureole" irradiance -q room.xml --sensors corner.pts -q -o corner.csv || fail "corners"

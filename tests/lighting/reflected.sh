@@ -58,7 +58,7 @@ printf '<scene version="3.0.0"><shape type="sphere"/>%s</scene>' "$lamp" >ball.x
 refused "ball.xml:1" ball.xml --sensors points.pts --reflected radiosity
 printf '<scene version="3.0.0"><emitter type="constant"/>%s</scene>' "$plane</transform></shape>" >sky.xml
 refused "light" sky.xml --sensors points.pts --reflected radiosity
-refused "--particles is for --reflected" plain.xml --sensors points.pts --particles 9
+refused "--particles needs --reflected" plain.xml --sensors points.pts --particles 9
 refused "'maps'" plain.xml --sensors points.pts --reflected maps
-refused "--reflected does not go with --weather" plain.xml --sensors points.pts --weather a.epw --reflected map
+refused "--reflected cannot be used with --weather" plain.xml --sensors points.pts --weather a.epw --reflected map
 finish

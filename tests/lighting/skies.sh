@@ -74,8 +74,8 @@ refused "needs a date like" irradiance open.rad --sensors points.pts --sky cie-c
 refused "'date'" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-31T12:00 --location 1,2,0
 refused "below" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T00:00 --location 48,11,1
 refused "--date needs --sky MODEL" irradiance open.rad --sensors points.pts --date 2026-06-21T12:00
-refused "does not go with --weather" irradiance open.rad --sensors points.pts --sky uniform --weather no.epw
-refused "is of a sky without sun" irradiance open.rad --sensors points.pts --sky perez:1,1 --daylight-factor
+refused "cannot be used with --weather" irradiance open.rad --sensors points.pts --sky uniform --weather no.epw
+refused "needs a sky without sun" irradiance open.rad --sensors points.pts --sky perez:1,1 --daylight-factor
 refused "as bright as its DHI" irradiance open.rad --sensors points.pts --sky perez:1,1 --sky-lux 5
 refused "a second environment" irradiance uniform.sky open.rad --sensors points.pts --sky uniform
 sky 'skybr skybright.cal' '7 4 30 5 2 0 0 1' >bad.sky

@@ -70,9 +70,9 @@ refused "no row sees the sky" room.obj --radiosity 0.5
 "$aureole" viewfactors scene.xml --group --radiosity 0.5 --sun 0,0,4 --matrix-free -q >sun.csv || fail "sun"
 awk -F, 'NR == 2 && $4 > 4 * .5 * (4 - .36) / 4 - .05 && $4 < 4 * .5 * (4 - .36) / 4 + .15 && $5 > 0 && $5 < .02 { good = 1 }
   END { exit !(good && NR == 3) }' sun.csv || fail "the sun on the ground: $(cat sun.csv)"
-refused "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 1,2
-refused "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 0,0,0
-refused "are for --radiosity" scene.xml --sky 2
+refused "expected a direction X,Y,Z" scene.xml --radiosity 0.5 --sun 1,2
+refused "expected a direction X,Y,Z" scene.xml --radiosity 0.5 --sun 0,0,0
+refused "need --radiosity" scene.xml --sky 2
 refused "there is no light" scene.xml --radiosity 0.5 --sky 0
 
 # --- odd meshes: counted warnings
@@ -90,7 +90,7 @@ grep -q '1 facets lie back to back with others' <<<"$said" || fail "a sheet: $sa
 } >open.obj
 said=$("$aureole" viewfactors open.obj 2>&1 >/dev/null)
 grep -q 'open.obj:9: 6 edges belong to one facet only' <<<"$said" || fail "an open mesh: $said"
-grep -q '1 edges join facets of which one looks inwards' <<<"$said" || fail "an inconsistent mesh: $said"
+grep -q '1 edges join facets that face inwards' <<<"$said" || fail "an inconsistent mesh: $said"
 grep -q 'rows see backs of facets' <<<"$said" || fail "backs that are seen: $said"
 # Facets that are narrower than rays in floats resolve: the four sides of a slab, before the work begins.
 for height in 1e-9 1e-4; do
@@ -155,8 +155,8 @@ refused "no face" empty.obj
 refused "unknown kind of file" "$0"
 printf '<scene version="3.0.0"><sensor type="perspective"/>\n<shape type="sphere"/></scene>\n' >round.xml
 refused "round.xml:2" round.xml
-refused "tells no format" room.obj -o room.what
-refused "--matrix-free makes no matrix" room.obj --matrix-free
+refused "unknown format of" room.obj -o room.what
+refused "--matrix-free needs --radiosity" room.obj --matrix-free
 refused "randomisations" room.obj --rays 4
 refused "a mesh is one file" room.obj room.obj
 refused "no-such-set" room.obj --set no-such-set

@@ -173,7 +173,7 @@ static aur_result find_hours(work *w, aur_error *error) {
     }
     if (lit->counted == 0)
         return aur_fail_at(error, (aur_location){.file = w->weather->file}, AUR_ERROR_FORMAT,
-                           "the weather tells of no hour of those that count");
+                           "no hour of the schedule has weather data");
     return AUR_OK;
 }
 

@@ -200,8 +200,8 @@ static void warn(const work *w) {
     aur_sensors_warn(w->sensors, &o->warnings, &odd);
     if (unreached.count > 0)
         aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, unreached.first),
-                    "%zu of %zu sensors did not reach the error with %zu directions (the first of them is "
-                    "sensor %zu); the worst reached %.3g",
+                    "%zu of %zu sensors did not reach the error with %zu directions (the first is sensor "
+                    "%zu); the worst reached %.3g",
                     unreached.count, w->sensors->count, o->directions, unreached.first, worst);
 }
 

@@ -23,9 +23,9 @@ aur_result aur_sensors_check(const aur_sensors_view *sensors, aur_result failure
             return aur_fail_at(error, aur_sensor_location(sensors, i), failure,
                                "sensor %zu is too far away: a coordinate is beyond %g", i, FARTHEST);
         if (!(fabs(normal[0]) + fabs(normal[1]) + fabs(normal[2]) > 0.0))
-            return aur_fail_at(error, aur_sensor_location(sensors, i), failure,
-                               "the normal of sensor %zu has length 0: it must say where the sensor looks",
-                               i);
+            return aur_fail_at(
+                error, aur_sensor_location(sensors, i), failure,
+                "the normal of sensor %zu has length 0: expected the direction that the sensor faces", i);
     }
     return AUR_OK;
 }
@@ -63,23 +63,21 @@ void aur_sensors_warn(const aur_sensors_view *sensors, const aur_warnings *to,
                       const aur_sensor_oddities *odd) {
     const aur_sensor_oddity *const on_surfaces = &odd->on_surfaces, *const inside = &odd->inside;
     if (on_surfaces->count > 0 && sensors->file != NULL)
-        aur_warn_at(
-            to, aur_sensor_location(sensors, on_surfaces->first),
-            "%zu of %zu sensors lie on surfaces (the first of them is sensor %zu): they look from just "
-            "above",
-            on_surfaces->count, sensors->count, on_surfaces->first);
+        aur_warn_at(to, aur_sensor_location(sensors, on_surfaces->first),
+                    "%zu of %zu sensors lie on surfaces (the first is sensor %zu): they are moved just above",
+                    on_surfaces->count, sensors->count, on_surfaces->first);
     if (odd->doubtful.count > 0)
         aur_warn_at(to, aur_sensor_location(sensors, odd->doubtful.first),
                     "%zu of %zu sensors stand where surfaces are nearer to each other than numbers tell (the "
-                    "first of them is sensor %zu): their light may be that above a cover or below it",
+                    "first is sensor %zu): their light may be that above a cover or below it",
                     odd->doubtful.count, sensors->count, odd->doubtful.first);
     if (inside->count > 0)
         aur_warn_at(to, aur_sensor_location(sensors, inside->first),
-                    "%zu of %zu sensors see mostly the black backs of surfaces (the first of them is sensor "
-                    "%zu): they stand inside of something, or look into it",
+                    "%zu of %zu sensors see mostly the black backs of surfaces (the first is sensor %zu): "
+                    "they are inside an object or face into one",
                     inside->count, sensors->count, inside->first);
     if (odd->unlit.count > 0)
         aur_warn_at(to, aur_sensor_location(sensors, odd->unlit.first),
-                    "%zu of %zu sensors see no light at all (the first of them is sensor %zu)",
-                    odd->unlit.count, sensors->count, odd->unlit.first);
+                    "%zu of %zu sensors see no light at all (the first is sensor %zu)", odd->unlit.count,
+                    sensors->count, odd->unlit.first);
 }

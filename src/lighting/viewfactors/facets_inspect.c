@@ -151,7 +151,7 @@ static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
     }
     facets->open = open.count > 0;
     report(facets, warnings, &open, "edges belong to one facet only: the surface is open there");
-    report(facets, warnings, &disagreeing, "edges join facets of which one looks inwards and one outwards");
+    report(facets, warnings, &disagreeing, "edges join facets that face inwards and outwards");
 }
 
 /* Whether the facet is narrower, across its longest side, than rays that leave or meet it there are rounded.

@@ -67,7 +67,7 @@ static aur_result compare_greeting(void *context, size_t rank, size_t size, cons
                  other.host, other.version, w->own->version);
     else if (strcmp(other.isa, w->own->isa) != 0 || strcmp(other.rays, w->own->rays) != 0)
         snprintf(w->refused, sizeof w->refused,
-                 "rank %zu on %s uses %s, rank 0 on %s %s, whose pictures differ in the last bits: set "
+                 "rank %zu on %s uses %s, rank 0 on %s %s: images differ in the last bits: set "
                  "AUREOLE_ISA=avx2 for all",
                  rank, other.host, strcmp(other.isa, w->own->isa) != 0 ? other.isa : other.rays, w->own->host,
                  strcmp(other.isa, w->own->isa) != 0 ? w->own->isa : w->own->rays);

@@ -103,7 +103,7 @@ static void offer_options(const partial *word, const cli_command *command) {
         snprintf(text, sizeof text, "%s%s", option->key.name[1] != '\0' ? "--" : "-", option->key.name);
         offer_name(word, text, option->key.help);
     }
-    offer_name(word, "--help", "what the options are");
+    offer_name(word, "--help", "print the options");
 }
 
 static void offer_operands(const partial *word, const cli_command *const *commands,
@@ -115,7 +115,7 @@ static void offer_operands(const partial *word, const cli_command *const *comman
     for (unsigned i = 0; operand->name != NULL && operand->name(i) != NULL; ++i)
         offer_name(word, operand->name(i), operand->help);
     const bool topic = strcmp(content, "topic") == 0, row = strcmp(content, "row") == 0;
-    if (topic || strcmp(content, "verb") == 0 || (row && strcmp(before, "verb") == 0))
+    if (topic || strcmp(content, "command") == 0 || (row && strcmp(before, "command") == 0))
         offer_commands(word, commands);
     for (size_t i = 0; topic && cli_table_at(i) != NULL; ++i)
         offer_name(word, cli_table_at(i)->kind, cli_table_at(i)->summary);
@@ -143,8 +143,8 @@ void cli_complete(const cli_command *const *commands, size_t count, char **words
     const partial word = {.typed = words[count - 1]};
     if (count == 1) {
         offer_commands(&word, commands);
-        offer_name(&word, "--help", "the verbs");
-        offer_name(&word, "--version", "the version of the library");
+        offer_name(&word, "--help", "the commands");
+        offer_name(&word, "--version", "print the version of the library");
         return;
     }
     const cli_command *const *found = commands;

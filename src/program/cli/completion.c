@@ -117,14 +117,13 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_completion = {
     .name = "completion",
-    .summary = "a script that makes a shell complete verbs, options, names and keys",
-    .notes =
-        "The scripts ask 'aureole completion words -- WORD...' what the last word may become: one a line, "
-        "with a tab and its help. In bash: source <(aureole completion bash); in zsh: source <(aureole "
-        "completion zsh), after compinit; in fish: aureole completion fish | source. An installed aureole "
-        "brings the scripts to where the shells look for them.",
+    .summary = "print a script for shell completion of commands, options, names and parameters",
+    .notes = "The scripts call 'aureole completion words -- WORD...' for the completions of the last word: "
+             "one per line, with a tab and its help. In bash: source <(aureole completion bash); in zsh: "
+             "source <(aureole completion zsh), after compinit; in fish: aureole completion fish | source. "
+             "Installation puts the scripts where the shells find them.",
     .too_few = "expected bash, zsh or fish",
     .operands = {{"SHELL", "bash, zsh or fish", .name = shell_name},
-                 {"WORD", "for the scripts", .optional = true, .repeated = true}},
+                 {"WORD", "used by the scripts", .optional = true, .repeated = true}},
     .run = run,
 };

@@ -135,8 +135,8 @@ static int print_overview(const cli_command *const *commands) {
         cli_print_entry((*commands)->name, NAME_COLUMN, (*commands)->summary);
     cli_print_paragraph(
         0, 0,
-        "\n'aureole help VERB' shows a verb's options; 'aureole --version' the version. 'aureole "
-        "help KIND' lists what there is of a kind, 'aureole help KIND NAME' the keys of one:\n");
+        "\n'aureole help COMMAND' prints the options of a command, 'aureole --version' the version. 'aureole "
+        "help KIND' lists the plugins of a kind, 'aureole help KIND NAME' the parameters of one:\n");
     for (size_t i = 0; cli_table_at(i) != NULL; ++i)
         cli_print_entry(cli_table_at(i)->kind, NAME_COLUMN, cli_table_at(i)->summary);
     return CLI_SUCCESS;
@@ -187,16 +187,21 @@ static int help_on_command(const cli_command *const *commands, const char *name,
     }
     for (size_t i = 0; or_kind && cli_table_at(i) != NULL; ++i)
         add_name(&list, cli_table_at(i)->kind);
-    return refuse_name(&list, "verb", name, "");
+    return refuse_name(&list, "command", name, "");
+}
+
+/* Names of 0.1 are accepted for one version more. */
+static const char *current_name(const char *topic) {
+    return strcmp(topic, "picture") == 0 ? "image" : strcmp(topic, "verb") == 0 ? "command" : topic;
 }
 
 static int run(const cli_call *call) {
     const report_format format = ((const cli_common *)call->options)->format;
     if (call->operand_count == 0)
         return print_overview(call->commands);
-    const char *const topic = call->operands[0];
+    const char *const topic = current_name(call->operands[0]);
     const char *const name = call->operand_count > 1 ? call->operands[1] : NULL;
-    if (strcmp(topic, "verb") == 0)
+    if (strcmp(topic, "command") == 0)
         return name != NULL ? help_on_command(call->commands, name, format, false)
                             : print_commands(call->commands, format);
     const aur_table *const kind = cli_find_table(topic);
@@ -215,11 +220,11 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_help = {
     .name = "help",
-    .summary = "show the verbs, the options of one, or the keys of a thing",
-    .too_many = "one verb, or a kind and a name",
-    .operands = {{"TOPIC", "a verb, a kind of things, or the word verb", .optional = true,
+    .summary = "print the commands, the options of a command, or the parameters of a plugin",
+    .too_many = "expected one command, or a kind and a name",
+    .operands = {{"TOPIC", "a command, a kind of plugins, or the word command", .optional = true,
                   .content = "topic"},
-                 {"NAME", "one of the kind", .optional = true, .content = "row"}},
+                 {"NAME", "one plugin of that kind", .optional = true, .content = "row"}},
     .groups = {{cli_format_option, 0}},
     .size = sizeof(cli_common),
     .run = run,

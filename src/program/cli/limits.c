@@ -24,12 +24,12 @@ static aur_result limit_memory(const char *text, void *field, aur_error *error) 
     limit.rlim_cur = (rlim_t)bytes < limit.rlim_max ? (rlim_t)bytes : limit.rlim_max;
     if (setrlimit(RLIMIT_AS, &limit) == 0)
         return AUR_OK;
-    return aur_fail(error, AUR_ERROR_ARGUMENT, "--memory-limit: the system takes no limit of '%s'", text);
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--memory-limit: refused by the system: '%s'", text);
 }
 
 /* No library may be called here. */
 static void end_of_time(int signal_number) {
-    static const char words[] = "aureole: the time limit is over: the program ends here\n";
+    static const char words[] = "aureole: stopped by --time-limit\n";
     (void)signal_number;
     enum { STATUS = CLI_FAILURE };
     if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
@@ -63,16 +63,14 @@ static aur_result leave_cache(const char *text, void *field, aur_error *error) {
 }
 
 const cli_option cli_cache_option[] = {
-    {CLI_FLAG(cli_common, no_cache, "no-cache",
-              "take nothing from the cache folder, and leave nothing there: for pictures and points alike"),
+    {CLI_FLAG(cli_common, no_cache, "no-cache", "neither read nor write the cache folder"),
      .parse = leave_cache},
     {.key = {0}}};
 
 const cli_option cli_limits_option[] = {
-    {CLI_TEXT(cli_common, no_cache, "memory-limit", "2G", NULL,
-              "take no more address space than this: what needs more is refused, and out of memory an error"),
+    {CLI_TEXT(cli_common, no_cache, "memory-limit", "2G", NULL, "limit the address space"),
      .parse = limit_memory},
     {CLI_TEXT(cli_common, no_cache, "time-limit", "10min", NULL,
-              "end after this time in any case, with status 3; a checkpoint stays"),
+              "stop after this time with status 3; a checkpoint is kept"),
      .parse = limit_time},
     {.key = {0}}};

@@ -48,8 +48,8 @@ static int refuse_command(const char *name) {
         names[i] = commands[i]->name;
     const char *const nearest = aur_nearest_name(name, COUNT, names);
     if (nearest != NULL)
-        return cli_bad_usage("unknown verb '%s'; did you mean '%s'?", name, nearest);
-    return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);
+        return cli_bad_usage("unknown command '%s'; did you mean '%s'?", name, nearest);
+    return cli_bad_usage("unknown command '%s': 'aureole help' lists the commands", name);
 }
 
 /* A result that cannot be delivered (a full disk behind standard output) is a failure. */
@@ -105,7 +105,7 @@ int main(int argc, char **argv) {
     const bool help = strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0;
     if (argc < 2 || help) {
         const int status = run(&cli_command_help, 1, (char *[]){"help", NULL});
-        return help ? status : cli_bad_usage("a verb is missing: try 'aureole help'");
+        return help ? status : cli_bad_usage("no command given: try 'aureole help'");
     }
     if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "version") == 0) {
         printf("aureole %s\n", aur_version());

@@ -81,11 +81,11 @@ static void put_head(FILE *page, const char *name, int section, const char *summ
 static void put_exit_statuses(FILE *page) {
     put_section(page, "EXIT STATUS");
     put_entry(page, "0", "Done.");
-    put_entry(page, "1", "What was compared differs.");
+    put_entry(page, "1", "The compared images differ.");
     put_entry(page, "2",
-              "The command line or the input is wrong: a line says where, what, and what would be right.");
+              "The command line or the input is wrong: the message states where and what is expected.");
     put_entry(page, "3",
-              "It could not be done: a file cannot be written, memory ended, or it was interrupted.");
+              "The command failed: a file cannot be written, memory is exhausted, or it was interrupted.");
 }
 
 static void put_command(FILE *page, const cli_command *command) {
@@ -122,25 +122,24 @@ static void put_command(FILE *page, const cli_command *command) {
 static void put_program(FILE *page, const cli_command *const *commands) {
     put_head(page, "aureole", 1, "quasi-Monte Carlo points, weights and light transport");
     put_section(page, "SYNOPSIS");
-    fprintf(page, "\\fBaureole\\fR \\fIVERB\\fR [\\fIARGUMENT\\fR...] [\\fIOPTION\\fR...]\n");
+    fprintf(page, "\\fBaureole\\fR \\fICOMMAND\\fR [\\fIARGUMENT\\fR...] [\\fIOPTION\\fR...]\n");
     put_section(page, "DESCRIPTION");
-    put_line(page,
-             "Makes, measures and weighs sample points on the square, the hemisphere and the sphere, and "
-             "renders pictures with them. The same inputs and seed give the same bits, whatever the number "
-             "of threads. Each verb has a page of its own: aureole-VERB(1).");
+    put_line(page, "Generates, measures and weighs sample points on the square, the hemisphere and the "
+                   "sphere, and renders images with them. The same inputs and seed give identical bits with "
+                   "any number of threads. Each command has its page: aureole-COMMAND(1).");
     put_section(page, "COMMANDS");
     for (size_t i = 0; commands[i] != NULL; ++i)
         put_entry(page, commands[i]->name, commands[i]->summary);
     put_section(page, "ENVIRONMENT");
     put_entry(page, "AUREOLE_CACHE",
-              "The folder of what takes long to make and is used again; empty for none.");
+              "Cache folder of results that take long to compute; empty for no cache.");
     put_entry(page, "AUREOLE_ISA", "The widest instruction set to use: portable, avx2 or avx512.");
     put_exit_statuses(page);
     put_section(page, "EXAMPLES");
     fprintf(page, ".nf\n");
-    put_line(page, "aureole points spherical-fibonacci -n 64 --domain hemisphere -o points.csv\n"
-                   "aureole measure spherical-fibonacci sobol -n 1024 --metric energy\n"
-                   "aureole render scene.xml --error 2% -o picture.png");
+    put_line(page, "aureole points spherical-fibonacci -n 64 --domain hemisphere -o points.csv\naureole "
+                   "measure spherical-fibonacci sobol -n 1024 --metric energy\naureole render scene.xml "
+                   "--error 2% -o image.png");
     fprintf(page, ".fi\n");
     put_section(page, "SEE ALSO");
     put_line(page, "aureole-scene(5), aureole-names(7)");
@@ -158,7 +157,7 @@ static void put_kind(FILE *page, const aur_table *kind) {
         if (i < kind->count)
             put_entry(page, row->name, row->summary);
         else
-            put_entry(page, "all of them", "Keys that every one takes besides its own.");
+            put_entry(page, "all of them", "Parameters of every plugin of this kind.");
         fprintf(page, ".RS\n");
         for (size_t k = 0; aur_row_key(row, k) != NULL; ++k) {
             cli_write_key(aur_row_key(row, k), what);
@@ -193,23 +192,22 @@ static const char scene_example[] =
 
 static void put_scene(FILE *page, const cli_command *const *commands) {
     (void)commands;
-    put_head(page, "aureole-scene", 5, "the language of scenes");
+    put_head(page, "aureole-scene", 5, "the scene format");
     put_section(page, "DESCRIPTION");
-    put_line(page,
-             "Scenes are XML as Mitsuba 3 reads it. The children of <scene> are things: elements that are "
-             "called by their kind and have a type, which is one of the names below. The children of a thing "
-             "are its keys, each with the name of a key and a value, and further things.");
-    put_entry(page, "<integer>, <float>, <boolean>, <string>", "A key's value, as value=\"...\".");
+    put_line(page, "Scenes are XML in the format of Mitsuba 3. The children of <scene> are plugins: the "
+                   "element is the kind, its type is one of the names below. The children of a plugin are "
+                   "its parameters, each with a name and a value, and nested plugins.");
+    put_entry(page, "<integer>, <float>, <boolean>, <string>", "A parameter's value, as value=\"...\".");
     put_entry(page, "<vector>, <point>", "Three numbers, as x, y and z or as value=\"1, 2, 3\".");
     put_entry(page, "<rgb>, <spectrum>", "A colour: one number or three; a <texture> may stand for it.");
     put_entry(page, "<transform>",
-              "Its children follow each other: translate, rotate, scale, matrix, lookat.");
-    put_entry(page, "<ref id=\"...\">", "The thing that has this id, once more.");
+              "Its children are applied in order: translate, rotate, scale, matrix, lookat.");
+    put_entry(page, "<ref id=\"...\">", "The plugin that has this id.");
     put_entry(page, "<default name=\"...\" value=\"...\">",
-              "What $name stands for, unless -D name=value says otherwise.");
+              "The value of $name, unless -D name=value sets it.");
     put_entry(page, "<include filename=\"...\">", "The children of another scene's file.");
-    put_entry(page, "<alias id=\"...\" as=\"...\">", "Another name of a thing.");
-    put_entry(page, "<path value=\"...\">", "A folder in which files are looked for.");
+    put_entry(page, "<alias id=\"...\" as=\"...\">", "Another id of a plugin.");
+    put_entry(page, "<path value=\"...\">", "A folder in which files are searched.");
     put_section(page, "EXAMPLE");
     fprintf(page, ".nf\n");
     put_line(page, scene_example);
@@ -222,7 +220,7 @@ static void put_scene(FILE *page, const cli_command *const *commands) {
 
 static void put_names(FILE *page, const cli_command *const *commands) {
     (void)commands;
-    put_head(page, "aureole-names", 7, "point sets and measures, and the keys of each");
+    put_head(page, "aureole-names", 7, "point sets and measures, and their parameters");
     put_section(page, "DESCRIPTION");
     put_line(
         page,
@@ -265,7 +263,7 @@ static int print_page(const cli_command *const *commands, const char *name) {
     const char *const nearest = aur_nearest_name(name, count, names);
     if (nearest != NULL)
         return cli_bad_usage("manual: no page '%s'; did you mean '%s'?", name, nearest);
-    return cli_bad_usage("manual: no page '%s': there are aureole, scene, names, and one a verb", name);
+    return cli_bad_usage("manual: unknown page '%s': expected aureole, scene, names or a command", name);
 }
 
 /* Writes one page below the folder; false where that fails, which is said. */
@@ -314,18 +312,17 @@ static int run(const cli_call *call) {
 }
 
 static const cli_option options[] = {{CLI_TEXT(manual_options, folder, "output", "FOLDER", NULL,
-                                               "write all pages, in man1, man5 and man7 of this folder"),
+                                               "write all pages to man1, man5 and man7 of this folder"),
                                       .letter = 'o', .content = "folder"},
                                      {.key = {0}}};
 
 const cli_command cli_command_manual = {
     .name = "manual",
-    .summary = "the manual pages: the program, every verb, what scenes are made of, sets and measures",
-    .notes =
-        "To read one: aureole manual render | man -l -. An installed aureole brings them to where man looks: "
-        "man aureole-render.",
-    .operands = {{"PAGE", "a verb, or one of aureole, scene, names", .optional = true, .name = page_name,
-                  .content = "verb"}},
+    .summary = "print the manual pages of the program, its commands, the scene format, sets and measures",
+    .notes = "To read a page: aureole manual render | man -l -. Installed pages are found by man: man "
+             "aureole-render.",
+    .operands = {{"PAGE", "a command, or one of aureole, scene, names", .optional = true, .name = page_name,
+                  .content = "command"}},
     .groups = {{options, 0}},
     .size = sizeof(manual_options),
     .run = run,

@@ -39,7 +39,7 @@ static atomic_bool listens;
 /* The first signal asks the work to stop, a second one ends the program as if nobody listened. */
 static void on_interrupt(int signal_number) {
     if (!listens) {
-        static const char words[] = "aureole: stopped before there was anything to keep\n";
+        static const char words[] = "aureole: stopped before the first result\n";
         if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
             _exit(CLI_FAILURE);
         _exit(CLI_FAILURE);

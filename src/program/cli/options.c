@@ -18,17 +18,18 @@ static aur_result choose_json(const char *text, void *field, aur_error *error) {
 }
 
 const cli_option cli_format_option[] = {
-    {CLI_CHOICE(cli_common, format, "format", "FORMAT", "table", "how results are printed"),
+    {CLI_CHOICE(cli_common, format, "format", "FORMAT", "table", "output format"),
      .key.words = (const char *const[]){"table", "csv", "json", NULL}},
-    {CLI_FLAG(cli_common, format, "json", "the same as --format json"), .parse = choose_json},
+    {CLI_FLAG(cli_common, format, "json", "same as --format json"), .parse = choose_json},
     {.key = {0}}};
 
 const cli_option cli_quiet_option[] = {
-    {CLI_FLAG(cli_common, quiet, "quiet", "no progress bar and no warnings"), .letter = 'q'}, {.key = {0}}};
+    {CLI_FLAG(cli_common, quiet, "quiet", "print neither progress nor warnings"), .letter = 'q'},
+    {.key = {0}}};
 
 const cli_option cli_threads_option[] = {
     {CLI_INTEGER(cli_common, threads, "threads", "N", 0, 4096, "0",
-                 "how many threads work, 0 for one a processor; results do not depend on it"),
+                 "number of threads; 0: one per processor; results do not depend on it"),
      .letter = 't'},
     {.key = {0}}};
 
@@ -46,18 +47,18 @@ aur_result cli_add_definition(const char *text, void *field, aur_error *error) {
 
 const cli_option cli_definitions_option[] = {
     {CLI_TEXT(cli_definitions, count, "define", "NAME=VALUE", NULL,
-              "set a <default> of the scene; may be repeated"),
+              "set the value of a <default> of the scene; may be repeated"),
      .letter = 'D', .parse = cli_add_definition},
-    {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that names a file outside of its folder")},
-    {CLI_FLAG(cli_definitions, diffuse, "diffuse",
-              "in Radiance's files: replace materials, patterns and textures that are not supported by their "
-              "diffuse part")},
+    {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that reads a file outside of its folder")},
+    {CLI_FLAG(
+        cli_definitions, diffuse, "diffuse",
+        "in Radiance files: replace unsupported materials, patterns and textures by their diffuse part")},
     {.key = {0}}};
 
 const cli_option cli_model_light_option[] = {
-    {CLI_CHOICE(
-         cli_definitions, model_light, "model-light", "WHEN", "auto",
-         "light a model by the environment studio: auto where it has no light source but emitting surfaces"),
+    {CLI_CHOICE(cli_definitions, model_light, "model-light", "WHEN", "auto",
+                "light a model by the environment 'studio'; auto does so if the model has no light source "
+                "except emissive surfaces"),
      .key.words = (const char *const[]){"auto", "always", "none", NULL}},
     {.key = {0}}};
 

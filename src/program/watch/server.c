@@ -39,7 +39,7 @@ aur_result watch_server_create(const char *option, watch_place *place, watch_han
     if (module == NULL) {
         const char *const why = dlerror();
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "--%s needs the module aureole-serve.so beside the libraries: %s", option,
+                        "--%s needs the module aureole-serve.so in the folder of the libraries: %s", option,
                         why != NULL ? why : "it is of another version");
     }
     int listener = -1;

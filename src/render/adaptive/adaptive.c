@@ -154,7 +154,7 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
         own.sampler = "sobol";
     if (own.shard_count != 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "an error, a time or a number of rays is of a whole picture: parts have none");
+                        "parts of an image cannot be rendered to a target error, time or number of rays");
     if (own.resumable)
         result = make_identity(adaptive, aur_renderer_scene(renderer), &own, error);
     own.resumable = false;
@@ -173,10 +173,9 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
     if (result != AUR_OK)
         return result;
     if (aur_render_film(adaptive->candidate.replicas.renders[0])->layout.channel_count > 3)
-        aur_warn_at(
-            &own.warnings, (aur_location){0},
-            "a picture to an error, a time or a number of rays has R, G and B alone: the channels that "
-            "the integrator adds are left out");
+        aur_warn_at(&own.warnings, (aur_location){0},
+                    "an image to a target error, time or number of rays has only R, G and B: further "
+                    "channels of the integrator are left out");
     adaptive->open = adaptive->open && (adaptive->target.error > 0.0 || adaptive->target.seconds > 0.0 ||
                                         adaptive->target.rays > 0);
     if (adaptive->open && adaptive->target.bias > 0.0)

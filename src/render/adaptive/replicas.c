@@ -294,7 +294,7 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_i
                                 aur_error *error) {
     static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"};
     if (replicas->pixel_count == 0) /* they are being made */
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no picture yet");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no image yet");
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t channels = errors ? 6 : 3;
     const aur_result result =

@@ -47,7 +47,7 @@ static aur_result add_part(merger *all, const char *path, aur_checkpoint *part, 
     (void)read_number(part->identity, "shard", shard, 2);
     if (!read_number(part->identity, "samples_per_pixel", &samples, 1) || shard[0] == 0 ||
         shard[0] > shard[1])
-        return aur_fail_at(error, where, AUR_ERROR_FORMAT, "no part of a picture");
+        return aur_fail_at(error, where, AUR_ERROR_FORMAT, "not a part of an image");
     if (all->film == NULL) {
         all->count = shard[1];
         all->paths = calloc(all->count, sizeof *all->paths);
@@ -89,7 +89,7 @@ aur_result aur_render_merge_parts(size_t count, const char *const *paths, aur_fi
     merger all = {0};
     *film = NULL;
     aur_result result =
-        count > 0 ? AUR_OK : aur_fail(error, AUR_ERROR_ARGUMENT, "a picture has at least one part");
+        count > 0 ? AUR_OK : aur_fail(error, AUR_ERROR_ARGUMENT, "an image has at least one part");
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         aur_checkpoint part;
         result = aur_checkpoint_load(paths[i], true, &part, error);

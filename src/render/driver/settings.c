@@ -30,7 +30,7 @@ static aur_result complete_crop(const aur_film_settings *film, aur_render_option
         return AUR_OK;
     return aur_fail(
         error, AUR_ERROR_ARGUMENT,
-        "crop %zu,%zu,%zu,%zu is not a part of the picture: 0 <= x0 < x1 <= %zu and 0 <= y0 < y1 <= %zu",
+        "crop %zu,%zu,%zu,%zu is not a part of the image: 0 <= x0 < x1 <= %zu and 0 <= y0 < y1 <= %zu",
         s->crop_x0, s->crop_x1, s->crop_y0, s->crop_y1, s->width, s->height);
 }
 

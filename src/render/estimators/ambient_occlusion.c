@@ -22,7 +22,7 @@ static const aur_key keys[] = {
                      "how a pattern is randomised: none, digit, owen, shift or rotate"),
      .computed = true},
     {AUR_KEY_OF_INTEGER(occlusion_data, "rotations", pattern.rotations, 0, 65536, "16",
-                        "randomisations made beforehand; 0 is one of its own for every pixel")},
+                        "number of prepared randomisations; 0: a separate one for every pixel")},
     {AUR_KEY_OF_REAL(occlusion_data, "max_distance", occlusion.max_distance, 0.0, INFINITY, "infinity",
                      "what is farther, in scene units, does not occlude")},
     {AUR_KEY_OF_BOOLEAN(occlusion_data, "cosine", cosine, "true",

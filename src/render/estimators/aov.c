@@ -107,8 +107,8 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_TEXT(aov_data, "aovs", list,
                      "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
                      "primitive:prim_index,samples:sample_count,variance:variance",
-                     "name:type,...: the channels beside the picture")},
-    {AUR_KEY_OF_ITEM(aov_data, "integrator", item, "path", "whose picture it is", "integrator")},
+                     "name:type,...: channels added to the image")},
+    {AUR_KEY_OF_ITEM(aov_data, "integrator", item, "path", "integrator of the image", "integrator")},
 };
 
 static void release(aur_integrator *integrator) {
@@ -251,7 +251,7 @@ static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
 
 const aur_integrator_descriptor aur_integrator_aov = {
     .row = {.name = "aov",
-            .summary = "albedo, normals, positions and more in channels beside another integrator's",
+            .summary = "albedo, normals, positions and more as channels next to those of another integrator",
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(aov_data),

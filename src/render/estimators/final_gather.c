@@ -28,7 +28,7 @@ static const aur_key keys[] = {
                        "nearest alone",
                        "false", "true", "near")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "photons", photons, 1, MOST, "500000",
-                        "photons of the map that gather rays look up")},
+                        "number of photons in the map that gather rays query")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "photon_seed", photon_seed, 0, INFINITY, "0",
                         "the same photons in images of all seeds; 0: by the image's seed")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "caustic_photons", caustic_photons, 0, MOST, "0",

@@ -13,13 +13,14 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(aur_path, "rr_depth", rr_depth, 1, 1 << 20, "5",
                         "Russian roulette from this depth on")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "hide_emitters", hide_emitters, "false", "lights are black to the camera")},
-    {AUR_KEY_OF_BOOLEAN(aur_path, "packets", packets, "true",
-                        "sixteen pixels in lockstep, else one path at a time: the same picture")},
+    {AUR_KEY_OF_BOOLEAN(
+        aur_path, "packets", packets, "true",
+        "trace sixteen pixels in lockstep instead of one path at a time; the image is the same")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "interleaved", interleaved, "false",
                         "the pixels of a packet share the random numbers of all but their camera rays")},
     {AUR_KEY_OF_INTEGER(aur_path, "candidates", candidates, 1, AUR_CANDIDATES_MOST, "1",
-                        "points on lights at each surface, of which one gets the shadow ray, chosen by what "
-                        "it would bring: less noise under skies for more time")},
+                        "candidate points on emitters per vertex; one is chosen by its unshadowed "
+                        "contribution and gets the shadow ray: less noise under skies for more time")},
     AUR_CLAMP_KEY(aur_path),
     {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
                      "extra camera rays per sample at edges of visible lights (image average)"),

@@ -53,7 +53,7 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
     if (film->channels == NULL || film->given == NULL || film->sums == NULL || film->counts == NULL ||
         film->steps == NULL || film->squares == NULL || film->lock == NULL || !spread) {
         aur_film_destroy(film);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a picture of %zu x %zu", layout->width,
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for an image of %zu x %zu", layout->width,
                         layout->height);
     }
     for (size_t c = 0; c < 3; ++c)
@@ -234,7 +234,7 @@ static aur_result check_part(const aur_film *film, const aur_film *part, aur_err
     const aur_film_layout *const a = &film->layout, *const b = &part->layout;
     if (a->width != b->width || a->height != b->height)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "a part of a picture of %zu x %zu cannot be added to one of %zu x %zu", b->width,
+                        "a part of an image of %zu x %zu cannot be added to one of %zu x %zu", b->width,
                         b->height, a->width, a->height);
     bool same = a->channel_count == b->channel_count;
     for (size_t c = 0; same && c < a->channel_count; ++c)

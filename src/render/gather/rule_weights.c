@@ -42,10 +42,9 @@ static aur_result begin(const aur_gather_rule *rule, size_t count, double smooth
 aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, double regularization,
                                     aur_error *error) {
     if (rule->square != NULL)
-        return aur_fail(
-            error, AUR_ERROR_UNSUPPORTED,
-            "optimal weights need prepared rotations: patterns scrambled anew at every shading point "
-            "would need a solve there");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "optimal weights need prepared rotations: a pattern scrambled at every shading point "
+                        "would need a solve there");
     const size_t n = rule->count;
     aur_potential *potential;
     double *xyz;

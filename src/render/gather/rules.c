@@ -57,7 +57,7 @@ static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe
     if (maker->method != NULL && lobe->rule.square != NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: a caller's method needs prepared rotations, not a pattern that is "
-                        "scrambled anew at every shading point");
+                        "scrambled at every shading point");
     if (maker->method != NULL) {
         const aur_gather_rule *const rule = &lobe->rule;
         const aur_gather_directions pattern = {rule->count, rule->exponent, rule->x,

@@ -35,9 +35,9 @@ static const struct {
     {SHARE_NEAR | NOT_FIBONACCI, AUR_ERROR_UNSUPPORTED,
      "share=near has spherical Fibonacci sets that complete each other: leave 'pattern' and 'scramble' out"},
     {DEBIAS | SHARE, AUR_ERROR_UNSUPPORTED,
-     "debias corrects the bias of the photon map, not that of share: leave one of them out"},
+     "debias corrects the bias of the photon map, not that of share: they cannot be combined"},
     {DEBIAS | CAUSTICS, AUR_ERROR_UNSUPPORTED,
-     "debias corrects the bias of the photon map, not that of caustic_photons: leave one of them out"},
+     "debias corrects the bias of the photon map, not that of caustic_photons: they cannot be combined"},
 };
 
 static unsigned asked_of(const aur_gather_settings *o) {

@@ -96,9 +96,9 @@ static void mean_of_colors(const aur_image *image, const size_t channels[3], dou
 
 aur_result aur_image_mean(const aur_image *image, double mean[4], aur_error *error) {
     size_t channels[3];
-    aur_result result = aur_image_require_color("the picture", image, channels, error);
+    aur_result result = aur_image_require_color("the image", image, channels, error);
     if (result == AUR_OK)
-        result = aur_image_check_finite("the picture", image, channels, error);
+        result = aur_image_check_finite("the image", image, channels, error);
     if (result == AUR_OK)
         mean_of_colors(image, channels, mean);
     return result;

@@ -401,7 +401,7 @@ static aur_result check_length(const exr_reader *reader, uint64_t pixels, aur_er
 
 static aur_result check_header(exr_reader *reader, exr_storage_t storage, aur_error *error) {
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a deep EXR: only flat pictures can be read");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a deep EXR: only flat images can be read");
     const int64_t width = (int64_t)reader->window.max.x - reader->window.min.x + 1;
     const int64_t height = (int64_t)reader->window.max.y - reader->window.min.y + 1;
     const int count = reader->channels->num_channels;

@@ -25,7 +25,7 @@ static aur_result create(size_t width, size_t height, size_t channel_count, floa
     *image = NULL;
     if (!size_is_allowed(width, height, channel_count))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "a picture of %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values",
+                        "an image of %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values",
                         width, height, channel_count);
     aur_image *const made = calloc(1, sizeof *made);
     if (made == NULL)
@@ -119,7 +119,7 @@ void aur_image_put_bytes(void *stream, void *bytes, int count) {
 }
 
 aur_result aur_image_fail_encode(aur_error *error) {
-    return aur_fail(error, AUR_ERROR_MEMORY, "cannot encode the picture: out of memory");
+    return aur_fail(error, AUR_ERROR_MEMORY, "cannot encode the image: out of memory");
 }
 
 aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error) {

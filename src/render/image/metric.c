@@ -22,14 +22,14 @@ aur_result aur_image_check_pair(const aur_image *reference, const aur_image *ima
                                 aur_error *error) {
     if (reference->width != image->width || reference->height != image->height)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the sizes differ: the reference has %zu x %zu pixels, the picture %zu x %zu",
+                        "the sizes differ: the reference has %zu x %zu pixels, the image %zu x %zu",
                         reference->width, reference->height, image->width, image->height);
     aur_result result = aur_image_require_color("the reference", reference, pair->reference, error);
     if (result == AUR_OK)
-        result = aur_image_require_color("the picture", image, pair->image, error);
+        result = aur_image_require_color("the image", image, pair->image, error);
     if (result == AUR_OK)
         result = aur_image_check_finite("the reference", reference, pair->reference, error);
     if (result == AUR_OK)
-        result = aur_image_check_finite("the picture", image, pair->image, error);
+        result = aur_image_check_finite("the image", image, pair->image, error);
     return result;
 }

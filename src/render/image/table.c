@@ -19,7 +19,7 @@ static const aur_row *const rows[] = {AUR_IMAGE_FORMATS(ROW_OF)};
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
 const aur_table aur_image_format_table = {
-    .kind = "picture", .summary = "formats of picture files, by extension", AUR_TABLE_ROWS(rows)};
+    .kind = "image", .summary = "image formats, by extension", AUR_TABLE_ROWS(rows)};
 
 static const aur_image_format *recognize(const aur_image_source *source) {
     for (size_t i = 0; i < FORMAT_COUNT; ++i)
@@ -42,8 +42,7 @@ aur_result aur_image_read_memory(const char *name, size_t size, const void *data
         char list[128];
         aur_names_list(aur_names_of_table(&aur_image_format_table), sizeof list, list);
         return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT,
-                           size == 0 ? "is empty, not a picture" : "is not a picture that can be read: %s",
-                           list);
+                           size == 0 ? "is empty, not an image" : "is not a readable image: %s", list);
     }
     const aur_result result = format->read(&source, image, error);
     if (result != AUR_OK) {
@@ -88,8 +87,8 @@ aur_result aur_image_find_writer(const char *path, const char *format, const aur
     }
     char list[128];
     aur_list_names(count - 1, names, sizeof list, list);
-    return aur_fail(error, AUR_ERROR_NAME, "cannot tell how to write a picture from '%s': use %s or %s",
-                    extension, list, names[count - 1]);
+    return aur_fail(error, AUR_ERROR_NAME, "unknown image format of '%s': expected %s or %s", extension, list,
+                    names[count - 1]);
 }
 
 static aur_result write_image(const char *path, const aur_image *image,
@@ -100,9 +99,8 @@ static aur_result write_image(const char *path, const aur_image *image,
     if (result != AUR_OK)
         return result;
     if (!isfinite(own->exposure) || (size_t)own->tone >= AUR_TONE_COUNT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "cannot write a picture with exposure %g and tone curve %d", (double)own->exposure,
-                        (int)own->tone);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "cannot write an image with exposure %g and tone curve %d",
+                        (double)own->exposure, (int)own->tone);
     const aur_row *row;
     result = aur_image_find_writer(path, own->format, &row, error);
     if (result != AUR_OK)

@@ -256,8 +256,7 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
         release_lanes(radiosity); /* the solution stays what it was before these paths */
         return aur_fail(
             error, AUR_ERROR_FORMAT,
-            "radiosity: a path carries a power that is not finite: look for a texture or a material "
-            "of that kind");
+            "radiosity: the power of a path is not finite: a texture or material has such values");
     }
     for (size_t i = 0; i < count; ++i)
         aur_radiosity_tally_take(&radiosity->tallies[i], &lanes[i]);

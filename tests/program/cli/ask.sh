@@ -49,11 +49,11 @@ cmp g.exr i.exr || fail "the lab's integrator has another picture"
 again() { # OPTION...
   "$aureole" render "$scene" "$@" -o c.exr 2> said
   local command
-  command=$(sed -n 's/^aureole: the same picture again: //p' said)
+  command=$(sed -n 's/^aureole: to reproduce this image: //p' said)
   [ -n "$command" ] || fail "no command that makes '$*' again: $(cat said)"
   eval "\"\$aureole\" render \"\$scene\" --width $2 --height $4 --filter box $command -o d.exr -t 3" 2> repeated
   cmp c.exr d.exr || fail "$command makes another picture than $*"
-  [ "$(sed -n 's/^aureole: the same picture again: //p' repeated)" = "$command" ] ||
+  [ "$(sed -n 's/^aureole: to reproduce this image: //p' repeated)" = "$command" ] ||
     fail "$command says another command: $(cat repeated)"
 }
 again "${small[@]}" --time .1s
@@ -105,8 +105,8 @@ refuses "expected a number such as 1e9, not 'many'" --rays many
 refuses "--bias: expected 1% or .01, from above 0 to 100%, not '0'" --error 1% --integrator path --bias 0
 refuses "below the target error" --error 1% --integrator path --bias 2%
 refuses "goes with an integrator that is named" --error 1% --bias .5%
-refuses "--spp' does not go with" --error 1% --spp 4
-refuses "--error-map' goes with" --error-map
+refuses "--spp' cannot be used with" --error 1% --spp 4
+refuses "--error-map' needs" --error-map
 
 # An interrupt leaves what there is beside the previous image, with and without a target. There is something once a checkpoint is
 # written: the choice of an integrator leaves nothing.

@@ -44,15 +44,15 @@ offers run lab ''
 offers marques-2018-table1 lab run marques-2018-gains marques-2018-t
 offers bsdf help ''
 offers dielectric help bsdf d
-offers weights help verb w
+offers weights help command w
 silent points --seed ''
 silent no-such-verb ''
 silent points -- --d
-# Every verb, option and choice that help knows.
-aureole help verb --format csv | tail -n +2 | cut -d, -f1 >verbs
+# Every command, option and choice that help knows.
+aureole help command --format csv | tail -n +2 | cut -d, -f1 >verbs
 while read -r verb; do
   offers "$verb" "$verb"
-  aureole help verb "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9-]*[a-z0-9]' | while read -r option; do
+  aureole help command "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9-]*[a-z0-9]' | while read -r option; do
     offers "$option" "$verb" "$option"
   done
 done <verbs

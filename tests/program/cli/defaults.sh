@@ -92,7 +92,7 @@ is_place() {
 }
 
 for verb in $("$aureole" help --format csv 2>/dev/null | sed -n '/^  [a-z]/s/^  \([a-z]*\) .*/\1/p'); do
-  [ "$verb" != set ] || break # the kinds come after the verbs
+  [ "$verb" != set ] || break # the kinds come after the commands
   defaults verb "$verb" >options || fail "the options of $verb"
   while IFS=$'\t' read -r name type default values; do
     name=${name##*, } name=${name%%[ [=]*}

@@ -13,7 +13,7 @@ AUREOLE_OIDN=$PWD/nowhere.so render -o none.exr --denoise 2>message.txt
 AUREOLE_OIDN=libz.so.1 render -o none.exr --denoise 2>message.txt
 [ $? -eq 2 ] && grep -q -- '--denoise: the library is no Open Image Denoise' message.txt || fail "another library: $(cat message.txt)"
 AUREOLE_OIDN=$stub render -o none.exr --denoise --shard 1/2 2>message.txt
-[ $? -eq 2 ] && grep -q -- "'--denoise' does not go with '--shard'" message.txt || fail "a part: $(cat message.txt)"
+[ $? -eq 2 ] && grep -q -- "'--denoise' cannot be used with '--shard'" message.txt || fail "a part: $(cat message.txt)"
 
 # What the camera sees of the lamp, as the features tell it: by the samples alone.
 render -o lights.exr --integrator path:max_depth=1,lamp_rays=0 --sampler sobol --spp 16 && "$aureole" convert lights.exr lights.pfm --channels R,G,B || fail "no lights"
@@ -95,7 +95,7 @@ assert noisy > 10 and clean == 0, (noisy, clean)
 END
 # The error of what is denoised is estimated by two halves.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
-grep -q 'denoised, half of the samples have [0-9.]* % of its surroundings (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
+grep -q 'denoised half of the samples: [0-9.]* % of its surroundings (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
 # Where the picture has such channels of its own they stay what they are.
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&
   [ "$("$aureole" info c.exr | grep -o 'albedo\.R' | wc -l)" -eq 1 ] || fail "a picture with an albedo"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# aureole help: the verbs, what there is of each kind, the keys of each thing, and the nearest name after a mistake.
+# aureole help: the commands, what there is of each kind, the keys of each thing, and the nearest name after a mistake.
 set -u
 aureole=$1
 status=0
@@ -14,22 +14,22 @@ expect() { # STATUS TEXT ARGUMENT...: the exit status, and what the output must 
   [ $? = "$wanted" ] || fail "aureole $*: exit status"
   grep -qF -- "$text" <<<"$output" || fail "aureole $*: no '$text' in: $output"
 }
-expect 0 "aureole help KIND NAME" help
+expect 0 "the parameters of one:" help
 expect 0 "aureole render SCENE [MODEL...] [OPTION...]" help render
-expect 0 "quality figures of points" help measure # the verb: its measures are listed by --list
+expect 0 "measure the quality of points" help measure # the command: its measures are listed by --list
 expect 0 "final gathering over a photon map" help integrator
 expect 0 "diffuse_samples" help integrator finalgather
 expect 0 "hide_emitters" help integrator path
 expect 0 "measure energy: distance energy" help measure energy
 expect 0 "final gathering over a photon map" help integrators
-expect 0 "quality figures of points" measure -h
+expect 0 "measure the quality of points" measure -h
 expect 2 "did you mean 'integrator'?" help integrater
-expect 2 "unknown verb 'rendr'; did you mean 'render'?" rendr
+expect 2 "unknown command 'rendr'; did you mean 'render'?" rendr
 expect 0 "$("$aureole" --version)" -V
 expect 0 "$("$aureole" --version)" version
 expect 2 "did you mean 'finalgather'?" help integrator finalgathr
-expect 2 "unknown verb 'xyzzyplugh'" help xyzzyplugh
-expect 2 "one verb, or a kind and a name" help set sobol more
+expect 2 "unknown command 'xyzzyplugh'" help xyzzyplugh
+expect 2 "one command, or a kind and a name" help set sobol more
 # Every row of every kind can be asked for, and its keys come as CSV, one a line.
 for kind in set measure integrator shape emitter sensor rfilter film picture; do
   "$aureole" help "$kind" --format csv | tail -n +2 | cut -d, -f1 >names

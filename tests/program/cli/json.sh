@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --json: every verb that prints results prints them as JSON, which a parser of its own reads.
+# --json: every command that prints results prints them as JSON, which a parser of its own reads.
 set -u
 aureole=$1
 command -v python3 >/dev/null || { echo "skipped: no python3 to read JSON with"; exit 77; }
@@ -44,7 +44,7 @@ json 'len(it) >= 3' info a.exr --json
 json 'len(it) > 40' lab list --json
 json 'any(row["name"] == "finalgather" for row in it)' help integrators --json
 json 'any(row["key"] == "photons" for row in it)' help integrator finalgather --json
-json 'any(row["key"].endswith("--spp N") for row in it)' help verb render --json
+json 'any(row["key"].endswith("--spp N") for row in it)' help command render --json
 # One schema a command: its options change values, which are null where they are not known, and no key.
 "$aureole" weights sobol -n 8 --lobe cosine --lobe2 phong:5 --angles 2 --rotations 1 --table phong.wt -q && "$aureole" weights sobol -n 8 \
   --lobe ggx:.4 --angles 2 --rotations 1 --table ggx.wt -q || status=1
@@ -83,7 +83,7 @@ for file in points.csv points.npy; do same "info of points" info $file; done
 for file in a.exr b.exr; do same "info of a picture" info $file; done
 for row in "integrator path" "bsdf diffuse" "shape sphere"; do same "help of a row" help $row; done
 for kind in integrators bsdfs sets; do same "help of a kind" help $kind; done
-for verb in render weights lab; do same "help of a verb" help verb $verb; done
+for verb in render weights lab; do same "help of a command" help command $verb; done
 "$aureole" render scene.xml --spp 1 -q -o - >piped.exr && cmp -s <("$aureole" render scene.xml --spp 1 -q -o c.exr && cat c.exr) piped.exr || {
   echo "FAILED: render -o - is not the picture"
   status=1

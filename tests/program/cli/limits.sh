@@ -37,26 +37,26 @@ refuses 'lies outside of the scene' 2 "$aureole" info --confine box/escapes.xml
 
 # Time: the program ends, with words; an earlier picture stays.
 echo old >p.exr
-refuses 'the time limit is over' 3 "$aureole" render $scene --spp 1000000 -o p.exr -q --time-limit .5s
+refuses 'stopped by --time-limit' 3 "$aureole" render $scene --spp 1000000 -o p.exr -q --time-limit .5s
 [ "$(cat p.exr)" = old ] || fail "a render that was out of time replaced the picture"
 refuses 'expected a time such as' 2 "$aureole" render $scene --time-limit soon
 refuses 'expected a size in bytes' 2 "$aureole" render $scene --memory-limit much
 
-# Every verb has both limits.
+# Every command has both limits.
 verbs=$("$aureole" help | awk 'NR > 2 && NF == 0 { exit } /^  [a-z]/ { print $1 }')
-[ "$(wc -w <<<"$verbs")" -ge 18 ] || fail "the list of verbs has another form: $verbs"
+[ "$(wc -w <<<"$verbs")" -ge 18 ] || fail "the list of commands has another form: $verbs"
 for verb in $verbs; do
   refuses 'expected a time such as' 2 "$aureole" "$verb" --time-limit soon
   refuses 'expected a size in bytes' 2 "$aureole" "$verb" --memory-limit much
 done
 if [ "$(nm "$aureole" 2>/dev/null | grep -c __asan_init)" = 0 ]; then
-  refuses 'the time limit is over' 3 "$aureole" voronoi spherical-fibonacci -n 20000000 --time-limit .3s
-  refuses 'the time limit is over' 3 "$aureole" points electrostatic -n 16384 --time-limit .3s --no-cache
+  refuses 'stopped by --time-limit' 3 "$aureole" voronoi spherical-fibonacci -n 20000000 --time-limit .3s
+  refuses 'stopped by --time-limit' 3 "$aureole" points electrostatic -n 16384 --time-limit .3s --no-cache
   refuses 'memory' 3 "$aureole" points sobol -n 100000000 --memory-limit 500M
   refuses 'memory' 3 "$aureole" voronoi spherical-fibonacci -n 100000000 --memory-limit 500M
 fi
 # They hold where a parent has blocked or ignored the signals, as services with signalfd do.
-refuses 'the time limit is over' 3 env --block-signal --ignore-signal=ALRM timeout -s KILL 20 "$aureole" render $scene --spp 1000000 -o p.exr -q --time-limit .5s
+refuses 'stopped by --time-limit' 3 env --block-signal --ignore-signal=ALRM timeout -s KILL 20 "$aureole" render $scene --spp 1000000 -o p.exr -q --time-limit .5s
 for how in --block-signal --ignore-signal=TERM; do
   for seconds in 1 4 16 64; do # slow machines have nothing to keep after a second
     env $how "$aureole" render $scene --spp 1000000 -o stopped.exr -q 2>said &

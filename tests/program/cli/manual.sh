@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The manual pages: every verb has one with all its options, the page of scenes names every thing of every kind, its example is
+# The manual pages: every command has one with all its options, the page of scenes names every thing of every kind, its example is
 # a scene, and man and groff find nothing wrong with any of them.
 set -u
 aureole=$1
@@ -11,16 +11,16 @@ fail() {
 plain() { sed 's/\\-/-/g; s/,\\:/,/g; s/\\(aq/'"'"'/g; s/\\(ti/~/g; s/\\(ha/^/g; s/\\(ga/`/g; s/\\&//g; s/\\e/\\/g' "$@"; }
 
 "$aureole" manual -o pages || fail "manual -o"
-"$aureole" help verb --format csv | tail -n +2 | cut -d, -f1 >verbs
+"$aureole" help command --format csv | tail -n +2 | cut -d, -f1 >verbs
 while read -r verb; do
   "$aureole" manual "$verb" | cmp -s - "pages/man1/aureole-$verb.1" || fail "manual $verb is not the page of manual -o"
   plain "pages/man1/aureole-$verb.1" >page
-  "$aureole" help verb "$verb" --format csv | tail -n +2 | grep -oE '^"?--[a-z0-9-]*[a-z0-9]' | tr -d '"' | while read -r option; do
+  "$aureole" help command "$verb" --format csv | tail -n +2 | grep -oE '^"?--[a-z0-9-]*[a-z0-9]' | tr -d '"' | while read -r option; do
     grep -q -- "^\\\\fB.*$option" page || echo "$verb: the page has no $option"
   done >missing
   [ -s missing ] && fail "$(cat missing)"
 done <verbs
-[ "$(find pages/man1 -name 'aureole-*.1' | wc -l)" = "$(wc -l <verbs)" ] || fail "pages of verbs: $(ls pages/man1)"
+[ "$(find pages/man1 -name 'aureole-*.1' | wc -l)" = "$(wc -l <verbs)" ] || fail "pages of commands: $(ls pages/man1)"
 "$aureole" manual aureole | cmp -s - pages/man1/aureole.1 || fail "manual aureole"
 for kind in integrator bsdf texture spectrum shape emitter sensor medium phase volume film rfilter; do
   "$aureole" help "$kind" --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The options of every verb: what is given wrongly is said with what would be right, help fits 80 columns and names every
+# The options of every command: what is given wrongly is said with what would be right, help fits 80 columns and names every
 # option, and what could be given before there was a table of options can still be given.
 set -u
 aureole=$1
@@ -48,14 +48,14 @@ refuses "must end in .svg, .pdf, .png or .tex" measure sobol -n 64 -m star --plo
 cmp -s old new || fail "forms of options differ"
 [ "$("$aureole" points sobol -n 4 --domain cube --dim 3 | head -1)" = u1,u2,u3 ] || fail "points of the cube"
 
-# Help of every verb fits a terminal and has every option that the table for programs has.
-"$aureole" help verb --format csv | tail -n +2 | cut -d, -f1 >verbs
+# Help of every command fits a terminal and has every option that the table for programs has.
+"$aureole" help command --format csv | tail -n +2 | cut -d, -f1 >verbs
 [ "$(wc -l <verbs)" -ge 10 ] || fail "verbs: $(cat verbs)"
 while read -r verb; do
   "$aureole" help "$verb" >help || fail "help $verb"
   "$aureole" "$verb" --help | cmp -s help || fail "$verb --help differs from help $verb"
   awk -v verb="$verb" 'length($0) > 80 { print "FAILED: " verb ": wider than 80: " $0; bad = 1 } END { exit bad }' help || status=1
-  "$aureole" help verb "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9-]*[a-z0-9]' | sort -u | while read -r option; do
+  "$aureole" help command "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9-]*[a-z0-9]' | sort -u | while read -r option; do
     grep -q -- "  $option\|, $option" help || echo "$verb: help has no $option"
   done >missing
   [ -s missing ] && fail "$(cat missing)"

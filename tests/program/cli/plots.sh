@@ -43,5 +43,5 @@ python3 "$here/plots.py" "$odd" || fail "what is in the figures"
 "$aureole" irradiance none.xml --sensors none.pts --plot floor.eps 2>message
 [ $? -eq 2 ] && grep -q "must end in .svg, .pdf, .png or .tex" message || fail "a map in EPS: $(cat message)"
 "$aureole" irradiance none.xml --sensors none.pts --weather none.epw --plot floor.svg 2>message
-[ $? -eq 2 ] && grep -q -- "--plot does not go with --weather" message || fail "a map of a year: $(cat message)"
+[ $? -eq 2 ] && grep -q -- "--plot cannot be used with --weather" message || fail "a map of a year: $(cat message)"
 exit $((failures > 0))

@@ -24,19 +24,19 @@ for spp in 2 8; do
   # values, whose root mean square is below 10 means here.
   awk -v a="$said" -v b="$found" 'BEGIN { exit !(b > 0 && (a > b ? a - b : b - a) <= 10 * 2 ^ -23) }' ||
     fail "$spp samples: said $said, found $found"
-  grep -q "^aureole: whole.exr has an error of about $(awk -v a="$said" 'BEGIN { printf "%.0f", 100 * a }') % of its mean or less, after $spp samples" end.txt ||
+  grep -q "^aureole: whole.exr has an error of at most about $(awk -v a="$said" 'BEGIN { printf "%.0f", 100 * a }') % of its mean, after $spp samples" end.txt ||
     fail "$spp samples: $(cat end.txt)"
 done
 
 # One sample has no halves; pixels that final gathering treats together have no steps; a part is no picture; '-' is no name.
 "$program" render "$scene" --width 24 --spp 1 -o one.exr 2>end.txt
-grep -q '^aureole: one.exr has 1 sample a pixel; --error 5% would say' end.txt || fail "one sample: $(cat end.txt)"
+grep -q "^aureole: one.exr has 1 sample per pixel; use --error 5%" end.txt || fail "one sample: $(cat end.txt)"
 "$program" render "$scene" --width 24 --spp 4 --integrator finalgather -o gathered.exr 2>end.txt
-grep -q '^aureole: gathered.exr has 4 samples a pixel; --error 5% would say' end.txt || fail "finalgather: $(cat end.txt)"
+grep -q '^aureole: gathered.exr has 4 samples per pixel; use --error 5%' end.txt || fail "finalgather: $(cat end.txt)"
 "$program" render "$scene" --width 24 --spp 4 --shard 1/2 -o part 2>end.txt
-grep -q '^aureole: the part is in part;' end.txt || fail "part: $(cat end.txt)"
+grep -q "^aureole: wrote the part part;" end.txt || fail "part: $(cat end.txt)"
 "$program" render "$scene" --width 24 --spp 4 -o - 2>end.txt >picture.exr
-grep -q '^aureole: the picture has an error of about' end.txt || fail "standard output: $(cat end.txt)"
+grep -q '^aureole: the image has an error of at most about' end.txt || fail "standard output: $(cat end.txt)"
 "$program" render "$scene" --width 24 --spp 4 -q -o quiet.exr 2>end.txt
 [ ! -s end.txt ] || fail "quiet: $(cat end.txt)"
 exit $failures

@@ -61,13 +61,13 @@ cp red-wall.obj box/meshes/red-wall.obj
 head -c 3000 kept >cut
 refuses 'cut short' 2 render --spp 2 -o b.exr --checkpoint cut --resume
 refuses 'no checkpoint' 2 render --spp 2 -o b.exr --checkpoint a.exr --resume
-refuses 'goes on from the file' 2 render --spp 2 -o b.exr --resume
-refuses 'goes with' 2 render --spp 2 -o b.exr --checkpoint-every 5s
+refuses "needs '--checkpoint'" 2 render --spp 2 -o b.exr --resume
+refuses 'needs' 2 render --spp 2 -o b.exr --checkpoint-every 5s
 refuses "5min or 1h, not 'soon'" 2 render --spp 2 -o b.exr --checkpoint kept --checkpoint-every soon
 refuses 'folder does not exist' 3 render --spp 2 -o b.exr --checkpoint none/kept
 [ ! -e b.exr ] || fail "a refused render left a picture"
 "$aureole" render "$scene" --width 16 --height 16 --spp 1 -o b.exr --checkpoint new --resume 2>said
-grep -q 'no checkpoint new yet' said || fail "a render that begins anew says: $(cat said)"
+grep -q 'checkpoint new not found' said || fail "a render that begins anew says: $(cat said)"
 
 # Parts.
 for integrator in path finalgather:photons=2000,diffuse_samples=16; do
@@ -92,11 +92,11 @@ refuses 'not a checkpoint' 2 merge whole.exr
 printf 'AURCHKP1%064d' 0 >old.part
 refuses 'another version of the program' 2 merge old.part
 refuses "cannot read" 2 merge none.part
-refuses "'-o FILE' is missing" 2 "$aureole" merge one.part
+refuses "expected '-o FILE'" 2 "$aureole" merge one.part
 refuses "such as 2/3, not '3/2'" 2 render --shard 3/2
 refuses "such as 2/3, not '0/2'" 2 render --shard 0/2
 refuses "such as 2/3, not 'half'" 2 render --shard half
-refuses 'does not go with' 2 render --shard 1/2 --error 1%
+refuses 'cannot be used with' 2 render --shard 1/2 --error 1%
 [ ! -e none.exr ] || fail "refused parts left a picture"
 # Parts and checkpoints of rays that other instructions traced differ in the last bits.
 if grep -qw avx2 /proc/cpuinfo; then

@@ -14,7 +14,7 @@ begin() { # begin NAME OPTION...: a render into NAME.exr that is served; $pid, $
   "$aureole" render "$scene" --width 64 -q -t 2 -o "$name.exr" --serve "$@" 2>"$name.txt" &
   pid=$!
   for _ in $(seq 300); do grep -qs 'http.*/$' "$name.txt" && break; sleep 0.1; done
-  read -r port token < <(sed -n 's,^aureole: the picture is at http://127\.0\.0\.1:\([0-9]*\)/\([0-9a-f]\{32\}\)/$,\1 \2,p' "$name.txt")
+  read -r port token < <(sed -n 's,^aureole: serving the image at http://127\.0\.0\.1:\([0-9]*\)/\([0-9a-f]\{32\}\)/$,\1 \2,p' "$name.txt")
   [ -n "${token:-}" ] || fail "no address: $(cat "$name.txt")"
 }
 raw() { # raw BYTES: the answer to a request, sent at once: what comes after an answer resets the connection
@@ -166,7 +166,7 @@ status 200 "$(ask POST "/$token/stop")" "stop"
 wait "$pid"
 [ $? -eq 3 ] || fail "stopped: $(cat seen.txt)"
 wait "$chromium"
-for what in 'The render has been stopped.' 'data-ended' 'z=16&amp;x=3&amp;y=5&amp;tone=filmic' 'Save EXR' '<output>pixel 3, 5   picture: '; do
+for what in 'The render was stopped.' 'data-ended' 'z=16&amp;x=3&amp;y=5&amp;tone=filmic' 'Save EXR' '<output>pixel 3, 5   picture: '; do
   grep -qF "$what" dom.html || fail "no $what in the page: $(grep -o 'id="said"[^/]*' dom.html) $(grep -o 'data-state="[^"]*"' dom.html)"
 done
 grep -q 'pixel 3, 5   picture: 0.000 0.000 0.000' dom.html && fail "the page shows a black picture"

@@ -166,7 +166,7 @@ refused "lobe2" sobol -n 8 --lobe cosine --method oswa
 refused "lobe2" sobol -n 8 --lobe cosine --clip
 refused "angle" sobol -n 8 --lobe cosine --lobe2 phong:20
 refused "hemisphere" sobol -n 8 --domain sphere --lobe cosine
-refused "missing" --lobe cosine
+refused "no set or file" --lobe cosine
 refused "must be one of" sobol -n 8 --method best
 refused "1024 polynomials of degree 31" $sf -n 1000 --domain sphere --method exact --degree 31
 refused "negative weights, the least of them -" random -n 256 --domain sphere --method exact --degree 13

@@ -80,8 +80,8 @@ expect 2 "spp" box.xml --spp 0
 expect 2 "-D" box.xml -D nothing
 expect 2 "no_such" box.xml -D no_such=1
 expect 2 "unknown option" box.xml --photons
-expect 2 "one scene" box.xml box.xml
-expect 2 "a scene is missing"
+expect 2 "is given twice" box.xml box.xml
+expect 2 "no scene given"
 
 # A scene without light: no photon leaves.
 edit '/<emitter/,/<\/emitter>/d'
@@ -95,7 +95,7 @@ timeout 20 "$aureole" render -q --spp 1 box.xml -o out.exr --integrator finalgat
 "$aureole" render -q --spp 1 box.xml -o no-such-folder/out.exr 2>message.txt
 [ $? -eq 3 ] && grep -q 'no-such-folder/out.exr: cannot write' message.txt || fail "a folder that is not there: $(cat message.txt)"
 "$aureole" render -q --spp 1 box.xml -o out.gif 2>message.txt
-[ $? -eq 2 ] && grep -q 'use exr, pfm, hdr, png or jpg' message.txt || fail "an unknown extension: $(cat message.txt)"
+[ $? -eq 2 ] && grep -q 'expected exr, pfm, hdr, png or jpg' message.txt || fail "an unknown extension: $(cat message.txt)"
 for kind in exr pfm png; do
   (trap '' XFSZ; ulimit -f 1; "$aureole" render -q --spp 1 --width 64 --height 64 --integrator path box.xml -o full.$kind 2>message.txt)
   [ $? -eq 3 ] && grep -q "full.$kind: cannot write" message.txt || fail "a full disk, $kind: $(cat message.txt)"

@@ -9,14 +9,14 @@ cat >lamp.xml <<'XML'
 XML
 "$aureole" render lamp.xml --spp 4 --clamp .2 --json -o limited.exr >limited.json 2>limited.said || fail "render: $(cat limited.said)"
 part=$(tr ',{' '\n\n' <limited.json | sed -n 's/.*"clamped": *\([0-9.e-]*\).*/\1/p')
-said=$(sed -n 's/.*--clamp took away \([0-9.e+-]*\) %.*/\1/p' limited.said)
+said=$(sed -n 's/.*--clamp removed \([0-9.e+-]*\) %.*/\1/p' limited.said)
 awk -v part="$part" -v said="$said" 'BEGIN { exit !(part > 0 && said > 0 && (100 * part - said) ^ 2 <= (0.06 * said) ^ 2) }' ||
   fail "JSON has '$part', '$said' % are said: $(cat limited.said)"
 "$aureole" render lamp.xml --spp 4 -o whole.exr 2>whole.said || fail "render"
 mean_of() { "$aureole" compare whole.exr "$1" --format csv --channels R --tolerance inf | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "mean_r") c = i } NR == 2 { print $c }'; }
 awk -v part="$part" -v left="$(mean_of limited.exr)" -v whole="$(mean_of whole.exr)" \
   'BEGIN { d = part - (1 - left / whole); exit !(whole > 0 && d < 1e-4 && d > -1e-4) }' || fail "$part is not the light that is missing"
-grep -q "took away" whole.said && fail "without a limit: $(cat whole.said)"
+grep -q "removed" whole.said && fail "without a limit: $(cat whole.said)"
 "$aureole" render lamp.xml --error 5% --clamp 1 -o never.exr 2>never.said && fail "an error with a limit"
 grep -q "'clamp' needs a number of samples" never.said || fail "$(cat never.said)"
 exit $((failures > 0))

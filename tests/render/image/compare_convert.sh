@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The verbs compare and convert as a user runs them: figures, exit statuses, messages, files whole or not at all.
+# The commands compare and convert as a user runs them: figures, exit statuses, messages, files whole or not at all.
 set -u
 aureole=$1
 status=0
@@ -42,17 +42,17 @@ grep -qF '"mae": 0.5,' out || fail "downsampled: $(cat out)"
 expect 1 compare ones.pfm spike.pfm --outfile difference.png
 [ "$(head -c 4 difference.png | tail -c 3)" = PNG ] || fail "difference.png is no PNG"
 expect 2 compare ones.pfm spike.pfm ones.pfm --outfile other.png
-complains "--outfile shows the difference of one picture"
+complains "--outfile takes one image"
 [ -e other.png ] && fail "other.png was written"
 
 expect 2 compare ones.pfm narrow.pfm
 complains "narrow.pfm: the sizes differ"
 expect 2 compare ones.pfm nan.pfm
-complains "nan.pfm: the picture has the value nan at column 1 of row 0"
+complains "nan.pfm: the image has the value nan at column 1 of row 0"
 expect 2 compare ones.pfm missing.exr
 complains "missing.exr: cannot read: No such file"
 expect 2 compare ones.pfm
-complains "at least one picture"
+complains "at least one image"
 expect 2 compare ones.pfm ones.pfm --metric rsme
 complains "did you mean 'rmse'"
 expect 2 compare ones.pfm ones.pfm --tolerance=-1
@@ -86,9 +86,9 @@ expect 2 convert nan.exr kept.exr
 expect 2 convert a.exr a.gif
 complains "exr, pfm, hdr, png or jpg"
 expect 2 convert a.exr b.exr --exposure 1
-complains "--exposure is not for exr"
+complains "--exposure cannot be used for exr"
 expect 2 convert a.exr b.png --half
-complains "--half is not for png"
+complains "--half cannot be used for png"
 expect 2 convert a.exr
 complains "one input and one output"
 expect 2 convert a.exr b.png --tone cinema

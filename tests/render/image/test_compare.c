@@ -95,10 +95,10 @@ static void test_what_cannot_be_compared(void **state) {
     aur_image *const other_size = random_picture(6, 8, 3);
     aur_image *const colorless = random_picture(8, 6, 5);
     aur_image *const broken = random_picture(8, 6, 3);
-    assert_not_comparable(reference, other_size, "8 x 6 pixels, the picture 6 x 8");
+    assert_not_comparable(reference, other_size, "8 x 6 pixels, the image 6 x 8");
     assert_not_comparable(reference, colorless, "no channels R, G, B");
     broken->data[(2 * 8 + 5) * 3 + 1] = NAN;
-    assert_not_comparable(reference, broken, "the picture has the value nan at column 5 of row 2, channel G");
+    assert_not_comparable(reference, broken, "the image has the value nan at column 5 of row 2, channel G");
     broken->data[(2 * 8 + 5) * 3 + 1] = -INFINITY;
     assert_not_comparable(broken, reference,
                           "the reference has the value -inf at column 5 of row 2, channel G");

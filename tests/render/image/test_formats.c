@@ -399,7 +399,7 @@ static void test_headers_that_lie(void **state) {
     assert_read_fails("hdr", sizeof hdr - 1, hdr, AUR_ERROR_FORMAT);
     assert_read_fails("huge hdr", sizeof hdr_huge - 1, hdr_huge, AUR_ERROR_FORMAT);
     assert_read_fails("png", sizeof png - 1, png, AUR_ERROR_FORMAT);
-    assert_read_fails("text", 13, "not a picture", AUR_ERROR_FORMAT);
+    assert_read_fails("text", 13, "not an image", AUR_ERROR_FORMAT);
     assert_read_fails("empty", 0, "", AUR_ERROR_FORMAT);
 }
 

@@ -241,9 +241,9 @@ renders() {
 }
 renders model.gltf
 renders bare.gltf
-renders no-picture.gltf "1 texture is left out: its picture cannot be found: 'lacking.png'"
-renders format.gltf "1 texture is left out: its picture is of an unknown format: 'broken.ktx'"
-renders held.glb "1 texture is left out: its picture is of an unknown format: picture 1"
+renders no-picture.gltf "1 texture is left out: its image cannot be found: 'lacking.png'"
+renders format.gltf "1 texture is left out: its image is of an unknown format: 'broken.ktx'"
+renders held.glb "1 texture is left out: its image is of an unknown format: image 1"
 for model in no-picture.gltf format.gltf held.glb; do
   cmp -s bare.gltf.exr $model.exr || fail "$model is not as if the picture were not named"
 done

@@ -106,7 +106,7 @@ static const struct bad_row {
      "no instances or other groups"},
     {"<shape type='shapegroup' id='a'><shape type='cube' id='c'/></shape><shape "
      "type='shapegroup'><ref id='c'/></shape>",
-     2, 93, "takes shapes of its own"},
+     2, 93, "takes shapes only"},
     {"<shape type='shapegroup'><bsdf type='diffuse'/></shape>", 2, 1, "needs a shape"},
     /* maps and places with which Embree would end the process */
     {"<shape type='disk'><transform name='to_world'><scale value='1e13'/></transform></shape>", 2, 1,

@@ -142,10 +142,10 @@ static const char *off_domain(const meaning *m, const double *row) {
         return fabs(square - 1.0) <= 2e-6 ? NULL : "a rotation must be a quaternion w,x,y,z of length 1";
     }
     if (m->domain == AUR_DOMAIN_DISK)
-        return row[0] * row[0] + row[1] * row[1] <= 1.0 ? NULL
-                                                        : "a point of the disk must have x^2 + y^2 <= 1 (the "
-                                                          "header x,y stands for the disk where no "
-                                                          "other domain is asked for, u,v for the square)";
+        return row[0] * row[0] + row[1] * row[1] <= 1.0
+                   ? NULL
+                   : "a point of the disk must have x^2 + y^2 <= 1 (the header x,y selects the disk unless "
+                     "another domain is given, u,v the square)";
     for (size_t d = 0; d < m->dimension; ++d)
         if (!(row[d] >= 0.0 && row[d] < 1.0))
             return "a coordinate must be at least 0 and below 1";

@@ -64,7 +64,7 @@ typedef struct golden_set_keys {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_CHOICE(golden_set_keys, "form", form, "one-seed",
-                       "the sequence beside itself sorted, from one start or from two", "one-seed",
+                       "the sequence paired with its sorted copy, from one start or from two", "one-seed",
                        "two-seeds")},
     {AUR_KEY_OF_REAL(golden_set_keys, "seed", seed, 0.0, 1.0, "0", "s: where the sequence starts"),
      .maximum_open = true},
@@ -153,7 +153,8 @@ aur_result aur_golden_set_points(double s, size_t count, const aur_output *outpu
 
 const aur_square_set aur_set_golden_set = {
     .description = {.row = {.name = "golden-set",
-                            .summary = "golden ratio sequence beside itself sorted; form=one-seed|two-seeds",
+                            .summary =
+                                "golden ratio sequence paired with its sorted copy; form=one-seed|two-seeds",
                             .source = "Schretter 2012",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SQUARE,

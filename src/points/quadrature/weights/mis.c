@@ -71,7 +71,7 @@ aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, c
             weights[at] = value == 0.0 ? 0.0 : value * share(heuristic, strategy_count, strategies, t, u);
             if (!isfinite(weights[at]))
                 return aur_fail(error, AUR_ERROR_ARGUMENT,
-                                "sample %zu has no density of its own: its strategy cannot have drawn it",
+                                "sample %zu has density 0 under its own strategy, which cannot have drawn it",
                                 at);
         }
     }

@@ -73,7 +73,7 @@ static aur_result allocate(const job *j, uint64_t size, size_t dimension, bool w
         return result;
     const uint64_t count = request->count != 0 ? request->count : size - request->first;
     if (count == 0)
-        return aur_fail(j->error, AUR_ERROR_ARGUMENT, "no points are asked for");
+        return aur_fail(j->error, AUR_ERROR_ARGUMENT, "the number of points is 0");
     return aur_points_create(j->domain, count, dimension, weighted, points, j->error);
 }
 
@@ -213,7 +213,7 @@ static aur_result generate(const job *j, aur_points **points) {
     if (is_flat(j->domain))
         return generate_flat(j, j->request->dimension, false, points);
     if (j->request->dimension != 0 && j->request->dimension != 2)
-        return aur_fail(j->error, AUR_ERROR_ARGUMENT, "only the square has other dimensions than its own");
+        return aur_fail(j->error, AUR_ERROR_ARGUMENT, "only the cube takes a number of dimensions");
     if (rotations && held != NULL && held->domain == AUR_DOMAIN_ROTATIONS &&
         options->scramble == AUR_SCRAMBLE_NONE)
         return copy_rotations(j, points);

@@ -142,7 +142,7 @@ aur_result aur_nearest_find(const aur_nearest *nearest, const aur_nearest_option
         return result;
     own.neighbours += own.neighbours == 0;
     if (own.neighbours > nearest->count)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu neighbours are asked for, and there are %zu points",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu neighbours requested, but there are only %zu points",
                         own.neighbours, nearest->count);
     const size_t items = (count + QUERIES_PER_ITEM - 1) / QUERIES_PER_ITEM;
     batch b = {

@@ -32,7 +32,7 @@ static const aur_key keys[] = {
                      "points of each shell with / between, 30/30/60: all even together and each by itself; "
                      "they come one shell after another")},
     {AUR_KEY_OF_INTEGER(electrostatic_keys, "starts", starts, 1, 65536, "by the size",
-                        "places that the charges start from, of which the best rest is taken"),
+                        "number of starts; the lowest energy is taken"),
      .computed = true},
     {AUR_KEY_OF_INTEGER(electrostatic_keys, "seed", seed, 0, INFINITY, "0", "of the random starts")},
     {AUR_KEY_OF_CHOICE(electrostatic_keys, "order", order, "incremental",

@@ -28,17 +28,15 @@ static aur_result add_integrand(const char *text, void *field, aur_error *error)
 
 static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results; lab-check for check, lab-report for report",
-              "folder of the results, or of the report"),
+              "output folder of the results, or of the report"),
      .letter = 'o', .key.computed = true, .content = "folder"},
-    {CLI_FLAG(cli_lab, all, "all", "every experiment; those that are finished are kept as they are")},
-    {CLI_FLAG(cli_lab, again, "again", "with --all, run those that are finished once more")},
-    {CLI_FLAG(cli_lab, lab.quick, "quick", "a form that takes seconds, with wider intervals")},
-    {CLI_FLAG(
-        cli_lab, small, "small",
-        "a report of a few MB, to keep or to send: large pictures as means of 2 x 2 pixels, no plots for "
-        "print")},
+    {CLI_FLAG(cli_lab, all, "all", "all experiments; finished ones are not run again")},
+    {CLI_FLAG(cli_lab, again, "again", "with --all, run finished experiments again")},
+    {CLI_FLAG(cli_lab, lab.quick, "quick", "run a short version (seconds) with wider intervals")},
+    {CLI_FLAG(cli_lab, small, "small",
+              "a report of a few MB: large images are halved, and there are no plots for print")},
     {CLI_TEXT(cli_lab, lab.set, "set", "SET", NULL,
-              "compare one more point set, file:PATH for points of one's own"),
+              "compare one more point set; file:PATH reads points from a file"),
      .content = "set"},
     {CLI_TEXT(cli_lab, module, "module", "FILE", NULL,
               "load experiments, sets (callback:NAME) and integrands of a shared library (docs/lab.md)"),
@@ -47,18 +45,18 @@ static const cli_option options[] = {
               "set a parameter of the experiment; may be repeated"),
      .letter = 'D', .parse = cli_add_definition},
     {CLI_TEXT(cli_lab, definitions.count, "scene", "FILE", NULL,
-              "the same as -D scene=FILE: of experiments that render any scene"),
+              "same as -D scene=FILE, for experiments that render any scene"),
      .parse = add_scene, .content = "file"},
     {CLI_TEXT(cli_lab, definitions.count, "integrand", "NAME", NULL,
-              "the same as -D integrand=NAME: of experiments that integrate any function"),
+              "same as -D integrand=NAME, for experiments that integrate any function"),
      .parse = add_integrand},
     {CLI_TEXT(cli_lab, lab.rows, "rows", "PATTERN", NULL,
-              "make only the rows that match, such as '*/bnot'; of experiments whose rows have names")},
-    {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, else those of the source tree",
-              "the bundled scenes"),
+              "compute only rows that match a pattern such as '*/bnot', in experiments with named rows")},
+    {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, or those of the source tree",
+              "folder of the bundled scenes"),
      .key.computed = true, .content = "folder"},
-    {CLI_TEXT(cli_lab, kept, "kept", "DIR", "./docs/report/results, else those of the source tree",
-              "the kept tables that check compares with"),
+    {CLI_TEXT(cli_lab, kept, "kept", "DIR", "./docs/report/results, or those of the source tree",
+              "folder of the stored tables that check compares with"),
      .key.computed = true, .content = "folder"},
     {.key = {0}}};
 
@@ -129,8 +127,8 @@ static int run(const cli_call *call) {
     command->check = strcmp(action, "check") == 0;
     command->lab.folder = folder != NULL ? folder : command->check ? "lab-check" : "lab-results";
     if (command->check && (command->lab.set != NULL || command->lab.rows != NULL))
-        return cli_bad_usage("lab check: kept tables have every row and no further set: leave out --set and "
-                             "--rows");
+        return cli_bad_usage(
+            "lab check: --set and --rows cannot be used: stored tables have every row and no further set");
     if (strcmp(action, "run") == 0 || command->check)
         return cli_lab_run(command, call->operand_count - 1, call->operands + 1);
     if (strcmp(action, "report") == 0) {
@@ -148,26 +146,20 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_lab = {
     .name = "lab",
-    .summary = "the papers' experiments, measured",
+    .summary = "run the experiments of the papers and compare with the published figures",
     .notes =
-        "A run that was interrupted goes on where it was: give the same command. Each experiment has a "
-        "folder "
-        "of its name with its tables (NAME.csv), pictures, and timings.csv, the only file that differs from "
-        "run to run. docs/lab.md says more.",
+        "The same command continues an interrupted run. Each experiment writes its tables (NAME.csv), images "
+        "and timings.csv to a folder of its name. Only timings.csv differs from run to run. See docs/lab.md.",
     .too_few = "expected 'list', 'run', 'check' or 'report'",
     .operands =
         {{"ACTION",
-          "list: the experiments, what each reproduces, and the processor time that it took; run: run "
-          "experiments, write CSV and pictures, print the tables; check: run experiments (all without a "
-          "NAME) "
-          "and compare with the kept tables, exit status 1 when one differs; report: make a page of the "
-          "results in the "
-          "folder NAME (lab-results), "
-          "DIR/index.html (lab-report), with plots, a viewer of the pictures, and PDFs of the plots beside "
-          "it",
+          "list: print the experiments, what each reproduces, and its processor time; run: run experiments, "
+          "write CSV files and images, print the tables; check: run experiments (all without a NAME) and "
+          "compare with the stored tables, exit status 1 if one differs; report: write a page with plots and "
+          "images of the results in the folder NAME (lab-results) to DIR/index.html (lab-report)",
           .name = action_name},
-         {"NAME", "experiments to run, or the folder to report on", .optional = true, .repeated = true,
-          .name = experiment_name}},
+         {"NAME", "experiments to run, or the folder with results to report", .optional = true,
+          .repeated = true, .name = experiment_name}},
     .groups = {{options, 0},
                {cli_format_option, offsetof(cli_lab, common)},
                {cli_threads_option, offsetof(cli_lab, common)},

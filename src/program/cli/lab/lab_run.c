@@ -87,7 +87,7 @@ static void announce(const schedule *plan, size_t index) {
     const double pace = plan->spent_expected > 0.0 ? plan->spent / plan->spent_expected : 1.0;
     cli_lab_duration(pace * expected_of(plan, plan->experiments[index]), own);
     cli_lab_duration(pace * (plan->expected - plan->spent_expected), left);
-    fprintf(stderr, "aureole: [%zu/%zu] %s: about %s of processor time, %s of it left in all\n", index + 1,
+    fprintf(stderr, "aureole: [%zu/%zu] %s: about %s of processor time; all that remain: %s\n", index + 1,
             plan->count, plan->experiments[index]->name, own, left);
 }
 
@@ -139,7 +139,7 @@ static int run_one(schedule *plan, const lab_experiment *experiment) {
     cli_progress_clear();
     int status = cli_status(outcome, &error);
     if (outcome == AUR_ERROR_CANCELLED)
-        fputs("aureole: what was measured is kept: the same command goes on\n", stderr);
+        fputs("aureole: interrupted; results so far are stored: the same command continues\n", stderr);
     plan->spent += result.seconds;
     plan->spent_expected += expected_of(plan, experiment);
     if (command->check && outcome == AUR_OK)
@@ -212,17 +212,17 @@ static void estimate(schedule *plan) {
     char all[32], wall[32];
     cli_lab_duration(plan->expected, all);
     cli_lab_duration(plan->expected / (double)processors(plan), wall);
-    fprintf(stderr, "aureole: about %s of processor time are ahead, at best %s on %zu processors\n", all,
-            wall, processors(plan));
+    fprintf(stderr, "aureole: about %s of processor time, at least %s on %zu processors\n", all, wall,
+            processors(plan));
 }
 
 static int choose(schedule *plan, size_t count, char **names) {
     const bool all = plan->command->all;
     if (all && count > 0)
-        return cli_bad_usage("lab run: --all is every experiment, and takes no names");
+        return cli_bad_usage("lab run: --all takes no names");
     if (!all && count == 0 && !plan->command->check)
-        return cli_bad_usage("lab run: an experiment is missing: 'aureole lab list' names them, --all is "
-                             "every one");
+        return cli_bad_usage(
+            "lab run: no experiment given: 'aureole lab list' prints their names, --all runs all");
     const bool every = count == 0;
     plan->count = every ? lab_experiment_count() : count;
     plan->experiments = malloc(plan->count * sizeof *plan->experiments);
@@ -233,7 +233,7 @@ static int choose(schedule *plan, size_t count, char **names) {
         if (plan->experiments[i] == NULL)
             return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", names[i]);
         if (plan->command->lab.rows != NULL && plan->experiments[i]->rows == NULL)
-            return cli_bad_usage("lab run: the rows of '%s' have no names: --rows does not go with it",
+            return cli_bad_usage("lab run: --rows cannot be used with '%s': its rows have no names",
                                  plan->experiments[i]->name);
     }
     return check_set(plan->command->lab.set);

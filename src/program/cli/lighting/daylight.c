@@ -101,40 +101,41 @@ static aur_result parse_albedo(const char *text, void *field, aur_error *error) 
 
 const cli_option cli_daylight_options[] = {
     {CLI_TEXT(cli_daylight, weather, "weather", "FILE", NULL,
-              "an EPW, .wea or TMY3 file: a year of daylight in the place of the scene's lights; the options "
-              "to the end "
-              "of these are for it"),
+              "compute a year of daylight from an EPW, .wea or TMY3 file instead of the scene's emitters; "
+              "the options after this one are for it"),
      .content = "file"},
     {CLI_TEXT(cli_daylight, metrics, "metrics", "FILE", NULL,
-              "spatial autonomy, sunlight exposure, means, LEED v4.1 and EN 17037, each with its interval: "
-              ".csv or "
-              ".json"),
+              "write daylight metrics (sDA, ASE, means, LEED v4.1, EN 17037) with intervals to a .csv or "
+              ".json file"),
      .content = "file", .writes = true},
     {CLI_TEXT(cli_daylight, options.subdivision, "patches", "PATCHES", "tregenza",
-              "of the sky: tregenza, or reinhart:M with M x M for each of its own"),
+              "sky subdivision: tregenza, or reinhart:M with M x M parts of each Tregenza patch"),
      .parse = parse_patches},
     {CLI_CHOICE(cli_daylight, options.efficacy, "efficacy", "MODEL", "perez",
-                "lumens a watt: by the weather (Perez et al. 1990), or 179; none: W/m2 in the place of lux"),
+                "luminous efficacy in lm/W: from the weather (Perez et al. 1990), or 179; none reports W/m2 "
+                "instead of lux"),
      .key.words = (const char *const[]){"perez", "179", "none", NULL}},
     {CLI_TEXT(cli_daylight, options.ground_albedo, "ground-albedo", "A", "0.2",
-              "what the ground beyond the scene reflects"),
+              "reflectance of the ground around the scene"),
      .parse = parse_albedo},
-    {CLI_TEXT(cli_daylight, options.up, "up", "X,Y,Z", "of the scene's sky; +y, in .rad +z", "to the zenith"),
+    {CLI_TEXT(cli_daylight, options.up, "up", "X,Y,Z", "of the scene's sky; +y, in .rad +z",
+              "direction of the zenith"),
      .parse = parse_direction, .key.computed = true},
     {CLI_TEXT(cli_daylight, options.north, "north", "X,Y,Z", "of the scene's sky; -z, or +y where z is up",
-              "to the north"),
+              "direction of north"),
      .parse = parse_direction, .key.computed = true},
-    {CLI_REAL(cli_daylight, options.threshold, "threshold", "LUX", 1e-3, 1e9, "300", "of the autonomy")},
+    {CLI_REAL(cli_daylight, options.threshold, "threshold", "LUX", 1e-3, 1e9, "300",
+              "illuminance threshold of daylight autonomy")},
     {CLI_TEXT(cli_daylight, options.useful, "useful", "LUX,LUX", "100,3000",
-              "least and most of useful illuminances"),
+              "limits of useful daylight illuminance"),
      .parse = parse_range},
+    {CLI_TEXT(cli_daylight, schedule, "schedule", "H-H|FILE", "8-18",
+              "occupied hours, in the clock time of the weather file (22-6: over midnight), or a file with a "
+              "number per hour (above 0: occupied)")},
+    {CLI_FLAG(cli_daylight, options.weekdays, "weekdays", "count Monday to Friday only")},
     {CLI_TEXT(
-        cli_daylight, schedule, "schedule", "H-H|FILE", "8-18",
-        "the hours that count, by the clock of the weather file (22-6: over midnight); or a file with a "
-        "number for each hour, above 0 where it counts")},
-    {CLI_FLAG(cli_daylight, options.weekdays, "weekdays", "Monday to Friday count only")},
-    {CLI_TEXT(cli_daylight, options.series, "series", "FILE", NULL,
-              "illuminances of all hours: .npy (sensors x 2 x hours, with standard errors) or .csv"),
+         cli_daylight, options.series, "series", "FILE", NULL,
+         "write the illuminances of all hours: .npy (sensors x 2 x hours, with standard errors) or .csv"),
      .content = "file", .writes = true},
     {.key = {0}}};
 
@@ -150,12 +151,12 @@ bool cli_daylight_check(const cli_call *call) {
                                           "normals", "counts",     "reflected", "particles", "plot"};
     for (const cli_option *option = cli_daylight_options + 1; option->key.name != NULL && !weather; ++option)
         if (cli_given(call, option->key.name) != NULL && !is_shared(call, option->key.name)) {
-            cli_bad_usage("irradiance: --%s is for a year of weather: --weather FILE", option->key.name);
+            cli_bad_usage("irradiance: --%s needs --weather FILE", option->key.name);
             return false;
         }
     for (size_t i = 0; i < sizeof without / sizeof without[0] && weather; ++i)
         if (cli_given(call, without[i]) != NULL) {
-            cli_bad_usage("irradiance: --%s does not go with --weather", without[i]);
+            cli_bad_usage("irradiance: --%s cannot be used with --weather", without[i]);
             return false;
         }
     return true;

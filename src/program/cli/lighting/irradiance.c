@@ -52,11 +52,10 @@ static aur_result parse_grid(const char *text, void *field, aur_error *error) {
     grid->height = 0.0;
     if (colon == text || length == 0 || !aur_parse_double(spacing, &grid->spacing) ||
         !(grid->spacing > 0.0) || (at != NULL && !aur_parse_double(at + 1, &grid->height)))
-        return aur_fail(
-            error, AUR_ERROR_ARGUMENT,
-            "must be a surface, rectangle or mesh, a spacing and a height, like floor:0.5@0.8, not "
-            "'%s'",
-            text);
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--grid: expected a surface, rectangle or mesh, a spacing and a height, such as "
+                        "floor:0.5@0.8, not '%s'",
+                        text);
     char *const target = (char *)(uintptr_t)text; /* an argument of the program, which is cut here */
     target[colon - text] = '\0';
     grid->target = text;
@@ -71,68 +70,70 @@ static aur_result choose_json(const char *text, void *field, aur_error *error) {
 
 static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, sensors, "sensors", "POINTS", NULL,
-              "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
-              "mesh: .obj, .ply, .stl or .off"),
+              "sensor file: six numbers per line, x y z nx ny nz (Radiance .pts, CSV, NPY; - is standard "
+              "input), or a mesh: .obj, .ply, .stl or .off"),
      .content = "file"},
-    {CLI_TEXT(
-         irradiance_command, grid.target, "grid", "TARGET:SPACING[@HEIGHT]", NULL,
-         "sensors in square cells, in place of --sensors: over surfaces by name (floor, *Floor*), over a "
-         "mesh file, or over the rectangle X0,Y0,X1,Y1,H"),
+    {CLI_TEXT(irradiance_command, grid.target, "grid", "TARGET:SPACING[@HEIGHT]", NULL,
+              "place sensors on a square grid above surfaces by name (floor, *Floor*), a mesh file, or the "
+              "rectangle X0,Y0,X1,Y1,H"),
      .parse = parse_grid},
     {CLI_REAL(irradiance_command, grid.margin, "margin", "D", 0, INFINITY, "0",
-              "of --grid: no sensors nearer to the edges")},
+              "with --grid, the least distance of sensors from the edges")},
     {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
-              "a line or row a sensor, in the format that the name ends in; '-' is standard output"),
+              "output file, one row per sensor; the extension selects the format; '-' is standard output"),
      .letter = 'o', .content = "file", .writes = true},
-    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv",
-              "format of the output; rtrace: r, g, b a line, as rtrace -h -I"),
+    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "from the extension, or csv",
+              "output format; rtrace: r, g, b per line, as 'rtrace -h -I'"),
      .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", "rtrace", NULL}},
-    {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},
-    {CLI_CHOICE(
-         irradiance_command, definitions.model_light, "model-light", "WHEN", "none",
-         "add light from all sides to a model: auto where it has no light source but emitting surfaces"),
+    {CLI_FLAG(irradiance_command, format, "json", "same as --to json"), .parse = choose_json},
+    {CLI_CHOICE(irradiance_command, definitions.model_light, "model-light", "WHEN", "none",
+                "add a constant environment light to a model; auto adds it if the model has no light source "
+                "except emissive surfaces"),
      .key.words = (const char *const[]){"auto", "always", "none", NULL}},
-    {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces", "where sensors stand on a mesh"),
+    {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces",
+                "where sensors are placed on a mesh"),
      .key.words = (const char *const[]){"faces", "vertices", NULL}},
     {CLI_REAL(irradiance_command, stand.lift, "lift", "D", -INFINITY, INFINITY, "0",
-              "sensors are moved so far along their normals, in scene units")},
-    {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci", "of the directions"),
+              "move sensors along their normals by this distance, in scene units")},
+    {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci",
+              "point set of the directions"),
      .content = "set"},
     {CLI_INTEGER(irradiance_command, estimate.directions, "directions", "N", 1, 1 << 28,
-                 "16384; with --error 2^20", "from each sensor; with --error at most so many"),
+                 "16384; with --error 2^20", "number of directions per sensor; with --error the maximum"),
      .letter = 'n', .key.computed = true},
     {CLI_REAL(irradiance_command, estimate.error, "error", "E", 0, 1, NULL,
-              "1% or .01: each sensor goes on until half of its interval is at most this part of its value"),
+              "target relative error (1% or .01): each sensor takes directions until half the width of its "
+              "interval is below"),
      .parse = parse_error},
     {CLI_REAL(irradiance_command, estimate.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
-              "of the intervals")},
+              "confidence level of the intervals")},
     {CLI_INTEGER(irradiance_command, estimate.max_depth, "max-depth", "N", 1, 1 << 20, "no limit",
-                 "edges of a light path: 1 is light straight from lights and sky"),
+                 "maximum number of edges of a light path; 1 is direct light only"),
      .key.computed = true},
     {CLI_CHOICE(irradiance_command, estimate.reflected, "reflected", "HOW", "paths",
-                "light that was reflected, by paths, or by a photon map or a radiosity solution whose errors "
-                "some of the paths take away"),
+                "method for reflected light: path tracing, or a photon map or radiosity solution with its "
+                "bias corrected by path tracing"),
      .key.words = (const char *const[]){"paths", "map", "radiosity", NULL}},
     {CLI_INTEGER(irradiance_command, estimate.particles, "particles", "N", 1, 1 << 28, "500000",
-                 "of the photon map or the radiosity solution")},
-    {CLI_CHOICE(irradiance_command, illuminance, "illuminance", "WEIGHTS", NULL,
-                "lux in the place of r, g, b: 179 lm/W by Radiance's weights of r, g, b (.265, .670, .065), "
-                "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
+                 "number of particles of the photon map or the radiosity solution")},
+    {CLI_CHOICE(
+         irradiance_command, illuminance, "illuminance", "WEIGHTS", NULL,
+         "report lux instead of r, g, b: radiance and rec709 take 179 lm/W with Radiance's weights (.265, "
+         ".670, .065) or those of Rec. 709 (.2126, .7152, .0722), photopic 683 lm/W with the latter"),
      .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
     {CLI_TEXT(irradiance_command, plot, "plot", "FILE", NULL,
-              "draw the luminance, or the lux of --illuminance, as a map with a scale of colours, and "
-              "contours on a grid: .svg, "
-              ".pdf, .png, or "
-              ".tex for pgfplots"),
+              "draw luminance, or the lux of --illuminance, as a falsecolour map with a legend, and contours "
+              "on a grid: .svg, .pdf, .png, or .tex for pgfplots"),
      .parse = cli_parse_plot, .content = "file", .writes = true},
     {CLI_FLAG(irradiance_command, columns.parts, "parts",
-              "direct, sky, reflected and the sun's light apart, after the total")},
+              "report direct, sky, reflected and sun light separately, after the total")},
     {CLI_FLAG(irradiance_command, columns.intervals, "intervals",
-              "half the width of each interval, after the standard errors")},
-    {CLI_FLAG(irradiance_command, columns.no_errors, "no-errors", "no standard errors")},
-    {CLI_FLAG(irradiance_command, columns.normals, "normals", "nx, ny, nz after x, y, z")},
-    {CLI_FLAG(irradiance_command, columns.directions, "counts", "how many directions each sensor had")},
-    {CLI_INTEGER(irradiance_command, estimate.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
+              "report half the width of each interval, after the standard errors")},
+    {CLI_FLAG(irradiance_command, columns.no_errors, "no-errors", "leave out the standard errors")},
+    {CLI_FLAG(irradiance_command, columns.normals, "normals", "report nx, ny, nz after x, y, z")},
+    {CLI_FLAG(irradiance_command, columns.directions, "counts",
+              "report the number of directions of each sensor")},
+    {CLI_INTEGER(irradiance_command, estimate.seed, "seed", "S", 0, INFINITY, "0", "random seed")},
     {.key = {0}}};
 
 /* Lumens a watt times the weights of r, g, b. */
@@ -223,13 +224,13 @@ static bool check(const cli_call *call) {
     const irradiance_command *const given = call->options;
     const char *wrong = NULL;
     if (given->sensors == NULL && given->grid.target == NULL)
-        wrong = "irradiance: the points are missing: --sensors POINTS or --grid SURFACE:SPACING";
+        wrong = "irradiance: no sensors given: expected --sensors POINTS or --grid SURFACE:SPACING";
     else if (given->sensors != NULL && given->grid.target != NULL)
-        wrong = "irradiance: --sensors does not go with --grid";
+        wrong = "irradiance: --sensors cannot be used with --grid";
     else if (given->grid.margin > 0.0 && given->grid.target == NULL)
-        wrong = "irradiance: --margin is for --grid";
+        wrong = "irradiance: --margin needs --grid";
     else if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
-        wrong = "irradiance: --particles is for --reflected map or radiosity";
+        wrong = "irradiance: --particles needs --reflected map or radiosity";
     if (wrong != NULL)
         cli_bad_usage("%s", wrong);
     return wrong == NULL && cli_daylight_check(call) && cli_sky_check(call);
@@ -285,13 +286,15 @@ static void warn_of_units(const irradiance_command *given, const aur_scene *scen
         return;
     if (given->sky.lamp_count > 0 && extent > LARGEST) {
         aur_format(text, sizeof text,
-                   "the scene is %.4g units large and lamps are in metres: are its units metres?", extent);
+                   "the scene is %.4g units wide and luminaires are in metres: check the units of the scene",
+                   extent);
         warnings.function(warnings.user, text);
     }
     const char *const location = given->sky.sky.location;
     if (location != NULL && sscanf(location, "%lf,%lf", &zero[0], &zero[1]) == 2 && zero[0] == 0.0 &&
         zero[1] == 0.0)
-        warnings.function(warnings.user, "--location 0,0 is in the sea: degrees north, then degrees east");
+        warnings.function(warnings.user,
+                          "--location 0,0 is in the sea: expected degrees north, then degrees east");
 }
 
 static int run(const cli_call *call) {
@@ -333,12 +336,11 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_irradiance = {
     .name = "irradiance",
-    .summary = "how much light arrives at points, now or through a year, with standard errors",
-    .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "
-             "standard error of 16 independent randomisations. See docs/lighting.md.",
-    .too_few = "a scene is needed",
-    .operands = {{"SCENE",
-                  "a scene (.xml, .rad, .glb, ...); further files go on with it, as oconv reads them",
+    .summary = "compute irradiance or illuminance at sensors, now or over a year, with standard errors",
+    .notes = "The scene needs no camera. Values have the unit of the scene's radiance times steradians. "
+             "Standard errors come from 16 independent randomisations. See docs/lighting.md.",
+    .too_few = "no scene given",
+    .operands = {{"SCENE", "a scene (.xml, .rad, .glb, ...); further files are appended, as by oconv",
                   .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_sky_options, offsetof(irradiance_command, sky)},

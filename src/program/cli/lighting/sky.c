@@ -43,21 +43,22 @@ static aur_result parse_lamp(const char *text, void *field, aur_error *error) {
 
 const cli_option cli_sky_options[] = {
     {CLI_TEXT(cli_sky, lamp_count, "lamp", "FILE@X,Y,Z[,AIM[,TURN]]", NULL,
-              "add a measured lamp, IES or EULUMDAT, at a place; AIM is a direction X,Y,Z, else down; may be "
-              "repeated"),
+              "add a luminaire from an IES or EULUMDAT file at a position; AIM is a direction X,Y,Z (down by "
+              "default); may be repeated"),
      .parse = parse_lamp},
     {CLI_TEXT(cli_sky, sky.model, "sky", "MODEL", NULL,
-              "add a sky: cie-overcast, cie-clear, cie:1 to cie:15, uniform, or perez:DNI,DHI (W/m2) with "
-              "its sun")},
+              "add a sky: cie-overcast, cie-clear, cie:1 to cie:15, uniform, or perez:DNI,DHI (W/m2), which "
+              "includes the sun")},
     {CLI_TEXT(cli_sky, sky.date, "date", "TIME", NULL,
-              "of --sky, like 2026-06-21T12:00, by the clock of the time zone")},
+              "date and local time of --sky, such as 2026-06-21T12:00")},
     {CLI_TEXT(cli_sky, sky.location, "location", "LAT,LON,TZ", NULL,
-              "of --sky: degrees north, degrees east, hours ahead of UTC")},
+              "location of --sky: degrees north, degrees east, time zone in hours ahead of UTC")},
     {CLI_REAL(cli_sky, sky.illuminance, "sky-lux", "LUX", 1e-3, 1e6, "10000",
-              "of --sky but perez: illuminance of the unobstructed horizontal plane by the sky"),
+              "unobstructed horizontal illuminance by the sky, for all skies except perez"),
      .key.computed = true},
     {CLI_FLAG(cli_sky, daylight_factor, "daylight-factor",
-              "percent of the unobstructed horizontal illuminance, of --sky without the scene's own lights")},
+              "report daylight factors: percent of the unobstructed horizontal illuminance by --sky, without "
+              "the emitters of the scene")},
     {.key = {0}}};
 
 bool cli_sky_check(const cli_call *call) {
@@ -69,18 +70,18 @@ bool cli_sky_check(const cli_call *call) {
             return false;
         }
     if (sky && cli_given(call, "weather") != NULL) {
-        cli_bad_usage("irradiance: --sky does not go with --weather, which has skies of its own");
+        cli_bad_usage("irradiance: --sky cannot be used with --weather");
         return false;
     }
     if (cli_given(call, "daylight-factor") == NULL)
         return true;
     if (strncmp(cli_given(call, "sky"), "perez", 5) == 0) {
         cli_bad_usage(
-            "irradiance: --daylight-factor is of a sky without sun: cie-overcast expected, not perez");
+            "irradiance: --daylight-factor needs a sky without sun such as cie-overcast (found perez)");
         return false;
     }
     if (cli_given(call, "illuminance") != NULL) {
-        cli_bad_usage("irradiance: --daylight-factor does not go with --illuminance");
+        cli_bad_usage("irradiance: --daylight-factor cannot be used with --illuminance");
         return false;
     }
     return true;

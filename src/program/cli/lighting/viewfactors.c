@@ -20,53 +20,55 @@ typedef struct factor_command {
 } factor_command;
 
 static const cli_option options[] = {
-    {CLI_TEXT(
-         factor_command, output, "output", "FILE", "a summary is printed",
-         ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
-         "View3D's input), vfsparse.inp.NNN (uDALES's, with svf.inp.NNN and facetarea.inp.NNN beside it)"),
+    {CLI_TEXT(factor_command, output, "output", "FILE", "print a summary",
+              "output file: .npz (read by scipy.sparse.load_npz), .csv, .txt or .vf (View3D output), .vs3 "
+              "(facets as View3D input), vfsparse.inp.NNN (uDALES, with svf.inp.NNN and facetarea.inp.NNN)"),
      .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(factor_command, format, "to", "FORMAT", NULL,
-              "the format, where the name of FILE does not tell"),
+              "output format, if the extension of FILE does not select it"),
      .key.words = (const char *const[]){"npz", "csv", "view3d", "vs3", "udales", NULL}},
     {CLI_FLAG(factor_command, facets.group, "group",
-              "a row for each group of an OBJ, or each shape of a scene")},
+              "report one row per group of an OBJ, or per shape of a scene")},
     {CLI_FLAG(factor_command, facets.both_sides, "both-sides",
-              "facets see on their backs too: these rows follow the others")},
-    {CLI_INTEGER(factor_command, factors.rays, "rays", "N", 2, 1 << 22, "2048", "from each facet and side")},
+              "add the back sides of facets; their rows follow the others")},
+    {CLI_INTEGER(factor_command, factors.rays, "rays", "N", 2, 1 << 22, "2048",
+                 "number of rays per facet and side")},
     {CLI_INTEGER(factor_command, factors.randomizations, "randomizations", "R", 2, 64, "8",
-                 "independent parts of the rays, from which intervals come")},
-    {CLI_INTEGER(factor_command, factors.half_planes, "half-planes", "N", 1, 1 << 22, "three for two rays",
-                 "for the sky, from each facet and side"),
+                 "number of independent randomisations of the rays; intervals come from their spread")},
+    {CLI_INTEGER(factor_command, factors.half_planes, "half-planes", "N", 1, 1 << 22, "1.5 times the rays",
+                 "number of half planes per facet and side, for the sky factor"),
      .key.computed = true},
     {CLI_TEXT(factor_command, factors.set, "set", "SET", "sobol",
-              "directions and places of the rays, in four dimensions"),
+              "point set of origins and directions of the rays, in four dimensions"),
      .content = "set"},
-    {CLI_INTEGER(factor_command, factors.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
+    {CLI_INTEGER(factor_command, factors.seed, "seed", "S", 0, INFINITY, "0", "random seed")},
     {CLI_REAL(factor_command, factors.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
-              "of the intervals")},
+              "confidence level of the intervals")},
     {CLI_REAL(factor_command, factors.error, "error", "E", 1e-6, 1, NULL,
-              "double rays and half planes until no half width, of factors and sky, is larger")},
-    {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms and no half planes")},
-    {CLI_REAL(
-        factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
-        "instead of factors each row's area, sky factor and radiosity, with half of its interval, when all "
-        "facets reflect RHO: CSV or, with --json, JSON, to FILE or printed")},
-    {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun, --emission or --surfaces",
-              "for --radiosity: of the sky"),
+              "target error: double rays and half planes until no half width of factors and sky factors is "
+              "larger")},
+    {CLI_FLAG(factor_command, factors.rays_only, "rays-only",
+              "use rays only, without closed forms and half planes")},
+    {CLI_REAL(factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
+              "solve for radiosity with reflectance RHO of all facets, and write area, sky factor and "
+              "radiosity with half its interval per row as CSV, or JSON with --json")},
+    {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1; 0 with --sun, --emission or --surfaces",
+              "for --radiosity: radiosity of the sky"),
      .key.computed = true},
-    {CLI_TEXT(factor_command, sun, "sun", "X,Y,Z", NULL,
-              "for --radiosity: the direction to the sun; its length is the irradiance of what faces it")},
+    {CLI_TEXT(
+        factor_command, sun, "sun", "X,Y,Z", NULL,
+        "for --radiosity: direction to the sun; the length is the irradiance of a surface that faces it")},
     {CLI_REAL(factor_command, light.emission, "emission", "B", 0, 1e30, "0",
-              "for --radiosity: what every facet sends out by itself")},
+              "for --radiosity: emission of every facet")},
     {CLI_TEXT(factor_command, surfaces, "surfaces", "FILE", NULL,
-              "radiosities with a table of CSV: name (of a group, or *) or row, reflectance or emittance, "
-              "emission "
-              "or temperature in kelvin; prints what arrives and the net flux too"),
+              "solve for radiosity with surface data from CSV: name (of a group, or *) or row, reflectance "
+              "or emittance, emission or temperature in kelvin; also reports irradiance and net flux"),
      .content = "file"},
     {CLI_FLAG(factor_command, script, "script-f",
-              "the matrix is Hottel's script F, with the emittances of --surfaces or of a .vs3 file")},
+              "write Hottel's script F instead of view factors, with the emittances of --surfaces or of a "
+              ".vs3 file")},
     {CLI_FLAG(factor_command, matrix_free, "matrix-free",
-              "for --radiosity: rays are traced anew for each reflection, and no matrix is kept")},
+              "for --radiosity: trace the rays again for each reflection instead of storing a matrix")},
     {.key = {0}}};
 
 /* The format that the output's name tells. */
@@ -84,8 +86,7 @@ static bool find_format(factor_command *given) {
         given->format = "view3d";
     if (given->format != NULL)
         return true;
-    cli_bad_usage("viewfactors: the name '%s' tells no format: end it in .npz, .csv, .txt, .vf or .vs3, or "
-                  "say --to",
+    cli_bad_usage("viewfactors: unknown format of '%s': expected .npz, .csv, .txt, .vf or .vs3, or --to",
                   given->output);
     return false;
 }
@@ -101,17 +102,17 @@ static bool options_fit(const cli_call *call) {
     const bool radiosity = is_radiosity(call);
     const char *wrong = NULL;
     if (given->matrix_free && !radiosity)
-        wrong = "--matrix-free makes no matrix: ask for what it is for, --radiosity RHO";
+        wrong = "--matrix-free needs --radiosity RHO or --surfaces";
     else if (given->matrix_free && given->factors.error > 0.0)
-        wrong = "--error is of the matrix, which --matrix-free does not make";
+        wrong = "--error cannot be used with --matrix-free";
     else if (given->script && cli_given(call, "radiosity") != NULL)
-        wrong = "--script-f is a matrix, and --radiosity writes none: leave one out";
+        wrong = "--script-f cannot be used with --radiosity";
     else if (given->surfaces != NULL && cli_given(call, "radiosity") != NULL)
-        wrong = "--surfaces has the reflectances: leave --radiosity out";
+        wrong = "--surfaces has the reflectances: --radiosity cannot be used";
     else if (given->surfaces != NULL && cli_given(call, "emission") != NULL)
-        wrong = "--surfaces has the emissions: leave --emission out";
+        wrong = "--surfaces has the emissions: --emission cannot be used";
     else if (radiosity && given->format != NULL)
-        wrong = "--radiosity and --surfaces write a table of CSV, no matrix: leave --to out";
+        wrong = "--radiosity and --surfaces write CSV: --to cannot be used";
     if (wrong != NULL)
         cli_bad_usage("viewfactors: %s", wrong);
     return wrong == NULL && (radiosity || find_format(given));
@@ -125,7 +126,7 @@ static bool read_light(const cli_call *call) {
     if (cli_given(call, "sky") == NULL)
         given->light.sky = other || given->surfaces != NULL ? 0.0 : 1.0;
     if ((other || cli_given(call, "sky") != NULL) && !is_radiosity(call)) {
-        cli_bad_usage("viewfactors: --sky, --sun and --emission are for --radiosity RHO or --surfaces");
+        cli_bad_usage("viewfactors: --sky, --sun and --emission need --radiosity RHO or --surfaces");
         return false;
     }
     if (given->sun == NULL)
@@ -151,7 +152,7 @@ static bool read_light(const cli_call *call) {
     const double length = sqrt(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
     if (good && count == 3 && length > 0.0 && length <= 1e30)
         return true;
-    cli_bad_usage("viewfactors: --sun '%s' is not three numbers X,Y,Z, of which one is not 0", given->sun);
+    cli_bad_usage("viewfactors: --sun: expected a direction X,Y,Z that is not 0 (found '%s')", given->sun);
     return false;
 }
 
@@ -200,7 +201,7 @@ static void plan(const factor_command *given) {
     static cli_phase phases[] = {{"tracing rays", 0.0},
                                  {"measuring the sky", 0.0},
                                  {"integrating along edges", 0.0},
-                                 {"putting rows together", 0.0}};
+                                 {"combining rows", 0.0}};
     const double rays = given->factors.rays > 0 ? (double)given->factors.rays : 2048.0;
     const bool all = !given->factors.rays_only;
     phases[0].work = rays;
@@ -264,14 +265,11 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_viewfactors = {
     .name = "viewfactors",
-    .summary = "view factors between the facets of a mesh",
-    .notes =
-        "Facets see along their normals, which corners that are counter-clockwise for who looks at them "
-        "have. "
-        "Pairs of facets that certainly see each other wholly have closed forms, others are counted along "
-        "rays. Rows and the sky add up to 1, and areas times factors are symmetric. See "
-        "docs/view-factors.md.",
-    .too_few = "a mesh or scene is needed",
+    .summary = "compute view factors between the facets of a mesh",
+    .notes = "Facets face along their normals; corners are counter-clockwise as seen from the front. "
+             "Unobstructed pairs have closed forms, other pairs are estimated by rays. Each row and its sky "
+             "factor sum to 1, and areas times factors are symmetric. See docs/view-factors.md.",
+    .too_few = "no mesh or scene given",
     .operands = {{"MESH",
                   "a mesh (.obj, .ply, .stl, .off), View3D's input (.vs3) or a scene (.xml, .rad, .glb, "
                   "...); further files go "

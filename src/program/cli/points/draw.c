@@ -54,12 +54,12 @@ aur_result cli_draw_points(const char *path, const char *format, const aur_point
     report_series series[PANELS][2];
     report_panel panels[PANELS];
     if (points->count > POINT_LIMIT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a picture shows at most %d points, not %zu: use --count",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a plot shows at most %d points (found %zu): use --count",
                         POINT_LIMIT, points->count);
     const size_t panel_count = choose_views(points, views);
     report_point *const placed = malloc((panel_count * points->count + 1) * sizeof *placed), *next = placed;
     if (placed == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the picture");
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the image");
     for (size_t p = 0; p < panel_count; ++p) {
         const report_axis axis = {.low = views[p].round ? -1.0 : 0.0, .high = 1.0};
         for (size_t near = 0; near < 2; ++near) {

@@ -14,27 +14,24 @@ static aur_result check_metric(const char *text, void *field, aur_error *error) 
 }
 
 static const cli_option options[] = {
-    {CLI_INTEGER(
-         cli_measure_arguments, sizes, "count", "N", 1, INFINITY, NULL,
-         "sizes of the sets, also 64:4096 (64, 128, ...), 64:4096:x4 or 100:500:50; files are measured "
-         "whole"),
+    {CLI_INTEGER(cli_measure_arguments, sizes, "count", "N", 1, INFINITY, NULL,
+                 "set sizes, also 64:4096 (64, 128, ...), 64:4096:x4 or 100:500:50; files are always "
+                 "measured completely"),
      .letter = 'n', .list = true, .parse = cli_check_sizes},
-    {CLI_TEXT(
-         cli_measure_arguments, metrics, "metric", "NAME", NULL,
-         "the figures (--list names them); all: those of the domain that need no parameter, and bounds for "
-         "what takes long"),
+    {CLI_TEXT(cli_measure_arguments, metrics, "metric", "NAME", NULL,
+              "measures (see --list); all: all measures of the domain without parameters, with bounds "
+              "instead of slow ones"),
      .letter = 'm', .list = true, .parse = check_metric, .content = "measure"},
-    {CLI_FLAG(cli_measure_arguments, list, "list", "list the measures with their domains and sources")},
+    {CLI_FLAG(cli_measure_arguments, list, "list", "list the measures with domains and sources")},
     {CLI_INTEGER(cli_measure_arguments, seed_count, "seeds", "K", 2, 1 << 20, NULL,
-                 "mean, spread and root mean square over K seeds from --seed on")},
+                 "report mean, standard deviation and root mean square over K seeds, starting at --seed")},
     {CLI_FLAG(cli_measure_arguments, options.fast, "fast",
-              "sums over pairs to 2e-14 instead of the last bit")},
-    {CLI_REAL(
-        cli_measure_arguments, options.accuracy, "accuracy", "ERROR", 0.0, 1.0, NULL,
-        "relative error allowed to energies of many points, which are done sooner then, and to spectra; "
-        "adds columns with bounds of the errors")},
+              "compute sums over pairs to 2e-14 instead of the last bit")},
+    {CLI_REAL(cli_measure_arguments, options.accuracy, "accuracy", "ERROR", 0.0, 1.0, NULL,
+              "allow this relative error in energies of many points and in spectra, which is faster; adds "
+              "columns with error bounds")},
     {CLI_TEXT(cli_measure_arguments, plot, "plot", "FILE", NULL,
-              "draw the figures against N with fitted slopes: .svg, .pdf, .png, or .tex for pgfplots"),
+              "plot the measures over N with fitted slopes: .svg, .pdf, .png, or .tex for pgfplots"),
      .parse = cli_parse_plot, .content = "file", .writes = true},
     {.key = {0}}};
 
@@ -81,9 +78,9 @@ static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
 /* What the options mean together. */
 static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
-        return cli_bad_usage("measure: a file or a set is missing: try 'aureole help measure'"), false;
+        return cli_bad_usage("measure: no file or set given: try 'aureole help measure'"), false;
     if (arguments->metrics.count == 0)
-        return cli_bad_usage("measure: --metric is missing: 'aureole measure --list' lists them"), false;
+        return cli_bad_usage("measure: --metric is missing: see 'aureole measure --list'"), false;
     aur_error error = {0};
     if (arguments->sizes.count > 0 &&
         cli_expand_sizes(&arguments->sizes, &arguments->size_texts, &error) != AUR_OK)
@@ -255,12 +252,10 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_measure = {
     .name = "measure",
-    .summary = "quality figures of points",
-    .notes =
-        "A SET is NAME[:key=value,...] ('aureole sets' lists them), a FILE CSV or NPY; '-' is standard "
-        "input. "
-        "Without --domain the points of sets are where the first measure wants them. Directions within 1e-6 "
-        "of unit length are scaled to it; weights are divided by their sum.",
+    .summary = "measure the quality of points: discrepancies, energies, distances, spectra",
+    .notes = "A SET is NAME[:key=value,...] (see 'aureole sets'), a FILE is CSV or NPY; '-' is standard "
+             "input. Without --domain sets are generated on the domain of the first measure. Directions "
+             "within 1e-6 of unit length are normalised; weights are divided by their sum.",
     .operands = {{"FILE|SET", "points to measure", .optional = true, .repeated = true,
                   .content = "file or set"}},
     .groups = {{options, 0},

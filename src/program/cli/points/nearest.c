@@ -12,10 +12,10 @@ typedef struct nearest_command {
 } nearest_command;
 
 static const cli_option options[] = {
-    {CLI_INTEGER(nearest_command, count, "count", "N", 1, INFINITY, NULL,
-                 "size of POINTS, where they are a set"),
+    {CLI_INTEGER(nearest_command, count, "count", "N", 1, INFINITY, NULL, "size of POINTS, if it is a set"),
      .letter = 'n'},
-    {CLI_INTEGER(nearest_command, neighbours, "neighbours", "K", 1, 1 << 20, "1", "how many of each query"),
+    {CLI_INTEGER(nearest_command, neighbours, "neighbours", "K", 1, 1 << 20, "1",
+                 "number of neighbours per query"),
      .letter = 'k'},
     {.key = {0}}};
 
@@ -99,13 +99,13 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_nearest = {
     .name = "nearest",
-    .summary = "the points that are nearest to others",
+    .summary = "find the points that are nearest to others",
     .notes = "POINTS are a set or a file, QUERIES a file of the same domain: directions, axes (--domain "
              "axes), rotations "
              "or points of the square or cube. Prints for each query the index of the nearest point, from 0, "
              "and the "
              "angle between them in radians (on the square and cube the distance).",
-    .too_few = "points and a file of queries are needed: try 'aureole help nearest'",
+    .too_few = "expected points and a file of queries: try 'aureole help nearest'",
     .operands = {{"POINTS", "a set or a file", .content = "file or set"},
                  {"QUERIES", "a file", .content = "file"}},
     .groups = {{options, 0},

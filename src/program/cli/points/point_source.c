@@ -12,41 +12,37 @@ static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
 }
 
 const cli_option cli_points_options[] = {
-    {CLI_CHOICE(cli_points, options.domain, "domain", "DOMAIN", "follows from the rest",
-                "where the points are"),
+    {CLI_CHOICE(cli_points, options.domain, "domain", "DOMAIN", "from the other options",
+                "domain of the points"),
      .key.computed = true, .name = aur_domain_name},
-    {CLI_CHOICE(cli_points, options.map, "map", "MAP", "lambert",
-                "how sets of the square come to other domains"),
+    {CLI_CHOICE(cli_points, options.map, "map", "MAP", "lambert", "map from the square to other domains"),
      .name = aur_map_name},
     {CLI_TEXT(cli_points, options.lobe, "lobe", "LOBE", "uniform on a hemisphere",
-              "what points of the hemisphere follow; without --domain it means the hemisphere"),
+              "density of points on the hemisphere; implies --domain hemisphere"),
      .key.computed = true,
      .key.words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]",
                                         "visible:ALPHA[:VIEW_DEGREES]", NULL},
      .parse = parse_lobe},
     {CLI_CHOICE(cli_points, options.optimal_density, "density", "DENSITY", "same",
-                "follow the lobe, or its power 2/(s+1) with weights"),
+                "sample the lobe, or its power 2/(s+1) with weights"),
      .key.words = (const char *const[]){"same", "optimal", NULL}},
     {CLI_REAL(cli_points, options.smoothness, "smoothness", "S", 1, 6, "1.5",
-              "s of the integrand, of which the optimal density and optimal weights are made; no integer"),
+              "smoothness s of the integrand, for optimal densities and weights; not an integer"),
      .key.minimum_open = true, .key.maximum_open = true},
-    {CLI_CHOICE(cli_points, options.scramble, "scramble", "SCRAMBLE", "none",
-                "how the points are randomised"),
+    {CLI_CHOICE(cli_points, options.scramble, "scramble", "SCRAMBLE", "none", "randomisation of the points"),
      .name = aur_scramble_name},
     {CLI_INTEGER(cli_points, options.seed, "seed", "S", 0, INFINITY, "0",
-                 "of random sets and of scrambling")},
+                 "random seed of random sets and scrambling")},
     {.key = {0}}};
 
-const cli_option cli_dimension_option[] = {{CLI_INTEGER(cli_points, dimension, "dim", "D", 1, INFINITY, "2",
-                                                        "coordinates a point, for sets on the cube"),
-                                            .key.computed = true},
-                                           {.key = {0}}};
+const cli_option cli_dimension_option[] = {
+    {CLI_INTEGER(cli_points, dimension, "dim", "D", 1, INFINITY, "2", "dimensions of sets on the cube"),
+     .key.computed = true},
+    {.key = {0}}};
 
 const cli_option cli_cap_option[] = {
-    {CLI_REAL(
-        cli_points, options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
-        "the cap of this polar angle about +z alone, which a set's N points fill; on the sphere where it "
-        "is wider than 90")},
+    {CLI_REAL(cli_points, options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
+              "place all N points in the cap of this polar angle around +z; on the sphere if wider than 90")},
     {.key = {0}}};
 
 bool cli_is_file(const char *text) {

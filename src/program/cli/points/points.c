@@ -34,31 +34,32 @@ static aur_result choose_json(const char *text, void *field, aur_error *error) {
 }
 
 static const cli_option options[] = {
-    {CLI_INTEGER(points_command, from.options.count, "size", "N", 1, INFINITY, "all of a file",
-                 "the size of the set"),
+    {CLI_INTEGER(points_command, from.options.count, "size", "N", 1, INFINITY, "all points of a file",
+                 "size of the set"),
      .letter = 'n', .key.computed = true},
     {CLI_INTEGER(points_command, points.first, "first", "K", 0, INFINITY, "0",
-                 "leave out the points before this one")},
-    {CLI_INTEGER(points_command, points.count, "count", "C", 1, INFINITY, "all", "write only so many points"),
+                 "index of the first point to write")},
+    {CLI_INTEGER(points_command, points.count, "count", "C", 1, INFINITY, "all", "number of points to write"),
      .key.computed = true},
     {CLI_TEXT(points_command, warp, "warp", "IMAGE", NULL,
-              "move points of the square so that they follow the picture's brightness"),
+              "warp points of the square to the brightness of an image"),
      .content = "file"},
     {CLI_TEXT(
         points_command, symmetry, "symmetry", "GROUP", NULL,
         "only points in the fundamental region: of rotations for a crystal's group (432 for a cubic one; 1 "
         "makes w positive), of directions for a point group (D2h, Oh)")},
     {CLI_FLAG(points_command, matrices, "matrices", "write rotations as matrices, row by row")},
-    {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
-                "how points are written; svg, pdf, png and tex are pictures"),
+    {CLI_CHOICE(points_command, format, "format", "FORMAT", "from the extension, or csv",
+                "output format; svg, pdf, png and tex are plots"),
      .key.computed = true, .name = format_name},
-    {CLI_FLAG(points_command, format, "json", "the same as --format json"), .parse = choose_json},
-    {CLI_FLAG(points_command, write.no_header, "no-header", "CSV without the line of names")},
+    {CLI_FLAG(points_command, format, "json", "same as --format json"), .parse = choose_json},
+    {CLI_FLAG(points_command, write.no_header, "no-header", "write CSV without a header")},
     {CLI_INTEGER(points_command, write.digits, "digits", "D", 1, 17, NULL,
-                 "significant digits of CSV; without it 17, which lose nothing")},
-    {CLI_FLAG(points_command, write.single, "single", "32-bit floats instead of 64-bit ones (NPY, PLY)")},
-    {CLI_TEXT(points_command, path, "output", "FILE", "-", "where to; '-' is standard output"), .letter = 'o',
-     .content = "file", .writes = true},
+                 "significant digits of CSV; 17, the default, are exact")},
+    {CLI_FLAG(points_command, write.single, "single",
+              "write 32-bit floats instead of 64-bit ones (NPY, PLY)")},
+    {CLI_TEXT(points_command, path, "output", "FILE", "-", "output file; '-' is standard output"),
+     .letter = 'o', .content = "file", .writes = true},
     {.key = {0}}};
 
 /* By the file's name, unless it is `told`. A name without an ending, and '-', are CSV. */
@@ -236,7 +237,8 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_points = {
     .name = "points",
-    .summary = "write points of a set on the square, disk, hemisphere or sphere, as axes or as rotations",
+    .summary =
+        "write points of a set on the square, cube, disk, hemisphere or sphere, as axes or as rotations",
     .too_few = "a set is missing: 'aureole sets' lists them",
     .operands = {{"SET", "NAME[:key=value,...] or file:PATH; 'aureole sets' lists them", .content = "set"}},
     .groups = {{options, 0},

@@ -59,9 +59,9 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_sets = {
     .name = "sets",
-    .summary = "list the point sets: keys, domains, sizes, extensible or not, source",
+    .summary = "list the point sets with parameters, domains, sizes, extensibility and sources",
     .notes = "A set is named NAME[:key=value[,key=value...]] or file:PATH.",
-    .operands = {{"SET", "show the keys of this one, as aureole help set does", .optional = true,
+    .operands = {{"SET", "print the parameters of this set, as 'aureole help set' does", .optional = true,
                   .content = "set"}},
     .groups = {{cli_format_option, 0}},
     .size = sizeof(cli_common),

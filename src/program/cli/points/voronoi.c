@@ -17,11 +17,10 @@ typedef struct voronoi_command {
 static const double pi = 3.14159265358979323846;
 
 static const cli_option options[] = {
-    {CLI_INTEGER(voronoi_command, count, "count", "N", 1, INFINITY, NULL,
-                 "size of POINTS, where they are a set"),
+    {CLI_INTEGER(voronoi_command, count, "count", "N", 1, INFINITY, NULL, "size of POINTS, if it is a set"),
      .letter = 'n'},
     {CLI_TEXT(voronoi_command, cells, "cells", "FILE", NULL,
-              "write the cells' corners: .obj and .ply as polygons, .csv as rows of point, x, y, z"),
+              "write the corners of the cells: .obj and .ply as polygons, .csv as rows of point, x, y, z"),
      .content = "file", .writes = true},
     {.key = {0}}};
 
@@ -183,15 +182,13 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_voronoi = {
     .name = "voronoi",
-    .summary = "the cells of points: areas and corners",
-    .notes =
-        "POINTS are a set or a file on the sphere (the default of sets), the hemisphere, whose cells end at "
-        "the equator, a --cap, whose cells end at its rim, or axes. Prints for each point the area of its "
-        "cell, in mean areas and in steradians, "
-        "the angle to its farthest corner in radians, and the number of its sides. The corners of a cell "
-        "follow each other counter-clockwise as seen from outside; an axis has the cell of the end that is "
-        "given. Points at one place share a cell, each with its share of the area.",
-    .too_few = "points are needed: try 'aureole help voronoi'",
+    .summary = "compute the Voronoi cells of points: areas and corners",
+    .notes = "POINTS are a set or a file on the sphere (the default of sets), the hemisphere (cells end at "
+             "the equator), a --cap (cells end at its rim), or axes. Prints for each point the area of its "
+             "cell (relative to the mean, and in steradians), the angle to its farthest corner in radians, "
+             "and the number of sides. Corners are counter-clockwise as seen from outside. Coincident points "
+             "divide the area of their cell.",
+    .too_few = "no points given: try 'aureole help voronoi'",
     .operands = {{"POINTS", "a set or a file", .content = "file or set"}},
     .groups = {{options, 0},
                {cli_points_options, offsetof(voronoi_command, from)},

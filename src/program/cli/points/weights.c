@@ -17,54 +17,53 @@ static const char *method_name(unsigned method) {
 }
 
 static const cli_option options[] = {
-    {CLI_INTEGER(cli_weights_arguments, size, "size", "N", 1, INFINITY, "all of a file",
-                 "samples of the set"),
+    {CLI_INTEGER(cli_weights_arguments, size, "size", "N", 1, INFINITY, "all points of a file",
+                 "number of samples of the set"),
      .letter = 'n', .key.computed = true},
     {CLI_TEXT(cli_weights_arguments, mirror, "lobe2", "LOBE", NULL,
-              "a second lobe about the mirror direction of a view, with samples of its own; its weights are "
-              "the column w2"),
+              "add a second lobe around the mirror direction of a view, with separate samples; its weights "
+              "are the column w2"),
      .key.words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA", NULL},
      .parse = parse_lobe},
     {CLI_REAL(cli_weights_arguments, degrees, "angle", "DEGREES", 0, 90, NULL,
-              "of the view, for the second lobe")},
-    {CLI_INTEGER(cli_weights_arguments, mirror_size, "n2", "N", 1, INFINITY, "as many as of the first",
-                 "samples of the second lobe"),
+              "angle of the view, for the second lobe")},
+    {CLI_INTEGER(cli_weights_arguments, mirror_size, "n2", "N", 1, INFINITY, "as many as in the first lobe",
+                 "number of samples of the second lobe"),
      .key.computed = true},
     {CLI_FLAG(cli_weights_arguments, clipped, "clip",
-              "the second lobe ends at the horizon; hidden samples get weight 0")},
-    {CLI_CHOICE(
-         cli_weights_arguments, method, "method", "METHOD", "osw for one lobe, oswa for two",
-         "optimal weights, of two lobes each from its own samples (osw) or from all (oswa); balance "
-         "or power heuristic (mis, mis-power), 1/N (equal), p/(q N) (ratio), the nearest to equal ones "
-         "that integrate polynomials exactly (exact) or areas of Voronoi cells (voronoi)"),
+              "cut the second lobe at the horizon; samples below get weight 0")},
+    {CLI_CHOICE(cli_weights_arguments, method, "method", "METHOD", "osw for one lobe, oswa for two",
+                "optimal weights from the samples of each lobe (osw) or from all samples (oswa); balance or "
+                "power heuristic (mis, mis-power); 1/N (equal); p/(q N) (ratio); exact for polynomials and "
+                "nearest to equal weights (exact); areas of Voronoi cells (voronoi)"),
      .key.computed = true, .name = method_name},
     {CLI_INTEGER(cli_weights_arguments, degree, "degree", "L", 0, AUR_EXACT_DEGREE_MAX,
-                 "the largest with positive weights", "of the polynomials that --method exact integrates"),
+                 "the largest with positive weights",
+                 "degree of the polynomials that --method exact integrates"),
      .key.computed = true},
     {CLI_TEXT(cli_weights_arguments, levels, "levels", "N,N,...", NULL,
-              "exact weights for the first so many samples each: the columns w, w2, ..."),
+              "exact weights of the first N samples for each N given: the columns w, w2, ..."),
      .list = true},
-    {CLI_FLAG(cli_weights_arguments, negative, "negative",
-              "weights of a --degree that is given may be negative")},
+    {CLI_FLAG(cli_weights_arguments, negative, "negative", "allow negative weights with --degree")},
     {CLI_REAL(cli_weights_arguments, tolerance, "tolerance", "E", AUR_EXACT_TOLERANCE_MIN,
               AUR_EXACT_TOLERANCE_MAX, "1e-14",
-              "exact weights of more than 2048 samples: the largest error of a polynomial of mean square 1")},
+              "for exact weights of more than 2048 samples: largest error of a polynomial of mean square 1")},
     {CLI_TEXT(
         cli_weights_arguments, symmetry, "symmetry", "GROUP", NULL,
         "exact weights for functions with a symmetry: of directions a point group (D2h, Oh), of rotations "
         "CRYSTAL[:SAMPLE] (432:222)")},
-    {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
+    {CLI_FLAG(cli_weights_arguments, near, "near",
+              "exact weights nearest to the weights of the file (column w)")},
     {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
-              "added to the diagonal"),
+              "regularisation added to the diagonal"),
      .key.maximum_open = true},
     {CLI_FLAG(cli_weights_arguments, unconstrained, "unconstrained",
-              "do not fix the sum of the weights to 1")},
-    {CLI_FLAG(
-        cli_weights_arguments, report, "report",
-        "print worst-case errors with equal and optimal weights and the gain instead of samples; of exact "
-        "weights the degree, the error that is left, and the least and largest weight times N")},
-    {CLI_TEXT(cli_weights_arguments, path, "output", "FILE", "standard output, unless there is a report",
-              "write x,y,z,w there as CSV"),
+              "do not constrain the sum of the weights to 1")},
+    {CLI_FLAG(cli_weights_arguments, report, "report",
+              "print worst-case errors with equal and optimal weights and the gain instead of samples; for "
+              "exact weights the degree, the remaining error, and the smallest and largest weight times N")},
+    {CLI_TEXT(cli_weights_arguments, path, "output", "FILE", "standard output, unless --report",
+              "output file, CSV with x,y,z,w"),
      .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(cli_weights_arguments, plot, "plot", "FILE", NULL,
               "draw the samples coloured by weight: .svg, .pdf, .png, or .tex for pgfplots"),
@@ -73,19 +72,20 @@ static const cli_option options[] = {
               "build a table of optimal weights for two lobes (oswa) or for one ggx lobe, or read one with "
               "--lookup"),
      .content = "file"},
-    {CLI_INTEGER(cli_weights_arguments, angles, "angles", "T", 2, 1 << 16, "64", "of the view in a table")},
+    {CLI_INTEGER(cli_weights_arguments, angles, "angles", "T", 2, 1 << 16, "64",
+                 "number of view angles of a table")},
     {CLI_INTEGER(cli_weights_arguments, roughnesses, "roughnesses", "R", 1, 256, "1",
-                 "of a ggx lobe in a table, from its ALPHA to 1, evenly in logarithms")},
+                 "number of roughnesses of a table of a ggx lobe, from its ALPHA to 1, logarithmic")},
     {CLI_INTEGER(cli_weights_arguments, rotations, "rotations", "K", 1, 1 << 16, "16",
-                 "of the patterns in a table")},
+                 "number of rotations of a table")},
     {CLI_REAL(cli_weights_arguments, look_up_degrees, "lookup", "DEGREES", 0, 90, NULL,
-              "write the samples and weights of a table at that angle of the view")},
-    {CLI_REAL(cli_weights_arguments, look_up_alpha, "roughness", "ALPHA", 1e-4, 1, "the table's least",
-              "that is looked up in a table of several"),
+              "write the samples and weights of a table at this view angle")},
+    {CLI_REAL(cli_weights_arguments, look_up_alpha, "roughness", "ALPHA", 1e-4, 1,
+              "the smallest of the table", "roughness to look up, in a table of several"),
      .key.computed = true},
     {CLI_INTEGER(cli_weights_arguments, rotation, "rotation", "K", 0, (1 << 16) - 1, "0",
-                 "which rotation of the table is looked up")},
-    {CLI_FLAG(cli_weights_arguments, mirrored, "mirrored", "the mirror image of what is looked up")},
+                 "index of the rotation to look up")},
+    {CLI_FLAG(cli_weights_arguments, mirrored, "mirrored", "mirror the samples that are looked up")},
     {.key = {0}}};
 
 /* What the options mean together; the first rule that they break, or NULL. */
@@ -246,8 +246,8 @@ static int run(const cli_call *call) {
     if (arguments->look_up && (arguments->table == NULL || arguments->report || arguments->plot != NULL))
         return cli_bad_usage("--lookup: needs a table to read, --table FILE, and neither reports nor draws");
     if (call->operand_count == 0 && !arguments->look_up)
-        return cli_bad_usage("weights: a set or a file is missing: 'aureole sets' lists the sets (--table "
-                             "FILE is read by --lookup DEGREES)");
+        return cli_bad_usage(
+            "weights: no set or file given: see 'aureole sets' (--table FILE is read by --lookup DEGREES)");
     aur_error error = {0};
     if (arguments->table != NULL && !arguments->look_up &&
         cli_announce_output(arguments->table, &error) != AUR_OK)
@@ -262,7 +262,7 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_weights = {
     .name = "weights",
-    .summary = "optimal and exact weights of samples, and what they gain",
+    .summary = "compute optimal and exact weights of samples, and their gain",
     .notes =
         "Points are directions of the hemisphere (of the sphere, where the lobe is uniform), and the lobe is "
         "what the integrand is multiplied by: the points of a set follow it. Weights are for densities of "

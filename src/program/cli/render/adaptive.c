@@ -40,25 +40,24 @@ static aur_result parse_rays(const char *text, void *field, aur_error *error) {
 
 const cli_option cli_target_options[] = {
     {CLI_TEXT(cli_target, error, "error", "1%", NULL,
-              "render until the error by --error-measure is below this"),
+              "render until the error by --error-measure is below this target"),
      .parse = parse_error},
     {CLI_CHOICE(cli_target, measure, "error-measure", "NAME", "relative",
-                "what --error measures: the root mean square error relative to each pixel's surroundings, to "
-                "the image's mean, or of the image as displayed"),
+                "measure of --error: root mean square error relative to the local mean of each pixel, "
+                "relative to the mean of the image, or of the displayed image"),
      .key.words = (const char *const[]){"relative", "mean", "display", NULL}},
-    {CLI_TEXT(
-         cli_target, bias, "bias", "1%", NULL,
-         "of --error: what the integrator of --integrator may be wrong by in the mean, as a picture to an "
-         "error says afterwards"),
+    {CLI_TEXT(cli_target, bias, "bias", "1%", NULL,
+              "systematic error to allow for the integrator given by --integrator, as printed by an earlier "
+              "--error render"),
      .parse = parse_bias},
     {CLI_TEXT(cli_target, seconds, "time", "30s", NULL,
-              "render for so long, and say the command that makes the same picture"),
+              "render for this time, and print the command that reproduces the image"),
      .parse = parse_time},
-    {CLI_TEXT(cli_target, rays, "rays", "1e9", NULL, "render with so many rays"), .parse = parse_rays},
+    {CLI_TEXT(cli_target, rays, "rays", "1e9", NULL, "render with this number of rays"), .parse = parse_rays},
     {CLI_INTEGER(cli_target, rounds, "rounds", "N", 1, 1000, NULL,
-                 "render so many rounds of samples, as --time says afterwards")},
+                 "render this number of rounds of samples, as printed by --time")},
     {CLI_FLAG(cli_target, error_map, "error-map",
-              "the standard error of each pixel as channels error.R, error.G, error.B")},
+              "add the standard error of each pixel as channels error.R, error.G, error.B")},
     {.key = {0}}};
 
 /* In the order of aur_error_measure. */
@@ -83,7 +82,7 @@ static void say_number(const char *option, double value) {
 /* The command that makes the same bits without a choice and without a clock. */
 static void say_again(const aur_adaptive *adaptive, const cli_target *target,
                       const aur_adaptive_report *report) {
-    aur_print(stderr, "aureole: the same picture again:");
+    aur_print(stderr, "aureole: to reproduce this image:");
     if (*aur_adaptive_integrator(adaptive) != '\0')
         aur_print(stderr, " --integrator '%s'", aur_adaptive_integrator(adaptive));
     if (target->error > 0.0)
@@ -131,11 +130,10 @@ static void say(const aur_adaptive *adaptive, const cli_target *target, const ch
 }
 
 void cli_say_denoised(const aur_error_figures *figures, aur_error_measure measure) {
-    aur_print(
-        stderr,
-        "aureole: the error above is of the noisy image; denoised, half of the samples have %.3g %% %s, at "
-        "most %.3g (95 %%)\n",
-        100.0 * figures->error, measure_words[measure], 100.0 * figures->high);
+    aur_print(stderr,
+              "aureole: the error above is that of the noisy image; denoised half of the samples: %.3g %% "
+              "%s, at most %.3g (95 %%)\n",
+              100.0 * figures->error, measure_words[measure], 100.0 * figures->high);
 }
 
 static aur_result print_json(const aur_adaptive *adaptive, const char *output, aur_error *error) {

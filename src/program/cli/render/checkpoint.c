@@ -14,23 +14,21 @@ static aur_result parse_interval(const char *text, void *field, aur_error *error
 }
 
 const cli_option cli_checkpoint_options[] = {
-    {CLI_TEXT(cli_checkpoint, path, "checkpoint", "FILE", NULL,
-              "keep what there is of the render in FILE, so that it can go on after an interruption"),
+    {CLI_TEXT(cli_checkpoint, path, "checkpoint", "FILE", NULL, "write a checkpoint to FILE"),
      .content = "file", .writes = true},
-    {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "60s", "60s", "how often"), .parse = parse_interval},
-    {CLI_FLAG(
-        cli_checkpoint, resume, "resume",
-        "go on from the checkpoint, to the same picture as without the interruption; anew where there is "
-        "none")},
+    {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "60s", "60s", "time between checkpoints"),
+     .parse = parse_interval},
+    {CLI_FLAG(cli_checkpoint, resume, "resume",
+              "resume from the checkpoint, if it exists; the image is identical to that of an uninterrupted "
+              "render")},
     {.key = {0}}};
 
 const char *cli_checkpoint_conflict(const cli_call *call) {
     if (cli_given(call, "checkpoint") != NULL)
         return NULL;
-    return cli_given(call, "resume") != NULL ? "render: '--resume' goes on from the file of '--checkpoint'"
-           : cli_given(call, "checkpoint-every") != NULL
-               ? "render: '--checkpoint-every' goes with '--checkpoint'"
-               : NULL;
+    return cli_given(call, "resume") != NULL             ? "render: '--resume' needs '--checkpoint'"
+           : cli_given(call, "checkpoint-every") != NULL ? "render: '--checkpoint-every' needs '--checkpoint'"
+                                                         : NULL;
 }
 
 static double now(void) {
@@ -84,7 +82,7 @@ aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, 
             return result;
     } else if (checkpoint->resume && !quiet) {
         cli_progress_clear();
-        fprintf(stderr, "aureole: there is no checkpoint %s yet: the render begins anew\n", checkpoint->path);
+        fprintf(stderr, "aureole: checkpoint %s not found: rendering from the start\n", checkpoint->path);
     }
     checkpoint->render = render;
     checkpoint->adaptive = adaptive;

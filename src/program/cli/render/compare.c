@@ -16,19 +16,19 @@ typedef struct compare_options {
 } compare_options;
 
 static const cli_option rows[] = {
-    {CLI_TEXT(compare_options, metrics, "metric", "NAME", "rmse", "the figures"), .list = true,
+    {CLI_TEXT(compare_options, metrics, "metric", "NAME", "rmse", "error measures"), .list = true,
      .name = aur_image_metric_name},
     {CLI_REAL(compare_options, tolerance, "tolerance", "T", 0, INFINITY, "0",
-              "every metric named may be at most T; 0: identical")},
+              "largest value allowed for every metric; 0: identical")},
     {CLI_TEXT(compare_options, outfile, "outfile", "FILE", NULL,
-              "write the absolute difference (FLIP's map when the first metric is flip) in false colour "
+              "write the absolute difference (the FLIP map if the first metric is flip) in false colour "
               "(PNG, EXR, ...)"),
      .letter = 'o', .content = "file", .writes = true},
     {CLI_TEXT(compare_options, html, "html", "FILE", NULL,
-              "write a page in which the pictures can be looked at: flip, slider, differences, values"),
+              "write a page that shows the images: flip, slider, differences, values"),
      .content = "file", .writes = true},
     {CLI_REAL(compare_options, scale, "scale", "D", 0, INFINITY, "the largest; 1 for flip",
-              "the value that is drawn brightest"),
+              "value of the brightest colour"),
      .key.computed = true},
     {.key = {0}}};
 
@@ -110,8 +110,7 @@ static int write_difference(const aur_image *reference, const aur_image *image,
 static int run(const cli_call *call) {
     const compare_options *const options = call->options;
     if (options->outfile != NULL && call->operand_count > 2)
-        return cli_bad_usage("compare: --outfile shows the difference of one picture, not of %zu",
-                             call->operand_count - 1);
+        return cli_bad_usage("compare: --outfile takes one image (found %zu)", call->operand_count - 1);
     aur_image *reference = NULL;
     int status = cli_read_picture(call->operands[0], &options->picture, &reference);
     report_table *const table = create_table(options);
@@ -138,17 +137,15 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_compare = {
     .name = "compare",
-    .summary = "RMSE and other figures of the difference between pictures",
+    .summary = "compare images: RMSE and other error measures",
     .notes =
-        "Pictures are EXR, PFM, HDR, PNG or JPEG. --channels names one or three to compare instead of R, G, "
-        "B. relative_rmse, relative_error and display_error are the errors by render's --error-measure mean, "
-        "relative and "
-        "display; mean_r to reference_mean_b are the mean "
-        "radiances of both pictures. The exit status is 0 when every picture is within the tolerance, 1 when "
-        "one is not, 2 on an error.",
-    .too_few = "a reference and at least one picture are needed",
-    .operands = {{"REFERENCE", "the picture that the others are compared with", .content = "file"},
-                 {"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
+        "Images are EXR, PFM, HDR, PNG or JPEG. --channels selects one or three channels instead of R, G, B. "
+        "relative_rmse, relative_error and display_error are the errors by --error-measure mean, relative "
+        "and display of 'aureole render'; mean_r to reference_mean_b are the mean radiances of both images. "
+        "The exit status is 0 if every image is within the tolerance, 1 if one is not, 2 on an error.",
+    .too_few = "expected a reference and at least one image",
+    .operands = {{"REFERENCE", "the reference image", .content = "file"},
+                 {"IMAGE", "images of the same size", .repeated = true, .content = "file"}},
     .groups = {{rows, 0},
                {cli_picture_options, offsetof(compare_options, picture)},
                {cli_format_option, offsetof(compare_options, common)}},

@@ -15,11 +15,11 @@ static const cli_option options[] = {
     {CLI_REAL(convert_options, write.exposure, "exposure", "STOPS", -100, 100, "0",
               "multiply radiance by 2^STOPS (PNG)")},
     {CLI_CHOICE(convert_options, write.tone, "tone", "CURVE", "srgb",
-                "the tone curve (PNG); without one radiance 1 is white"),
+                "tone curve (PNG); radiance 1 is white by default"),
      .key.words = (const char *const[]){"srgb", "filmic", NULL}},
-    {CLI_FLAG(convert_options, write.half, "half", "16-bit floats instead of 32-bit ones (EXR)")},
+    {CLI_FLAG(convert_options, write.half, "half", "write 16-bit floats instead of 32-bit ones (EXR)")},
     {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
-              "the format, where the name of OUT does not tell"),
+              "output format, if the extension of OUT does not select it"),
      .name = cli_picture_format},
     {CLI_CHOICE(
          convert_options, luminance, "luminance", "WEIGHTS", NULL,
@@ -37,7 +37,7 @@ static bool options_fit(const cli_call *call, const aur_row *format) {
     static const char *const some[] = {"exposure", "tone", "half"};
     for (size_t i = 0; i < sizeof some / sizeof some[0]; ++i)
         if (cli_given(call, some[i]) != NULL && aur_row_find_key(format, some[i]) == NULL) {
-            cli_bad_usage("convert: --%s is not for %s: 'aureole help picture' tells what is", some[i],
+            cli_bad_usage("convert: --%s cannot be used for %s: see 'aureole help image'", some[i],
                           format->name);
             return false;
         }
@@ -96,14 +96,13 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_convert = {
     .name = "convert",
-    .summary = "convert a picture between EXR, PFM, HDR and PNG",
-    .notes =
-        "JPEG can be read too. The input's format is seen from its content, the output's from its name. '-' "
-        "is standard input or standard output (EXR unless --to says otherwise).",
-    .too_few = "one input and one output are needed",
-    .too_many = "one input and one output are needed",
-    .operands = {{"IN", "the picture that is read", .content = "file"},
-                 {"OUT", "the picture that is written", .content = "file", .writes = true}},
+    .summary = "convert an image between EXR, PFM, HDR and PNG",
+    .notes = "JPEG can be read and written too. The content of IN determines its format, the extension of "
+             "OUT that of the output. '-' is standard input or standard output (EXR unless --to is given).",
+    .too_few = "expected one input and one output",
+    .too_many = "expected one input and one output",
+    .operands = {{"IN", "input image", .content = "file"},
+                 {"OUT", "output image", .content = "file", .writes = true}},
     .groups = {{options, 0}, {cli_picture_options, offsetof(convert_options, picture)}},
     .size = sizeof(convert_options),
     .run = run,

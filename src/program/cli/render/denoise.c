@@ -6,8 +6,8 @@
 
 const cli_option cli_denoise_options[] = {
     {CLI_FLAG(cli_denoise, wanted, "denoise",
-              "take the noise out by Open Image Denoise, whose library AUREOLE_OIDN names or the system has; "
-              "the noisy picture stays as channels noisy.R, noisy.G, noisy.B")},
+              "denoise with Open Image Denoise (library from AUREOLE_OIDN or the system); the noisy image is "
+              "written to the channels noisy.R, noisy.G, noisy.B")},
     {.key = {0}}};
 
 aur_result cli_denoise_begin(cli_denoise *denoise, aur_error *error) {

@@ -8,18 +8,17 @@ typedef struct merge_command {
     const char *output;
 } merge_command;
 
-static const cli_option options[] = {
-    {CLI_TEXT(merge_command, output, "output", "FILE", NULL,
-              "where the picture goes: .exr, .png, ... (aureole help picture)"),
-     .letter = 'o', .content = "file", .writes = true},
-    {.key = {0}}};
+static const cli_option options[] = {{CLI_TEXT(merge_command, output, "output", "FILE", NULL,
+                                               "output image (.exr, .png, ...; see 'aureole help image')"),
+                                      .letter = 'o', .content = "file", .writes = true},
+                                     {.key = {0}}};
 
 static int run(const cli_call *call) {
     const merge_command *const command = call->options;
     aur_error error = {0};
     const aur_row *format;
     if (command->output == NULL)
-        return cli_bad_usage("merge: '-o FILE' is missing: where the picture goes");
+        return cli_bad_usage("merge: no output image given: expected '-o FILE'");
     if (aur_image_find_writer(command->output, NULL, &format, &error) != AUR_OK)
         return cli_bad_usage("-o: %s", error.message);
     aur_film *film = NULL;
@@ -37,11 +36,11 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_merge = {
     .name = "merge",
-    .summary = "put the parts of a picture together",
-    .notes = "The parts are files of 'aureole render --shard'; the picture is that of one render, to the "
-             "bit. Parts of "
-             "other scenes, options, seeds or versions, parts given twice, and missing ones are refused.",
-    .too_few = "the parts are missing",
+    .summary = "merge the parts of an image",
+    .notes =
+        "The parts are files of 'aureole render --shard'. The image is bit-identical to that of one render. "
+        "Parts of other scenes, options, seeds or versions, repeated parts and missing parts are refused.",
+    .too_few = "no parts given",
     .operands = {{"PART", "a file of 'aureole render --shard i/n'", .repeated = true, .content = "file"}},
     .groups = {{options, 0}},
     .size = sizeof(merge_command),

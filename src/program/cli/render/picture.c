@@ -8,14 +8,14 @@
 #include "program/cli/listing.h"
 
 const cli_option cli_picture_options[] = {
-    {CLI_TEXT(cli_picture, channels, "channels", "NAME", NULL, "only these channels, in this order"),
+    {CLI_TEXT(cli_picture, channels, "channels", "NAME", NULL, "channels to use, in this order"),
      .list = true},
     {CLI_INTEGER(cli_picture, downsample, "downsample", "N", 1, INFINITY, "1",
                  "average blocks of N x N pixels")},
     {.key = {0}}};
 
 const char *cli_picture_format(unsigned index) {
-    const aur_table *const formats = cli_find_table("picture");
+    const aur_table *const formats = cli_find_table("image");
     const aur_row *row;
     for (size_t i = 0; i < formats->count; ++i)
         if (aur_image_find_writer("", formats->rows[i]->name, &row, NULL) == AUR_OK && index-- == 0)

@@ -78,51 +78,51 @@ static aur_result parse_shard(const char *text, void *field, aur_error *error) {
 
 static const cli_option options[] = {
     {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
-              "where the picture goes: .exr, .png, ... (aureole help picture); - is standard output, in EXR"),
+              "output image (.exr, .png, ...; see 'aureole help image'); - writes EXR to standard output"),
      .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(render_command, options.integrator, "integrator", "SPEC", NULL,
-              "NAME[:key=value,...] instead of the scene's integrator"),
+              "use this integrator, NAME[:key=value,...], instead of the scene's"),
      .content = "integrator"},
     {CLI_TEXT(render_command, options.sampler, "sampler", "SET", NULL,
-              "instead of the scene's sampler ('aureole sets' lists them)"),
+              "use this point set instead of the scene's sampler (see 'aureole sets')"),
      .content = "set"},
     {CLI_TEXT(render_command, options.filter, "filter", "NAME", NULL,
-              "instead of the scene's ('aureole help rfilter' lists them)"),
+              "use this reconstruction filter instead of the scene's (see 'aureole help rfilter')"),
      .content = "rfilter"},
     {CLI_INTEGER(render_command, options.samples_per_pixel, "spp", "N", 1, 1 << 30, "the scene's",
-                 "samples a pixel"),
+                 "samples per pixel"),
      .key.computed = true},
     {CLI_INTEGER(render_command, options.samples_per_pixel, "samples", "N", 1, 1 << 30, NULL,
-                 "the same as --spp")},
+                 "same as --spp")},
     {CLI_INTEGER(render_command, options.width, "width", "N", 1, LARGEST_SIDE, "the scene's",
-                 "of the whole picture in pixels; the height alone or the width alone keeps its shape"),
+                 "width of the full image in pixels; if only the width or the height is given, the aspect "
+                 "ratio is kept"),
      .key.computed = true},
     {CLI_INTEGER(render_command, options.height, "height", "N", 1, LARGEST_SIDE, "the scene's",
-                 "of the whole picture in pixels"),
+                 "height of the full image in pixels"),
      .key.computed = true},
-    {CLI_REAL(
-        render_command, options.clamp, "clamp", "C", 0, 1e30, "0",
-        "limit what light after the first surface adds to a sample of path or volpath (0: no limit); how "
-        "much light that takes away is estimated and reported")},
+    {CLI_REAL(render_command, options.clamp, "clamp", "C", 0, 1e30, "0",
+              "clamp the indirect contribution to a sample of path or volpath (0: no limit); the light that "
+              "is lost is estimated and reported")},
     {CLI_TEXT(render_command, options, "crop", "x0,x1,y0,y1", NULL,
-              "render the pixels x0 <= x < x1, y0 <= y < y1 only"),
+              "render only the pixels x0 <= x < x1, y0 <= y < y1"),
      .parse = parse_crop},
     {CLI_TEXT(
          render_command, options, "shard", "i/n", NULL,
-         "render the i-th of n parts alone, into SCENE.i-of-n.part or what -o says; 'aureole merge' puts "
-         "them together"),
+         "render only part i of n, to SCENE.i-of-n.part or the file of -o; 'aureole merge' merges the parts"),
      .parse = parse_shard},
-    {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "of all random numbers")},
+    {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "random seed")},
     {CLI_TEXT(render_command, reference, "reference", "REF", NULL,
-              "the picture that --errors compares with, made with another seed"),
+              "reference image of --errors, rendered with another seed"),
      .content = "file"},
-    {CLI_TEXT(render_command, errors, "errors", "CSV", NULL,
-              "samples, rays, CPU seconds and RMSE against the reference after 1, 2, 4, ... samples a pixel"),
+    {CLI_TEXT(
+         render_command, errors, "errors", "CSV", NULL,
+         "write samples, rays, CPU seconds and RMSE to the reference after 1, 2, 4, ... samples per pixel"),
      .content = "file", .writes = true},
-    {CLI_FLAG(render_command, statistics, "stats", "say how many rays and how much time it took")},
-    {CLI_FLAG(render_command, statistics, "verbose", "the same as --stats"), .letter = 'v'},
+    {CLI_FLAG(render_command, statistics, "stats", "print ray counts and timings")},
+    {CLI_FLAG(render_command, statistics, "verbose", "same as --stats"), .letter = 'v'},
     {CLI_FLAG(render_command, json, "json",
-              "say on standard output, as JSON, how many rays and how much time it took, and the error")},
+              "print ray counts, timings and the error as JSON on standard output")},
     {.key = {0}}};
 
 /* SCENE.exr in the current folder, from the scene's file name; SCENE.i-of-n.part for a part. */
@@ -242,13 +242,12 @@ static bool check_output(const char *path) {
 static void say_end(render_command *command, const aur_image *image) {
     const double clamped = cli_clamped_part(image);
     if (clamped > 0.0)
-        aur_print(stderr, "aureole: --clamp took away %.2g %% of the light (an estimate of the bias)\n",
+        aur_print(stderr, "aureole: --clamp removed %.2g %% of the light (an estimate of the bias)\n",
                   100.0 * clamped);
     if (command->denoise.wanted)
         command->end.error = 0.0; /* it is that of the noisy picture */
     if (command->options.shard_count > 0)
-        aur_print(stderr, "aureole: the part is in %s; 'aureole merge' makes the picture of all parts\n",
-                  command->output);
+        aur_print(stderr, "aureole: wrote the part %s; 'aureole merge' merges all parts\n", command->output);
     else
         cli_say_picture(command->output, image, &command->end);
 }
@@ -377,29 +376,27 @@ static const char *conflict(const cli_call *call, const render_command *command)
     if ((command->reference == NULL) != (command->errors == NULL))
         return "render: '--reference' and '--errors' must be given together";
     if (command->reference != NULL && command->checkpoint.path != NULL)
-        return "render: '--checkpoint' does not go with '--errors', whose table would begin anew";
+        return "render: '--checkpoint' cannot be used with '--errors'";
     if (command->options.shard_count > 0 && (cli_is_target(&command->target) || command->reference != NULL))
-        return "render: '--shard' does not go with '--error', '--time', '--rays', '--rounds' or '--errors', "
-               "which "
-               "look at the whole picture";
+        return "render: '--shard' cannot be used with '--error', '--time', '--rays', '--rounds' or "
+               "'--errors', which need the full image";
     if (command->options.shard_count > 0 && command->denoise.wanted)
-        return "render: '--denoise' does not go with '--shard': neighbours of a part's pixels are missing";
+        return "render: '--denoise' cannot be used with '--shard': it needs the full image";
     if (command->json && command->output != NULL && strcmp(command->output, "-") == 0)
-        return "render: '--json' and the picture do not both go to standard output";
+        return "render: '--json' and the image cannot both be written to standard output";
     const char *const checkpoint = cli_checkpoint_conflict(call);
     if (checkpoint != NULL)
         return checkpoint;
     if (command->target.bias > 0.0 && !cli_is_target(&command->target))
-        return "render: '--bias' goes with '--error', '--time', '--rays' or '--rounds'";
+        return "render: '--bias' needs '--error', '--time', '--rays' or '--rounds'";
     if (!cli_is_target(&command->target))
-        return command->target.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
+        return command->target.error_map ? "render: '--error-map' needs '--error', '--time' or '--rays'"
                                          : NULL;
     if (command->reference != NULL)
-        return "render: '--errors' does not go with '--error', '--time', '--rays' or '--rounds'";
+        return "render: '--errors' cannot be used with '--error', '--time', '--rays' or '--rounds'";
     if (cli_given(call, "spp") != NULL || cli_given(call, "samples") != NULL)
-        return "render: '--spp' does not go with '--error', '--time', '--rays' or '--rounds', which choose "
-               "the "
-               "samples";
+        return "render: '--spp' cannot be used with '--error', '--time', '--rays' or '--rounds', which "
+               "choose the samples";
     return NULL;
 }
 
@@ -452,13 +449,13 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_render = {
     .name = "render",
-    .summary = "render a picture of a scene",
-    .too_few = "a scene is missing",
-    .operands = {{"SCENE", "the scene's file: Mitsuba's XML, .rad, or a model such as .glb",
+    .summary = "render a scene to an image",
+    .too_few = "no scene given",
+    .operands = {{"SCENE", "scene file: Mitsuba XML, Radiance .rad, or a model such as .glb",
                   .content = "file"},
                  {"MODEL",
-                  "more files of the scene; FILE@X,Y,Z[,TURN[,SCALE]] shifts one, turns it by degrees "
-                  "about the upward axis, and scales it",
+                  "further models; FILE@X,Y,Z[,TURN[,SCALE]] translates a model, rotates it about the up "
+                  "axis by TURN degrees, and scales it",
                   .optional = true, .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_stage_options, offsetof(render_command, stage)},

@@ -109,7 +109,7 @@ void cli_write_partial(const char *wanted, const aur_image *image) {
     const size_t length = dot != NULL ? (size_t)(dot - output) : strlen(output);
     snprintf(path, sizeof path, "%.*s.partial.exr", (int)length, output);
     if (aur_image_write(path, image, NULL, &error) == AUR_OK)
-        fprintf(stderr, "aureole: what there is of the picture is in %s\n", path);
+        fprintf(stderr, "aureole: wrote the unfinished image %s\n", path);
     else
         cli_fail(&error);
 }
@@ -164,16 +164,17 @@ void cli_explain_black(const aur_scene *scene, const aur_image *image) {
 
 void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end) {
     if (strcmp(output, "-") == 0)
-        output = "the picture";
+        output = "the image";
     if (is_black(image))
         aur_print(stderr, "aureole: warning: %s is black: no light of the scene reaches the camera\n",
                   output);
     else if (end->error > 0.0)
         aur_print(
             stderr,
-            "aureole: %s has an error of about %.*f %% of its mean or less, after %zu samples a pixel\n",
+            "aureole: %s has an error of at most about %.*f %% of its mean, after %zu samples per pixel\n",
             output, end->error < 0.1, 100.0 * end->error, end->samples);
     else
-        aur_print(stderr, "aureole: %s has %zu sample%s a pixel; --error 5%% would say how good it is\n",
+        aur_print(stderr,
+                  "aureole: %s has %zu sample%s per pixel; use --error 5%% to render to a target error\n",
                   output, end->samples, end->samples == 1 ? "" : "s");
 }

@@ -30,20 +30,18 @@ static aur_result parse_background(const char *text, void *field, aur_error *err
 }
 
 const cli_option cli_stage_options[] = {
-    {CLI_TEXT(
-        cli_stage, stage.camera, "camera", "VIEW", NULL,
-        "front, back, left, right, top, bottom, corner, iso or AZIMUTH,ELEVATION: a view that shows all "
-        "of the scene; or X,Y,Z,X,Y,Z[,FOV]: position, target, degrees across the height")},
+    {CLI_TEXT(cli_stage, stage.camera, "camera", "VIEW", NULL,
+              "front, back, left, right, top, bottom, corner, iso or AZIMUTH,ELEVATION: a camera that shows "
+              "the full scene; or X,Y,Z,X,Y,Z[,FOV]: position, target, vertical field of view in degrees")},
     {CLI_TEXT(cli_stage, stage.environment, "environment", "NAME", NULL,
-              "light from around the scene: studio, sky[:TURBIDITY], none, or a file of radiance in latitude "
-              "and longitude (.exr, .hdr)"),
+              "environment light: studio, sky[:TURBIDITY], none, or a latitude-longitude environment map "
+              "(.exr, .hdr)"),
      .content = "file"},
     {CLI_CHOICE(cli_stage, stage.ground, "ground", "KIND", "auto",
-                "a ground below the scene that shows shadows; auto: in studio and sky"),
+                "add a ground plane that catches shadows; auto: with studio and sky"),
      .key.words = (const char *const[]){"auto", "shadow", "none", NULL}},
     {CLI_TEXT(cli_stage, stage, "background", "COLOR", NULL,
-              "what the camera sees beyond the scene, in place of the environment: #rrggbb or a radiance "
-              "R,G,B"),
+              "background that the camera sees instead of the environment: #rrggbb or a radiance R,G,B"),
      .parse = parse_background},
     {.key = {0}}};
 
@@ -109,10 +107,10 @@ static aur_result parse_exposure(const char *text, void *field, aur_error *error
 
 const cli_option cli_display_options[] = {
     {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0",
-              "multiply radiance by 2^STOPS (PNG); auto: so that the geometric mean of luminance is .18"),
+              "multiply radiance by 2^STOPS (PNG); auto: scale the geometric mean of the luminance to .18"),
      .parse = parse_exposure},
     {CLI_CHOICE(cli_display, tone, "tone", "CURVE", "srgb",
-                "the tone curve (PNG); without one radiance 1 is white"),
+                "tone curve (PNG); radiance 1 is white by default"),
      .key.words = (const char *const[]){"srgb", "filmic", NULL}},
     {.key = {0}}};
 
@@ -144,7 +142,8 @@ const char *cli_display_conflict(const cli_display *display, const char *output)
     if (plain || aur_image_find_writer(output, NULL, &format, NULL) != AUR_OK ||
         aur_row_find_key(format, "exposure") != NULL)
         return NULL;
-    return "render: '--exposure' and '--tone' are for .png files: 'aureole convert' applies them to others";
+    return "render: '--exposure' and '--tone' need a .png output: 'aureole convert' applies them to other "
+           "files";
 }
 
 aur_result cli_display_write(const cli_display *display, const char *output, const aur_image *image,

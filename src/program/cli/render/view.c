@@ -15,9 +15,9 @@ typedef struct view_options {
 } view_options;
 
 static const cli_option options[] = {
-    {CLI_TEXT(view_options, output, "output", "FILE", "a new file in $TMPDIR or /tmp", "the page"),
+    {CLI_TEXT(view_options, output, "output", "FILE", "a new file in $TMPDIR or /tmp", "output page"),
      .letter = 'o', .key.computed = true, .content = "file", .writes = true},
-    {CLI_REAL(view_options, exposure, "exposure", "STOPS", -100, 100, "0", "what is seen first")},
+    {CLI_REAL(view_options, exposure, "exposure", "STOPS", -100, 100, "0", "initial exposure")},
     {.key = {0}}};
 
 extern char **environ;
@@ -80,12 +80,11 @@ static int run(const cli_call *call) {
 
 const cli_command cli_command_view = {
     .name = "view",
-    .summary = "pictures in a page to look at: flip, slider, differences, values",
-    .notes = "The page needs nothing beside it and no network; what it shows are the values of the pictures "
-             "as 16-bit floats. "
-             "The path of the page is printed; without -o, at a terminal of a desktop, the browser opens it.",
-    .too_few = "a picture is needed",
-    .operands = {{"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
+    .summary = "write a page that shows images: flip, slider, differences, values",
+    .notes = "The page is one file and needs no network. It shows the values of the images as 16-bit floats. "
+             "The path of the page is printed; without -o, in a desktop terminal, the browser opens it.",
+    .too_few = "no image given",
+    .operands = {{"IMAGE", "images of the same size", .repeated = true, .content = "file"}},
     .groups = {{options, 0}, {cli_picture_options, offsetof(view_options, picture)}},
     .size = sizeof(view_options),
     .run = run,

@@ -12,7 +12,7 @@ static aur_result make_page(const char *path, double exposure, size_t count, con
     FILE *const page = open_memstream(&text, &size);
     if (page == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    report_page_begin(page, "Aureole: pictures");
+    report_page_begin(page, "Aureole: images");
     aur_result result = report_page_viewer(page, "", exposure, count, pictures, error);
     if (result == AUR_OK)
         result = report_page_end(page, error);

@@ -9,11 +9,11 @@
 
 const cli_option cli_watch_options[] = {
     {CLI_TEXT(cli_watch, serve, "serve", "PORT", NULL,
-              "show the picture in a page while it is rendered, at [HOST:]PORT or at a free port of this "
-              "machine; the page's address is printed"),
+              "serve a page that shows the image during rendering, at [HOST:]PORT or a free port; the "
+              "address is printed"),
      .value_is_optional = true},
     {CLI_TEXT(cli_watch, display, "display-server", "HOST:PORT", NULL,
-              "send the picture to tev, or another image viewer with its protocol, while it is rendered")},
+              "send the image during rendering to tev or another viewer with its protocol")},
     {.key = {0}}};
 
 static void warn(cli_watch *watch) {
@@ -44,7 +44,7 @@ aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *erro
     const watch_options options = {.serve = watch->serve, .display = watch->display, .title = output};
     const aur_result result = watch_create(&options, &watch->watch, error);
     if (result == AUR_OK && watch_address(watch->watch) != NULL)
-        fprintf(stderr, "aureole: the picture is at %s\n", watch_address(watch->watch));
+        fprintf(stderr, "aureole: serving the image at %s\n", watch_address(watch->watch));
     return result;
 }
 
@@ -109,8 +109,8 @@ static void tell(cli_watch *watch, const aur_render *render) {
     char text[160], error[80] = "";
     const double relative = cli_relative_error(aur_render_film(render));
     if (relative > 0.0)
-        aur_format(error, sizeof error, "; the error is about %.2g %% of the mean or less", 100.0 * relative);
-    aur_format(text, sizeof text, "%zu of %zu samples a pixel%s", aur_render_samples(render),
+        aur_format(error, sizeof error, "; the error is at most about %.2g %% of the mean", 100.0 * relative);
+    aur_format(text, sizeof text, "%zu of %zu samples per pixel%s", aur_render_samples(render),
                aur_render_samples_wanted(render), error);
     watch_tell(watch->watch, text);
 }
@@ -133,8 +133,8 @@ void cli_watch_end(cli_watch *watch, const aur_image *image, aur_result result, 
     if (result != AUR_OK && result != AUR_ERROR_CANCELLED)
         aur_error_format(error, sizeof text, text);
     watch_end(watch->watch, image,
-              result == AUR_OK                ? "The picture is finished."
-              : result == AUR_ERROR_CANCELLED ? "The render has been stopped."
+              result == AUR_OK                ? "The image is finished."
+              : result == AUR_ERROR_CANCELLED ? "The render was stopped."
                                               : text);
     warn(watch);
     watch_destroy(watch->watch);

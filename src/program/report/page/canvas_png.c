@@ -169,7 +169,7 @@ static aur_result save_image(const char *path, report_canvas *c, aur_error *erro
     const size_t width = (size_t)c->width, height = (size_t)c->height;
     aur_image *image = NULL;
     if (c->pixels == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the picture");
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the image");
     aur_result result = aur_image_create(width, height, 3, &image, error);
     if (result == AUR_OK) {
         memcpy(aur_image_data(image), c->pixels, 3 * width * height * sizeof *c->pixels);

@@ -76,7 +76,7 @@ aur_result report_put_picture(FILE *page, const report_picture *picture, aur_err
     const size_t width = aur_image_width(picture->image), height = aur_image_height(picture->image);
     size_t channels[3];
     if (!aur_image_color_channels(picture->image, channels))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: a picture without colour", picture->name);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: an image without colour", picture->name);
     const size_t channel_count = is_grey(picture->image, channels) ? 1 : 3;
     const size_t size = 2 * channel_count * width * height;
     uLongf packed_size = compressBound(size);
@@ -117,7 +117,7 @@ aur_result report_page_viewer(FILE *page, const char *title, double exposure, si
         if (aur_image_width(pictures[i].image) != aur_image_width(first) ||
             aur_image_height(pictures[i].image) != aur_image_height(first))
             return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "%s has %zu x %zu pixels, and %s %zu x %zu: a viewer shows pictures of one size",
+                            "%s has %zu x %zu pixels, and %s %zu x %zu: a viewer shows images of one size",
                             pictures[i].name, aur_image_width(pictures[i].image),
                             aur_image_height(pictures[i].image), pictures[0].name, aur_image_width(first),
                             aur_image_height(first));

@@ -22,9 +22,8 @@ typedef struct envmap_keys {
 } envmap_keys;
 
 static const aur_key envmap_keys_table[] = {
-    {AUR_KEY_OF_TEXT(envmap_keys, "filename", filename, NULL,
-                     "the picture, beside the scene; must be given")},
-    {AUR_KEY_OF_REAL(envmap_keys, "scale", scale, 0.0, 1e30, "1", "radiance is the picture's times this")},
+    {AUR_KEY_OF_TEXT(envmap_keys, "filename", filename, NULL, "image file, relative to the scene; required")},
+    {AUR_KEY_OF_REAL(envmap_keys, "scale", scale, 0.0, 1e30, "1", "factor of the radiance")},
     {AUR_KEY_OF_TRANSFORM(envmap_keys, "to_world", to_world, "a rotation")},
 };
 
@@ -53,14 +52,13 @@ static aur_result read_picture(const aur_parameters *parameters, const aur_param
                            "emitter 'envmap' needs the string 'filename'");
     if (held == NULL || held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0)
         return aur_fail_at(error, held != NULL ? held->location : parameters->location, AUR_ERROR_FORMAT,
-                           "emitter 'envmap': the picture is named by the string 'filename'");
+                           "emitter 'envmap': the image is named by the string 'filename'");
     const aur_image *const image = held->object;
     const size_t width = aur_image_width(image), height = aur_image_height(image);
     float *rgb = NULL;
     aur_result result = aur_image_radiance(p->filename, image, &rgb, error);
     if (result == AUR_OK && (width < 2 || height < 2))
-        result =
-            aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the picture must be at least 2 x 2");
+        result = aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the image must be at least 2 x 2");
     else if (result == AUR_OK && keep_picture(width, height, rgb, (float)p->scale, self) != AUR_OK)
         result = aur_fail_memory_at(error, parameters->location);
     free(rgb);
@@ -272,7 +270,7 @@ static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *r
 
 const aur_emitter_descriptor aur_emitter_envmap = {
     .row = {.name = "envmap",
-            .summary = "a latitude-longitude picture around the scene, +y up",
+            .summary = "latitude-longitude environment map, +y up",
             AUR_ROW_KEYS(envmap_keys_table)},
     .size = sizeof(aur_envmap),
     .is_far = true,

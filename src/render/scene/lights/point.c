@@ -31,7 +31,7 @@ static const aur_key point_table[] = {
 
 static const aur_key spot_table[] = {
     {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power a steradian along the axis, RGB")},
-    {AUR_KEY_OF_COLOR(point_keys, "texture", picture, 1e30, NULL, "a picture across the cone: factor of it")},
+    {AUR_KEY_OF_COLOR(point_keys, "texture", picture, 1e30, NULL, "texture projected across the cone")},
     {AUR_KEY_OF_REAL(point_keys, "cutoff_angle", cutoff, 1e-3, 180.0, "20", "no light beyond, degrees")},
     {AUR_KEY_OF_REAL(point_keys, "beam_width", beam, 0.0, 180.0, "3/4 of cutoff_angle",
                      "full light within, degrees; at most cutoff_angle"),

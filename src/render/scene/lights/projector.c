@@ -22,12 +22,12 @@ typedef struct projector_keys {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_COLOR(projector_keys, "irradiance", irradiance, 1e30, "1",
-                      "the picture: at distance 1 along the axis, over pi")},
+                      "projected texture: radiance at distance 1 along the axis, over pi")},
     {AUR_KEY_OF_REAL(projector_keys, "scale", scale, 0.0, 1e30, "1", "factor of it")},
     {AUR_KEY_OF_REAL(projector_keys, "fov", fov, 1e-3, 180.0 - 1e-3, "of 50mm", "field of view, degrees"),
      .computed = true},
-    {AUR_KEY_OF_CHOICE(projector_keys, "fov_axis", axis, "x", "the side of the picture that fov spans", "x",
-                       "y", "diagonal", "smaller", "larger")},
+    {AUR_KEY_OF_CHOICE(projector_keys, "fov_axis", axis, "x", "axis of the image that fov spans", "x", "y",
+                       "diagonal", "smaller", "larger")},
     {AUR_KEY_OF_TRANSFORM(projector_keys, "to_world", to_world, "from a projector at the origin along +z")},
 };
 
@@ -117,7 +117,7 @@ static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur
 }
 
 const aur_emitter_descriptor aur_emitter_projector = {
-    .row = {.name = "projector", .summary = "a picture thrown into the scene", AUR_ROW_KEYS(keys)},
+    .row = {.name = "projector", .summary = "projects an image into the scene", AUR_ROW_KEYS(keys)},
     .size = sizeof(projector),
     .create = create,
     .prepare = prepare,

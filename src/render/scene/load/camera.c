@@ -36,9 +36,9 @@ typedef struct film_keys {
 enum { LARGEST_SIDE = 65536 };
 
 static const aur_key film_key_table[] = {
-    {AUR_KEY_OF_INTEGER(film_keys, "width", width, 1, LARGEST_SIDE, "768", "of the picture, pixels"),
+    {AUR_KEY_OF_INTEGER(film_keys, "width", width, 1, LARGEST_SIDE, "768", "size in pixels"),
      .computed = true},
-    {AUR_KEY_OF_INTEGER(film_keys, "height", height, 1, LARGEST_SIDE, "576", "of the picture, pixels"),
+    {AUR_KEY_OF_INTEGER(film_keys, "height", height, 1, LARGEST_SIDE, "576", "size in pixels"),
      .computed = true},
     {AUR_KEY_OF_INTEGER(film_keys, "crop_offset_x", crop_x, 0, LARGEST_SIDE - 1, "0",
                         "left edge of the part to render")},
@@ -55,12 +55,12 @@ static const aur_key film_key_table[] = {
 };
 
 static const aur_row hdrfilm = {
-    .name = "hdrfilm", .summary = "the picture", .source = "Mitsuba 3", AUR_ROW_KEYS(film_key_table)};
+    .name = "hdrfilm", .summary = "the image", .source = "Mitsuba 3", AUR_ROW_KEYS(film_key_table)};
 static const aur_row ldrfilm = {
     .name = "ldrfilm", .summary = "read as hdrfilm", .source = "Mitsuba 0.6", AUR_ROW_KEYS(film_key_table)};
 static const aur_row *const film_rows[] = {&hdrfilm, &ldrfilm};
 
-const aur_table aur_film_table = {.kind = "film", .summary = "sizes of pictures", AUR_TABLE_ROWS(film_rows)};
+const aur_table aur_film_table = {.kind = "film", .summary = "image sizes", AUR_TABLE_ROWS(film_rows)};
 
 /* The part of the picture that is to be rendered. */
 static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
@@ -124,7 +124,7 @@ static const char *set_for_sampler(const char *plugin) {
 }
 
 static const aur_key sampler_keys[] = {
-    {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples a pixel"),
+    {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples per pixel"),
      .minimum = 1.0, .maximum = AUR_SAMPLES_PER_PIXEL_MAX, .computed = true},
 };
 

@@ -12,7 +12,7 @@
 
 static const aur_key integrator_names[] = {
     NAME("strict_normals", "of no effect: it is always so"),
-    NAME("max_depth", "not needed: scenes set it for whatever integrator is asked for"),
+    NAME("max_depth", "not needed"),
 };
 static const aur_key bsdf_names[] = {
     NAME("sample_visible", "not needed: it is always so"),
@@ -53,11 +53,11 @@ static const aur_key film_names[] = {
     NAME("file_format", "not needed: the name of the output file says it"),
     NAME("pixel_format", "not needed: images are RGB"),
     NAME("component_format", "not needed: images are 32-bit floats where the format has them"),
-    NAME("banner", "of no effect: pictures carry none"),
+    NAME("banner", "of no effect: images carry none"),
     NAME("high_quality_edges", "of no effect: all edges are"),
     NAME("sample_border", "of no effect: samples lie within the image"),
     NAME("compensate", "of no effect: sums are exact enough"),
-    NAME("gamma", "of no effect: pictures are linear, PNG is sRGB"),
+    NAME("gamma", "of no effect: images are linear, PNG is sRGB"),
 };
 static const aur_key sampler_names[] = {NAME("seed", "of no effect: give it on the command line")};
 

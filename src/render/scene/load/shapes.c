@@ -39,7 +39,7 @@ static aur_result add_to_group(aur_loader *self, aur_shape_group *group, const a
     aur_shape *const shape = target->object;
     if (strcmp(plugin, AUR_GROUP_PLUGIN) == 0 || strcmp(plugin, instance_plugin) == 0 || shape->grouped)
         return aur_xml_fail(child, self->error,
-                            "a shapegroup takes shapes of its own, no instances or other groups");
+                            "a shapegroup takes shapes only, no instances or other groups");
     if (shape->emitter != AUR_NO_EMITTER)
         return aur_fail_at(self->error, child->location, AUR_ERROR_UNSUPPORTED,
                            "a shape in a shapegroup cannot be a light");
@@ -77,8 +77,7 @@ static aur_result build_group(aur_loader *self, aur_parameters *parameters, void
 }
 
 static const aur_key instance_keys[] = {
-    {AUR_KEY_OF_TRANSFORM(aur_instance, "to_world", to_world,
-                          "from the group's own coordinates to the scene's")},
+    {AUR_KEY_OF_TRANSFORM(aur_instance, "to_world", to_world, "group to world")},
 };
 
 static aur_result build_instance(aur_loader *self, aur_parameters *parameters, void **object) {

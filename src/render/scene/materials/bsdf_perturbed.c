@@ -162,7 +162,7 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
 
 const aur_bsdf_descriptor aur_bsdf_normalmap = {
     .row = {.name = "normalmap",
-            .summary = "the nested bsdf about the normals of a picture",
+            .summary = "normal map: the nested bsdf with perturbed normals",
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(normal_keys)},
     .size = sizeof(perturbed),
@@ -174,7 +174,7 @@ const aur_bsdf_descriptor aur_bsdf_normalmap = {
 
 const aur_bsdf_descriptor aur_bsdf_bumpmap = {
     .row = {.name = "bumpmap",
-            .summary = "the nested bsdf on a surface that a picture raises",
+            .summary = "bump map: the nested bsdf on a displaced surface",
             .source = "Blinn 1978",
             AUR_ROW_KEYS(bump_keys)},
     .size = sizeof(perturbed),

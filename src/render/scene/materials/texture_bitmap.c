@@ -135,13 +135,13 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_CHOICE(bitmap, "filter_type", filter, "bilinear",
                        "between pixels; trilinear and ewa of Mitsuba 0.6 are read as bilinear", "bilinear",
                        "nearest", "trilinear", "ewa")},
-    {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode", wrap, "repeat", "beyond the picture", "repeat", "mirror",
-                       "clamp")},
+    {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode", wrap, "repeat", "texture coordinates outside of the image",
+                       "repeat", "mirror", "clamp")},
     {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
-    {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "the picture, beside the scene; must be given")},
+    {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "image file, relative to the scene; required")},
     {AUR_KEY_OF_CHOICE(bitmap, "channel", channel, "rgb",
-                       "what of the picture is used; alpha is 1 in a picture that has none", "rgb", "red",
-                       "green", "blue", "alpha")},
+                       "channels to use; alpha is 1 in an image without it", "rgb", "red", "green", "blue",
+                       "alpha")},
     {AUR_KEY_OF_VECTOR(bitmap, "factor", factor, 0.0, 1e30, "1 1 1", "factors of red, green and blue")},
     {AUR_KEY_OF_REAL(bitmap, "cutoff", cutoff, 0.0, 1e30, "0",
                      "if above 0: texels become 1 from there on, after the factor, and 0 below")},
@@ -155,7 +155,7 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     aur_image *image = NULL;
     if (held != NULL && (held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0))
         return aur_fail_at(error, held->location, AUR_ERROR_FORMAT,
-                           "texture 'bitmap': the picture is named by the string 'filename'");
+                           "texture 'bitmap': the image is named by the string 'filename'");
     aur_result result = aur_row_read(&texture->descriptor->row, parameters, self, error);
     if (result == AUR_OK && self->path == NULL)
         result = aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
@@ -266,7 +266,7 @@ static void slope(const aur_texture *texture, aur_bsdf_point point, float result
 
 const aur_texture_descriptor aur_texture_bitmap = {
     .row = {.name = "bitmap",
-            .summary = "a picture from an EXR, PFM, HDR, PNG, JPEG, BMP or TGA file",
+            .summary = "an image from an EXR, PFM, HDR, PNG, JPEG, BMP or TGA file",
             .source = "",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(bitmap),

@@ -20,9 +20,9 @@ typedef struct lens_keys {
         {AUR_KEY_OF_CHOICE(lens_keys, "fov_axis", fov_axis, "x", "the side of the film that fov spans", "x", \
                            "y", "diagonal", "smaller", "larger")},                                           \
         {AUR_KEY_OF_REAL(lens_keys, "principal_point_offset_x", offset_x, -1e3, 1e3, "0",                    \
-                         "shifts the picture, in widths")},                                                  \
+                         "horizontal shift, in image widths")},                                              \
         {AUR_KEY_OF_REAL(lens_keys, "principal_point_offset_y", offset_y, -1e3, 1e3, "0",                    \
-                         "shifts the picture, in heights")},                                                 \
+                         "vertical shift, in image heights")},                                               \
     {                                                                                                        \
         AUR_KEY_OF_ITEM(lens_keys, "focal_length", focal_length, "50mm", "in place of fov, on 35 mm film",   \
                         "millimetres")                                                                       \

@@ -11,7 +11,7 @@ static const aur_key keys[] = {
                        "where it stands, with direction in place of to_world"),
      .computed = true},
     {AUR_KEY_OF_VECTOR(radiancemeter_keys, "direction", direction, -AUR_REACH, AUR_REACH, "by to_world",
-                       "where it looks"),
+                       "viewing direction"),
      .computed = true},
 };
 

@@ -23,11 +23,10 @@ typedef struct sensor_keys {
 } sensor_keys;
 
 static const aur_key common_keys[] = {
-    {AUR_KEY_OF_TRANSFORM(sensor_keys, "to_world", to_world,
-                          "from a camera at the origin that looks along +z, +y up")},
+    {AUR_KEY_OF_TRANSFORM(sensor_keys, "to_world", to_world, "camera to world; the camera faces +z, +y up")},
     {AUR_KEY_OF_REAL(sensor_keys, "near_clip", near_clip, 0.0, 1e30, "0.01", "nothing nearer is seen")},
     {AUR_KEY_OF_REAL(sensor_keys, "far_clip", far_clip, 0.0, INFINITY, "10000", "nothing farther is seen")},
-    {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "size and filter of the picture", "film")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "image size and filter", "film")},
     {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "the numbers of the camera's samples",
                      "sampler")},
     {AUR_KEY_OF_ITEM(sensor_keys, "medium", medium, NULL, "what it stands in", "medium")},

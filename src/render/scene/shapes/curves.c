@@ -189,7 +189,7 @@ typedef struct curve_keys {
 } curve_keys;
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_TEXT(curve_keys, "filename", filename, NULL, "the file, beside the scene; must be given")},
+    {AUR_KEY_OF_TEXT(curve_keys, "filename", filename, NULL, "file, relative to the scene; required")},
 };
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {

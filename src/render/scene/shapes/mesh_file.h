@@ -35,7 +35,7 @@ typedef struct aur_mesh_file_keys {
 /* Rows that every such shape has, of a table of aur_mesh_file_keys. */
 #define AUR_MESH_FILE_KEYS                                                                                   \
     {AUR_KEY_OF_TEXT(aur_mesh_file_keys, "filename", filename, NULL,                                         \
-                     "the file, beside the scene; must be given")},                                          \
+                     "file, relative to the scene; required")},                                              \
     {                                                                                                        \
         AUR_KEY_OF_BOOLEAN(aur_mesh_file_keys, "face_normals", face_normals, "false",                        \
                            "flat triangles, whatever normals the file has")                                  \

@@ -28,8 +28,7 @@ SHAPES(DECLARE)
 static const aur_row *const rows[] = {SHAPES(ADDRESS)};
 
 static const aur_key common_keys[] = {
-    {AUR_KEY_OF_TRANSFORM(aur_shape_keys, "to_world", to_world,
-                          "from the shape's own coordinates to the scene's")},
+    {AUR_KEY_OF_TRANSFORM(aur_shape_keys, "to_world", to_world, "object to world")},
     {AUR_KEY_OF_BOOLEAN(aur_shape_keys, "flip_normals", flip_normals, "false",
                         "normals point to the other side")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL,

@@ -114,7 +114,7 @@ static aur_result answer_find(conversation *self, const message *got) {
 
 static aur_result add_part(conversation *self, message *got) {
     aur_model_files *const files = self->files;
-    const char *const kind = got->kind == AUR_IMPORT_MESH ? "mesh" : "picture";
+    const char *const kind = got->kind == AUR_IMPORT_MESH ? "mesh" : "image";
     char text[512];
     snprintf(text, sizeof text, "%s, %s %zu", self->source->name, kind, files->count - self->first + 1);
     char *const name = strdup(text);
@@ -130,7 +130,7 @@ static aur_result add_part(conversation *self, message *got) {
 
 static aur_result take_picture(conversation *self, message *got) {
     char name[32];
-    snprintf(name, sizeof name, "picture %zu", ++self->pictures);
+    snprintf(name, sizeof name, "image %zu", ++self->pictures);
     const bool good = aur_named_is_picture(&self->named, name, got->size, got->data);
     const aur_result result = good ? add_part(self, got) : AUR_OK;
     return result == AUR_OK ? send(self, AUR_IMPORT_ANSWER, good, 0, NULL) : result;

@@ -327,7 +327,7 @@ static aur_result read_line(aur_rad *self, aur_rad_word command, size_t *count) 
 
 static aur_result fail_command(const aur_rad *self, aur_rad_word word, const char *after) {
     return aur_rad_fail(self, word.line, AUR_ERROR_UNSUPPORTED,
-                        "'%.*s' is not read after %s: write what the command makes into a file of its own",
+                        "'%.*s' is not supported after %s: write the output of the command to a file",
                         word.length > 40 ? 40 : (int)word.length, word.text, after);
 }
 
@@ -344,9 +344,9 @@ static aur_result take_files(aur_rad *self, size_t first, size_t count, const ch
     }
     self->file_count = count - first;
     self->next = 0;
-    return count > first ? AUR_OK
-                         : aur_rad_fail(self, self->words[0].line, AUR_ERROR_FORMAT,
-                                        "the file that is to be included is missing");
+    return count > first
+               ? AUR_OK
+               : aur_rad_fail(self, self->words[0].line, AUR_ERROR_FORMAT, "included file not found");
 }
 
 /* A surface that a generator makes stands in all poses of the command. */
