@@ -50,4 +50,30 @@ refused "must be a file and its place" irradiance open.rad --sensors one.pts --l
 refused "cannot find 'none.ies'" irradiance open.rad --sensors one.pts --lamp none.ies@1,2,3
 refused "points.pts" irradiance open.rad --sensors one.pts --lamp points.pts@1,2,3
 refused "it needs the string 'filename'" irradiance open.rad lamp.xml <(printf '<scene version="3.0.0"><emitter type="photometric"/></scene>') --sensors one.pts
+# Radiance's ies2rad writes the same lamp as a pattern on a light: a rectangle, turned and moved; a disk; a ball.
+printf 'IESNA:LM-63-1995\nTILT=NONE\n1 -1 1 4 2 1 2 0.6 0.3 0 1 1 9\n0 30 60 90\n0 90\n895 537 179 0\n895 358 89.5 0\n' >rectangle.ies
+printf '2\n0 90 2\n0 0 4\n 0 30 60\n 90\n 5 3 1 0 5 2 .5 0\n' >rectangle.dat
+printf "void brightdata d 5 flatcorr 'rectangle.dat' source.cal src_phi4 src_theta 0 1 5.555555555555556\nd light l 0 0 3 1 1 1\nl polygon p 0 0 12 -.15 -.3 2 -.15 .3 2 .15 .3 2 .15 -.3 2\n" >rectangle.rad
+printf '!xform -t 0 0 -2 -rx 90 -t 1 2 3 rectangle.rad\n' >there.rad
+printf 'IESNA:LM-63-1995\nTILT=NONE\n1 -1 1 3 1 1 2 -0.3 -0.3 0 1 1 9\n0 45 90\n0\n1790 895 0\n' >disk.ies
+printf '1\n0 90 3\n10 5 0\n' >disk.dat
+area=$(awk 'BEGIN { printf "%.15g", 1 / (atan2(0, -1) * .15 ^ 2) }')
+printf "void brightdata d 4 flatcorr disk.dat source.cal src_theta 0 1 $area\nd light l 0 0 3 1 1 1\nl ring p 0 0 8 0 0 2 0 0 -1 0 .15\n" >disk.rad
+sed 's/flatcorr/corr/; s/ring.*/sphere p 0 0 4 0 0 2 .15/' disk.rad >ball.rad
+sed 's/-0.3 -0.3/0 0/' disk.ies >ball.ies
+printf '0 0 0 0 0 1\n1 2 0 0 0 1\n3 1 1 0 0 1\n2 5 2 -1 -1 0\n' >about.pts
+same() { # FILE.rad LAMP
+  "$aureole" irradiance -q open.rad $1 --sensors about.pts -n 256 -o a.csv && "$aureole" irradiance -q open.rad --lamp $2 --sensors about.pts -n 256 -o b.csv || fail "$1"
+  paste -d, a.csv b.csv | awk -F, 'NR > 1 { d = $4 - $13; if (d < 0) d = -d; sum += $4; if (!(d <= 1e-5 * $13)) bad = 1 } END { exit bad || !(sum > 0) }' || fail "$1 is not $2: $(paste a.csv b.csv)"
+}
+same rectangle.rad rectangle.ies@0,0,2
+same there.rad rectangle.ies@1,2,3,0,1,0,0
+same disk.rad disk.ies@0,0,2
+same ball.rad ball.ies@0,0,2
+sed 's/src_phi4/src_other/' rectangle.rad >bad.rad
+refused "its modifier must be 'void', not 'd'" irradiance open.rad bad.rad --sensors about.pts
+sed 's/polygon.*/sphere p 0 0 4 0 0 0 1/' rectangle.rad >bad.rad
+refused "a measured lamp is read on a polygon" irradiance open.rad bad.rad --sensors about.pts
+head -c 20 rectangle.dat >short.dat && sed 's/rectangle.dat/short.dat/' rectangle.rad >bad.rad
+refused "'short.dat':4: a table of 2 dimensions expected" irradiance open.rad bad.rad --sensors about.pts
 finish

@@ -1,6 +1,7 @@
 /* Measured lamps: points of the luminous opening, each of which shines by direction as the whole lamp does.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "render/scene/emitter.h"
 #include "render/scene/lights/photometry.h"
@@ -16,7 +17,7 @@ typedef struct photometric_light {
 } photometric_light;
 
 typedef struct photometric_keys {
-    const char *filename;
+    const char *filename, *text;
     aur_color color;
     aur_transform to_world;
     double lumens, scale;
@@ -26,6 +27,7 @@ typedef struct photometric_keys {
 static const aur_key keys[] = {
     {AUR_KEY_OF_TEXT(photometric_keys, "filename", filename, NULL,
                      "an IES (LM-63, 1986 to 2019) or EULUMDAT file; must be given")},
+    {AUR_KEY_OF_TEXT(photometric_keys, "text", text, NULL, "the content of such a file, in its place")},
     {AUR_KEY_OF_TRANSFORM(photometric_keys, "to_world", to_world,
                           "from a lamp at the origin that shines along -z, with C 0 along +x, in metres")},
     {AUR_KEY_OF_COLOR(photometric_keys, "color", color, 1e30, "1", "factor of the light, RGB")},
@@ -50,10 +52,13 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
         result = aur_to_world_check(parameters, &p.to_world, &self->to_local, error);
     if (result == AUR_OK && p.color.texture != NULL)
         return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED, "'color' cannot be a texture");
-    if (result == AUR_OK && p.filename == NULL)
-        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "it needs the string 'filename'");
+    if (result == AUR_OK && (p.filename == NULL) == (p.text == NULL))
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "it needs the string 'filename', or 'text'");
     if (result == AUR_OK)
-        result = aur_photometry_read(p.filename, &self->lamp, error);
+        result = p.text != NULL ? aur_photometry_parse(parameters->location.file, strlen(p.text), p.text,
+                                                       &self->lamp, error)
+                                : aur_photometry_read(p.filename, &self->lamp, error);
     if (result != AUR_OK)
         return result;
     const double flux = aur_photometry_flux(&self->lamp);

@@ -196,13 +196,16 @@ static bool is_plain(const aur_rad *self, aur_rad_word name) {
 static aur_result read_material(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material = {.name = item->name};
     const aur_rad_material *const under = aur_rad_find_material(self, item->modifier);
-    const bool emits = item->row->emits, patterned = under != NULL && under->sky != NULL && !under->emits;
+    const bool emits = item->row->emits,
+               patterned = under != NULL && (under->sky != NULL || under->lamp != NULL) && !under->emits;
     const bool plain = is_plain(self, item->modifier) && (emits || !patterned);
     aur_result result = plain || (self->scene->diffuse && !emits) ? AUR_OK : need_void(self, item);
     if (result == AUR_OK && !plain)
         ++self->scene->diffuse_count;
-    if (result == AUR_OK && emits && patterned)
+    if (result == AUR_OK && emits && patterned) {
         material.sky = under->sky;
+        material.lamp = under->lamp;
+    }
     if (result == AUR_OK)
         result = item->row->add(self, item, &material);
     return result == AUR_OK ? add_material(self, material) : result;
@@ -258,9 +261,10 @@ static aur_result read_surface(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material;
     const aur_rad_word own = self->pose.modifier;
     const aur_result result = find_modifier(self, own.length > 0 ? own : item->modifier, &material);
-    return result != AUR_OK || (material.nothing && strcmp(item->row->name, "instance") != 0)
-               ? result
-               : item->row->add(self, item, &material);
+    if (result != AUR_OK || (material.nothing && strcmp(item->row->name, "instance") != 0))
+        return result;
+    return material.lamp != NULL ? aur_rad_add_lamp(self, item, &material)
+                                 : item->row->add(self, item, &material);
 }
 
 /* What a primitive becomes whose arguments have been read. */
@@ -282,7 +286,8 @@ static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
         return result;
     /* With --diffuse a pattern changes nothing: it is what it modifies. An illum with one is the window that
      * it stands for. */
-    const bool pattern = aur_rad_is_word(item->type, "brightfunc"),
+    const bool pattern =
+                   aur_rad_is_word(item->type, "brightfunc") || aur_rad_is_word(item->type, "brightdata"),
                window = aur_rad_is_word(item->type, "illum") && item->string_count > 0;
     const aur_rad_material *const under =
         aur_rad_find_material(self, window ? item->strings[0] : item->modifier);

@@ -166,6 +166,7 @@ const aur_rad_row aur_rad_materials[] = {
     {"glow", 4, 4, 0, true, true, add_light},
     {"illum", 3, 3, 1, true, true, add_light},
     {"brightfunc", 0, SIZE_MAX, SIZE_MAX, true, false, add_pattern},
+    {"brightdata", 0, SIZE_MAX, SIZE_MAX, true, false, aur_rad_add_distribution},
     {.name = NULL},
 };
 
@@ -195,11 +196,11 @@ static const struct {
                  {"metdata", METAL, 4},        {"transdata", SHEET_DATA, 6}, {"BSDF", MATRIX, 0},
                  {"aBSDF", MATRIX, 0},         {"WGMDfunc", NO_FORM, 0},     {"antimatter", NO_SURFACE, 0},
                  {"mist", NO_SURFACE, 0},      {"texfunc", NO_FORM, 0},      {"texdata", NO_FORM, 0},
-                 {"colorfunc", NO_FORM, 0},    {"colordata", NO_FORM, 0},    {"brightdata", NO_FORM, 0},
-                 {"colorpict", NO_FORM, 0},    {"colortext", NO_FORM, 0},    {"brighttext", NO_FORM, 0},
-                 {"mixfunc", MIXTURE, 0},      {"mixdata", MIXTURE, 0},      {"mixpict", MIXTURE, 0},
-                 {"mixtext", MIXTURE, 0},      {"spectrum", NO_FORM, 0},     {"specfile", NO_FORM, 0},
-                 {"specfunc", NO_FORM, 0},     {"specdata", NO_FORM, 0},     {"specpict", NO_FORM, 0}};
+                 {"colorfunc", NO_FORM, 0},    {"colordata", NO_FORM, 0},    {"colorpict", NO_FORM, 0},
+                 {"colortext", NO_FORM, 0},    {"brighttext", NO_FORM, 0},   {"mixfunc", MIXTURE, 0},
+                 {"mixdata", MIXTURE, 0},      {"mixpict", MIXTURE, 0},      {"mixtext", MIXTURE, 0},
+                 {"spectrum", NO_FORM, 0},     {"specfile", NO_FORM, 0},     {"specfunc", NO_FORM, 0},
+                 {"specdata", NO_FORM, 0},     {"specpict", NO_FORM, 0}};
 
 enum { MODIFIERS = sizeof modifiers / sizeof modifiers[0] };
 

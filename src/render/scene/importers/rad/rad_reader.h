@@ -45,6 +45,7 @@ struct aur_rad_material {
     aur_xml_node *bsdf, *interior, *exterior;
     double radiance[3]; /* of those that emit, times what a sky says */
     aur_rad_sky *sky;   /* in the scene's arena: the pattern, or the pattern of those that emit; or NULL */
+    const struct aur_rad_lamp *lamp; /* the same of a measured lamp (rad_lamp.c) */
     /* In the scene's arena, where the material is not supported: the error of the first surface that uses it.
      */
     const aur_error *unsupported;
@@ -157,3 +158,8 @@ typedef struct aur_rad_bsdf_means {
 /* Of the visible matrices of a file in Klems' format (LBNL WINDOW), means of both sides. Errors: OPEN,
  * FORMAT, UNSUPPORTED for files without such matrices. */
 aur_result aur_rad_bsdf_read(aur_rad *self, aur_rad_word name, aur_rad_bsdf_means *means);
+
+/* brightdata, where it is the distribution of a measured lamp; and the lamp, for a surface of such a light.
+ */
+aur_result aur_rad_add_distribution(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material);
+aur_result aur_rad_add_lamp(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material);

@@ -1,0 +1,220 @@
+/* Measured lamps as ies2rad writes them: brightdata by directions of source.cal on a light. */
+#include <aureole/text.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "points/base/vector3d.h"
+#include "render/scene/importers/rad/rad_reader.h"
+
+enum { MOST_ANGLES = 4096 };
+
+static const double PI = 3.14159265358979323846;
+
+/* Radiance by direction: values[planes][angles], times `factor`; of flat ones over the cosine too. */
+struct aur_rad_lamp {
+    bool flat;
+    double factor;
+    double turn[3][3]; /* columns are the axes of the lamp's frame in the world */
+    size_t plane_count, angle_count;
+    double *planes, *angles, *values; /* in the scene's arena */
+};
+
+static aur_result fail(const aur_rad *self, const aur_rad_primitive *item, const char *what) {
+    return aur_rad_fail(self, item->type.line, AUR_ERROR_UNSUPPORTED, "%.*s: %s", (int)item->type.length,
+                        item->type.text, what);
+}
+
+static bool next_number(aur_rad *reading, double *number) {
+    aur_rad_word word;
+    return aur_rad_next_word(reading, &word) && aur_rad_number(word, number);
+}
+
+/* One dimension of the file: begin, end and count, of which 0 0 is followed by the places. */
+static double *read_angles(aur_rad *self, aur_rad *reading, size_t *count) {
+    double begin, end, number;
+    if (!next_number(reading, &begin) || !next_number(reading, &end) || !next_number(reading, &number) ||
+        !(number >= 1.0 && number <= MOST_ANGLES))
+        return NULL;
+    *count = (size_t)number;
+    double *const angles = aur_arena_allocate(self->scene->arena, *count * sizeof *angles);
+    for (size_t i = 0; i < *count && angles != NULL; ++i) {
+        angles[i] = *count > 1 ? begin + (end - begin) * (double)i / (double)(*count - 1) : begin;
+        if (begin == end && *count > 1 && !next_number(reading, &angles[i]))
+            return NULL;
+    }
+    return angles;
+}
+
+static bool read_values(aur_rad *self, aur_rad *reading, struct aur_rad_lamp *lamp, size_t dimensions) {
+    static double zero[1];
+    double number = 0.0;
+    lamp->plane_count = 1;
+    lamp->planes = zero;
+    if (!next_number(reading, &number) || number != (double)dimensions)
+        return false;
+    if (dimensions == 2)
+        lamp->planes = read_angles(self, reading, &lamp->plane_count);
+    lamp->angles = read_angles(self, reading, &lamp->angle_count);
+    if (lamp->planes == NULL || lamp->angles == NULL)
+        return false;
+    const size_t count = lamp->plane_count * lamp->angle_count;
+    lamp->values = aur_arena_allocate(self->scene->arena, count * sizeof *lamp->values);
+    for (size_t i = 0; i < count && lamp->values != NULL; ++i)
+        if (!next_number(reading, &lamp->values[i]))
+            return false;
+    return lamp->values != NULL;
+}
+
+/* The file's pose and that of the pattern, without their scales. */
+static aur_result take_turn(aur_rad *self, const aur_rad_primitive *item, size_t first,
+                            struct aur_rad_lamp *lamp) {
+    size_t used = 0;
+    aur_result result = aur_rad_read_xform(self, item->string_count - first, item->strings + first, &used);
+    if (result == AUR_OK && (used + first < item->string_count || self->pose_count != 1))
+        result = fail(self, item, "options of xform expected after the angles");
+    if (result == AUR_OK) {
+        const aur_rad_pose pose = aur_rad_pose_multiply(&self->pose, &self->poses[0]);
+        if (aur_rad_pose_mirrors(&pose))
+            result = fail(self, item, "the mirror image of a lamp is not read");
+        for (size_t i = 0; i < 3; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                lamp->turn[i][k] = pose.m[4 * i + k] / pose.scale;
+    }
+    self->pose_count = 0;
+    return result;
+}
+
+/* brightdata: flatcorr or corr, FILE, source.cal, [src_phi, src_phi2 or src_phi4] src_theta, options of
+ * xform; one number, the factor. */
+aur_result aur_rad_add_distribution(aur_rad *self, const aur_rad_primitive *item,
+                                    aur_rad_material *material) {
+    const size_t count = item->string_count;
+    const bool flat = count > 3 && aur_rad_is_word(item->strings[0], "flatcorr");
+    const bool plain = count > 3 && aur_rad_is_word(item->strings[0], "corr");
+    const size_t dimensions = count > 3 && aur_rad_is_word(item->strings[3], "src_theta") ? 1 : 2;
+    if (!(flat || plain) || !aur_rad_is_word(item->strings[2], "source.cal") || count < 3 + dimensions ||
+        (dimensions == 2 && (strncmp(item->strings[3].text, "src_phi", 7) != 0 ||
+                             !aur_rad_is_word(item->strings[4], "src_theta"))))
+        return fail(self, item,
+                    "only corr and flatcorr by angles of source.cal are read, as ies2rad writes them");
+    struct aur_rad_lamp *const lamp = aur_arena_allocate(self->scene->arena, sizeof *lamp);
+    if (lamp == NULL)
+        return aur_fail_memory(self->error);
+    *lamp = (struct aur_rad_lamp){.flat = flat, .factor = item->number_count > 0 ? item->numbers[0] : 1.0};
+    char *text;
+    size_t size;
+    aur_result result = aur_rad_read_file(self, item->strings[1], &text, &size);
+    if (result != AUR_OK)
+        return result == AUR_ERROR_OPEN ? AUR_ERROR_UNSUPPORTED : result; /* it may be unused */
+    aur_rad reading = {.at = text, .end = text + size, .line = 1};
+    if (!read_values(self, &reading, lamp, dimensions))
+        result = aur_rad_fail(self, item->strings[1].line, AUR_ERROR_FORMAT,
+                              "'%.*s':%zu: a table of %zu dimensions expected", (int)item->strings[1].length,
+                              item->strings[1].text, reading.line, dimensions);
+    free(text);
+    if (result == AUR_OK)
+        result = take_turn(self, item, 3 + dimensions, lamp);
+    material->lamp = lamp;
+    return result;
+}
+
+/* The opening: its middle, area, and sizes along the lamp's x and y; `round` or not. */
+typedef struct opening {
+    double middle[3], area, sizes[2];
+    bool round;
+} opening;
+
+/* A rectangle along the lamp's axes. */
+static bool measure_rectangle(const struct aur_rad_lamp *lamp, const aur_rad_primitive *item, opening *made) {
+    const double *const p = item->numbers;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, twice[3] = {0.0};
+    const size_t count = item->number_count / 3;
+    for (size_t i = 0; i < count; ++i) {
+        double cross[3];
+        aur_cross3(p + 3 * i, p + 3 * ((i + 1) % count), cross);
+        for (size_t d = 0; d < 3; ++d) {
+            twice[d] += cross[d];
+            made->middle[d] += p[3 * i + d] / (double)count;
+        }
+        for (size_t k = 0; k < 2; ++k) {
+            const double along = p[3 * i] * lamp->turn[0][k] + p[3 * i + 1] * lamp->turn[1][k] +
+                                 p[3 * i + 2] * lamp->turn[2][k];
+            low[k] = fmin(low[k], along);
+            high[k] = fmax(high[k], along);
+        }
+    }
+    made->area = 0.5 * aur_length3(twice);
+    made->sizes[0] = high[0] - low[0];
+    made->sizes[1] = high[1] - low[1];
+    return count == 4 && fabs(made->sizes[0] * made->sizes[1] - made->area) <= 1e-3 * made->area;
+}
+
+static bool measure(const aur_rad *self, const struct aur_rad_lamp *lamp, const aur_rad_primitive *item,
+                    opening *made) {
+    const double *const x = item->numbers;
+    const bool ring = strcmp(item->row->name, "ring") == 0, ball = strcmp(item->row->name, "sphere") == 0;
+    *made = (opening){.round = ring};
+    if (strcmp(item->row->name, "polygon") == 0 && lamp->flat && item->number_count % 3 == 0) {
+        for (size_t i = 0; i < item->number_count / 3; ++i)
+            aur_rad_pose_apply(&self->pose, 1.0, item->numbers + 3 * i);
+        return measure_rectangle(lamp, item, made);
+    }
+    if (!(ring && lamp->flat) && !(ball && !lamp->flat))
+        return false;
+    memcpy(made->middle, x, sizeof made->middle);
+    aur_rad_pose_apply(&self->pose, 1.0, made->middle);
+    const double inner = ring ? fmin(x[6], x[7]) : 0.0,
+                 radius = self->pose.scale * (ring ? fmax(x[6], x[7]) : x[3]);
+    made->area = PI * radius * radius;
+    made->sizes[0] = made->sizes[1] = ring ? 2.0 * radius : 0.0;
+    return inner == 0.0 && radius > 0.0;
+}
+
+/* As LM-63: intensities are radiance times projected area. */
+static char *write_ies(const struct aur_rad_lamp *lamp, const opening *o, size_t *size) {
+    char *text = NULL;
+    FILE *const stream = open_memstream(&text, size);
+    if (stream == NULL)
+        return NULL;
+    const double sign = o->round ? -1.0 : 1.0;
+    aur_print(stream, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 %zu %zu 1 2 %.9g %.9g 0\n1 1 0\n",
+              lamp->angle_count, lamp->plane_count, sign * o->sizes[1], sign * o->sizes[0]);
+    for (size_t i = 0; i < lamp->angle_count; ++i)
+        aur_print(stream, "%.9g\n", lamp->angles[i]);
+    for (size_t i = 0; i < lamp->plane_count; ++i)
+        aur_print(stream, "%.9g\n", lamp->planes[i]);
+    for (size_t i = 0; i < lamp->plane_count * lamp->angle_count; ++i)
+        aur_print(stream, "%.9g\n", 179.0 * o->area * lamp->factor * lamp->values[i]);
+    if (fclose(stream) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+aur_result aur_rad_add_lamp(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material) {
+    const struct aur_rad_lamp *const lamp = material->lamp;
+    aur_nodes *const nodes = self->nodes;
+    opening made;
+    if (!measure(self, lamp, item, &made))
+        return fail(
+            self, item,
+            "a measured lamp is read on a polygon (a rectangle along its axes) or ring with flatcorr, or on "
+            "a sphere with corr");
+    size_t size = 0;
+    char *const text = write_ies(lamp, &made, &size);
+    if (text == NULL)
+        return aur_fail_memory(self->error);
+    const double(*const t)[3] = lamp->turn, *const m = made.middle;
+    const double matrix[16] = {t[0][0], t[0][1], t[0][2], m[0], t[1][0], t[1][1], t[1][2], m[1],
+                               t[2][0], t[2][1], t[2][2], m[2], 0.0,     0.0,     0.0,     1.0};
+    aur_xml_node *const emitter = aur_node_object(nodes, self->parent, "emitter", "photometric");
+    aur_node_property(nodes, emitter, "string", "text", "%s", text);
+    aur_node_numbers(nodes, emitter, "rgb", "color", 3, material->radiance);
+    aur_xml_node *const to_world = aur_node_add(nodes, emitter, "transform");
+    aur_node_set(nodes, to_world, "name", "to_world");
+    aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, matrix);
+    free(text);
+    return nodes->result;
+}
