@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "points/base/fourier.h"
-#include "points/pointset/digits/run.h"
+#include "points/pointset/generators/lattice.h"
 #include "points/pointset/set.h"
 
 enum { DIMENSIONS = 256, LEVELS = 20, PLAIN_SIZE = 4096 };
@@ -21,9 +21,8 @@ typedef struct vector {
 static void fill(const aur_pointset *set, const aur_block *block) {
     const vector *const data = set->data;
     for (size_t d = 0; d < block->dimension_count; ++d) {
-        const uint64_t step = data->of[block->first_dimension + d] % set->size;
-        aur_run run; /* both factors are below 2^20 */
-        aur_run_of_multiples(block->first % set->size * step % set->size, step, set->size, &run);
+        aur_run run;
+        aur_run_of_lattice(data->of[block->first_dimension + d], block->first, set->size, &run);
         run.next(&run, block->count, block->data + d * block->coordinate_stride);
     }
 }
@@ -147,15 +146,6 @@ static bool search_powers(uint64_t size, size_t dimension, double decay, vector 
 
 /* --- any size */
 
-static uint64_t common_divisor(uint64_t a, uint64_t b) {
-    while (b != 0) {
-        const uint64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 static bool search_all(uint64_t size, size_t dimension, double decay, vector *found) {
     double *const product = malloc(2 * (size_t)size * sizeof *product), *const values = product + size;
     if (product == NULL)
@@ -167,7 +157,7 @@ static bool search_all(uint64_t size, size_t dimension, double decay, vector *fo
     for (size_t d = 0; d < dimension; ++d) {
         double least = INFINITY;
         for (uint64_t z = 1; z <= (d == 0 ? 1 : size / 2 + 1); ++z) {
-            if (common_divisor(z, size) != 1)
+            if (aur_common_divisor(z, size) != 1)
                 continue;
             double sum = 0.0;
             for (uint64_t k = 0, at = 0; k < size; ++k, at = (at + z) % size)
@@ -210,7 +200,7 @@ static uint64_t choose_multiplier(uint64_t size, size_t dimension, double decay)
     uint64_t best = 1;
     for (uint64_t t = 0; t < tries; ++t) {
         uint64_t a = (t * 2 + 1) * size / (4 * tries);
-        while (a < size && common_divisor(a, size) != 1)
+        while (a < size && aur_common_divisor(a, size) != 1)
             ++a;
         if (a == 0 || a >= size)
             continue;

@@ -8,12 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "points/pointset/digits/run.h"
-
-static uint64_t multiply_modulo(uint64_t a, uint64_t b, uint64_t n) {
-    __extension__ typedef unsigned __int128 wide;
-    return (uint64_t)((wide)a * b % n);
-}
+#include "points/pointset/generators/lattice.h"
 
 /* False for coordinates with an offset, which are no fractions of whole numbers. */
 static bool make_run(const aur_pointset *set, size_t dimension, uint64_t first, aur_run *run) {
@@ -24,8 +19,7 @@ static bool make_run(const aur_pointset *set, size_t dimension, uint64_t first, 
         aur_run_of_fraction(0, aur_golden_fraction, first, run);
         return true;
     }
-    const uint64_t step = data->vector[dimension] % set->size;
-    aur_run_of_multiples(multiply_modulo(first % set->size, step, set->size), step, set->size, run);
+    aur_run_of_lattice(data->vector[dimension], first, set->size, run);
     return true;
 }
 
@@ -71,22 +65,13 @@ static size_t parse_vector(const char *text, uint64_t vector[AUR_LATTICE_CAPACIT
     return 0;
 }
 
-static uint64_t common_divisor(uint64_t a, uint64_t b) {
-    while (b != 0) {
-        const uint64_t rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 /* The number nearest to N / Phi that has no factor in common with N: a Fibonacci number for Fibonacci N. */
 static uint64_t golden_generator(uint64_t n) {
     const uint64_t middle = (uint64_t)((double)n * 0.61803398874989484820 + 0.5);
     for (uint64_t distance = 0; distance < n; ++distance) {
-        if (common_divisor(middle + distance, n) == 1)
+        if (aur_common_divisor(middle + distance, n) == 1)
             return (middle + distance) % n;
-        if (distance <= middle && common_divisor(middle - distance, n) == 1)
+        if (distance <= middle && aur_common_divisor(middle - distance, n) == 1)
             return middle - distance;
     }
     return 1;
