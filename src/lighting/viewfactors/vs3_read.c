@@ -8,7 +8,7 @@
 #include "points/base/file.h"
 #include "points/base/text.h"
 
-enum { LARGEST_FILE = 1 << 30, MOST_WORDS = 16 };
+enum { LARGEST_FILE = 1 << 30, MOST_WORDS = 16, DEEPEST = 16 };
 
 /* A line of the file as words. */
 typedef struct line {
@@ -20,6 +20,7 @@ typedef struct line {
 typedef struct surface {
     size_t corners[4], count; /* indices of vertices */
     size_t base, leader;      /* numbers of other surfaces, or 0 */
+    size_t depth;             /* how many surfaces stand below: bases of bases */
     size_t line;
 } surface;
 
@@ -131,6 +132,9 @@ static aur_result read_surface(reading *self) {
         !read_index(l, 7, self->surface_count, &made.leader))
         return fail(self, l->number, AUR_ERROR_FORMAT,
                     "S: base and combined surface must be 0 or the number of a surface above");
+    made.depth = made.base > 0 ? self->surfaces[made.base - 1].depth + 1 : 0;
+    if (made.depth > DEEPEST)
+        return fail(self, l->number, AUR_ERROR_UNSUPPORTED, "S: more than 16 surfaces on each other");
     if (made.leader > 0 && self->surfaces[made.leader - 1].leader > 0)
         return fail(self, l->number, AUR_ERROR_FORMAT, "S: combined with a surface that is combined itself");
     if (l->count > 8 && !(read_number(l, 8, &emittance) && emittance >= 0.0 && emittance <= 1.0))
@@ -166,14 +170,6 @@ static aur_result read_line(reading *self) {
     }
 }
 
-/* How many surfaces stand below: those on others come first, so that they are cut out of these. */
-static size_t depth_of(const reading *self, size_t index) {
-    size_t depth = 0;
-    for (size_t base = self->surfaces[index].base; base > 0; base = self->surfaces[base - 1].base)
-        ++depth;
-    return depth;
-}
-
 static void write_surface(const reading *self, size_t index, size_t *lines, FILE *stream) {
     const surface *const s = &self->surfaces[index];
     for (; *lines < s->line; ++*lines) /* so that messages name the file's lines */
@@ -201,7 +197,7 @@ static aur_result write_scene(reading *self) {
         return aur_fail_memory(self->error);
     }
     for (size_t i = 0; i < count; ++i) {
-        const size_t depth = depth_of(self, i);
+        const size_t depth = self->surfaces[i].depth;
         deepest = depth > deepest ? depth : deepest;
         numbers[i] = self->surfaces[i].leader > 0 ? numbers[self->surfaces[i].leader - 1] : made->group_count;
         if (self->surfaces[i].leader > 0)
@@ -212,9 +208,10 @@ static aur_result write_scene(reading *self) {
         made->emittances[made->group_count++] = made->emittances[i];
     }
     fputs("void plastic s 0 0 5 .5 .5 .5 0 0 ", stream);
+    /* Surfaces on others come first, so that they are cut out of these. */
     for (size_t depth = deepest + 1; depth-- > 0;)
         for (size_t i = 0; i < count; ++i)
-            if (depth_of(self, i) == depth) {
+            if (self->surfaces[i].depth == depth) {
                 made->groups[written++] = (uint32_t)numbers[i];
                 write_surface(self, i, &lines, stream);
             }
@@ -233,6 +230,23 @@ void aur_vs3_release(aur_vs3 *self) {
     *self = (aur_vs3){0};
 }
 
+aur_result aur_vs3_parse(const char *path, size_t size, const char *data, aur_vs3 *made, aur_error *error) {
+    *made = (aur_vs3){0};
+    reading self = {.path = path, .at = data, .end = data + size, .made = made, .error = error};
+    aur_result result = AUR_OK;
+    while (result == AUR_OK && next_line(&self) && (self.line.words[0][0] & ~32) != 'E')
+        result = read_line(&self);
+    if (result == AUR_OK && self.surface_count == 0)
+        result = fail(&self, self.line.number, AUR_ERROR_FORMAT, "no surface (S) is here");
+    if (result == AUR_OK)
+        result = write_scene(&self);
+    free(self.vertices);
+    free(self.surfaces);
+    if (result != AUR_OK)
+        aur_vs3_release(made);
+    return result;
+}
+
 aur_result aur_vs3_read(const char *path, aur_vs3 *made, aur_error *error) {
     *made = (aur_vs3){0};
     char *text;
@@ -240,17 +254,7 @@ aur_result aur_vs3_read(const char *path, aur_vs3 *made, aur_error *error) {
     aur_result result = aur_file_read(path, LARGEST_FILE, &text, &size, error);
     if (result != AUR_OK)
         return result;
-    reading self = {.path = path, .at = text, .end = text + size, .made = made, .error = error};
-    while (result == AUR_OK && next_line(&self) && (self.line.words[0][0] & ~32) != 'E')
-        result = read_line(&self);
-    if (result == AUR_OK && self.surface_count == 0)
-        result = fail(&self, self.line.number, AUR_ERROR_FORMAT, "no surface (S) is here");
-    if (result == AUR_OK)
-        result = write_scene(&self);
+    result = aur_vs3_parse(path, size, text, made, error);
     free(text);
-    free(self.vertices);
-    free(self.surfaces);
-    if (result != AUR_OK)
-        aur_vs3_release(made);
     return result;
 }
