@@ -60,16 +60,36 @@ static double left_to_error(const aur_candidate *candidate, double part) {
     return aur_candidate_rays(candidate) * fmax(whole / now - 1.0, 0.0);
 }
 
+/* By what the race found; without the maps, which are made first. It may be that the samples tell of more. */
+static double left_by_race(const aur_adaptive *adaptive) {
+    const aur_race *const race = &adaptive->race;
+    const double need = race->entries[adaptive->races ? AUR_RACE_MIDDLE : adaptive->row].need;
+    if (adaptive->races || !(need > 0.0))
+        return need > 0.0 ? need : INFINITY;
+    const double maps = aur_photon_work(adaptive->photons * adaptive->target.replicas);
+    return fmax(need - maps - aur_candidate_rays(&adaptive->candidate), 0.0);
+}
+
+static double left_to_target(const aur_adaptive *adaptive, double part) {
+    const double left = adaptive->races ? INFINITY : left_to_error(&adaptive->candidate, part);
+    if (!adaptive->races && adaptive->row == AUR_RACE_PATH)
+        return left;
+    const double by_race = left_by_race(adaptive);
+    const double samples = left < INFINITY && by_race < INFINITY ? fmax(left, by_race) : fmin(left, by_race);
+    return samples + aur_adaptive_corrections_left(adaptive);
+}
+
 /* What is left by whatever ends the work first. */
 static rays_on_the_way find_rays(const aur_adaptive *adaptive, double done) {
     const aur_adaptive_options *const target = &adaptive->target;
     const aur_candidate *const candidate = &adaptive->candidate;
-    const double part = ((double)candidate->replica + done) / (double)candidate->replicas.count;
+    const double part = ((double)candidate->replica + done) / fmax((double)candidate->replicas.count, 1.0);
     aur_render_statistics spent;
     aur_candidate_spent(candidate, &spent);
-    rays_on_the_way rays = {aur_candidate_rays(candidate) + (double)adaptive->others.rays, INFINITY};
-    if (!adaptive->races && target->error > 0.0) /* a race takes what it finds out */
-        rays.left = left_to_error(candidate, part);
+    const uint64_t others = adaptive->races ? adaptive->race.spent.rays : adaptive->others.rays;
+    rays_on_the_way rays = {aur_candidate_rays(candidate) + (double)others, INFINITY};
+    if (target->error > 0.0)
+        rays.left = left_to_target(adaptive, part);
     double share = 0.0;
     if (target->rays > 0)
         share = (aur_candidate_rays(candidate) +
@@ -93,9 +113,11 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
         return 1;
     if (adaptive->progress.function == NULL)
         return 0;
-    if (adaptive->candidate.replicas.pixel_count == 0) /* it is being prepared */
+    const bool prepares = adaptive->candidate.replicas.pixel_count == 0;
+    if (prepares && adaptive->share.share == 0.0) /* nothing is known yet */
         return adaptive->progress.function(adaptive->progress.user, what, 0, 0);
-    const rays_on_the_way rays = find_rays(adaptive, total > 0 ? (double)done / (double)total : 0.0);
+    const double part = prepares || total == 0 ? 0.0 : (double)done / (double)total;
+    const rays_on_the_way rays = find_rays(adaptive, part);
     const bool renders = !adaptive->races && adaptive->candidate.rounds > 0;
     return aur_progress_tell(&adaptive->progress, renders ? "rendering" : "planning", &adaptive->share,
                              rays.done, rays.left);

@@ -52,6 +52,8 @@ aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_erro
 /* Runs the race and takes the winner. Errors: CANCELLED, after which it begins again; MEMORY and others. */
 aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
 
+/* Rays of corrections that are expected to be needed still, to bound the bias. */
+double aur_adaptive_corrections_left(const aur_adaptive *adaptive);
 /* Computes `bias` from the corrections. */
 void aur_adaptive_bound_bias(aur_adaptive *adaptive);
 /* To be called after each round; `last`: the noise has come to its target. Renders corrections, bounds the

@@ -204,6 +204,17 @@ static double most_corrections(const aur_adaptive *adaptive) {
     return fmax(0.5 * path, aur_candidate_rays(&adaptive->candidate));
 }
 
+/* Where products of noise make the interval, it shrinks as one over the rays. */
+double aur_adaptive_corrections_left(const aur_adaptive *adaptive) {
+    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
+    const double room = pow(BIAS_PART * adaptive->target.error, 2.0), seen = fmax(bias->estimate, 0.0);
+    const double most = 4.0; /* times the rays so far: two steps */
+    const double growth = room > seen ? fmin((bias->high - seen) / (room - seen), most) : most;
+    return adaptive->corrections.steps > 0 && bias->high > room
+               ? (growth - 1.0) * aur_corrections_rays(&adaptive->corrections)
+               : 0.0;
+}
+
 static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *error) {
     aur_race *const race = &adaptive->race;
     aur_race_entry *const entry = &race->entries[adaptive->row];

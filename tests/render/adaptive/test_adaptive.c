@@ -166,6 +166,7 @@ typedef struct progress_record {
     aur_adaptive *asked;
     size_t count, unknown; /* reports of how much is done; and those that nobody knows */
     double shares[2048], rays[2048];
+    double unknown_rays; /* at the last report that nobody knows */
 } progress_record;
 
 static int keep_progress(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -175,8 +176,10 @@ static int keep_progress(void *user, const char *what, uint64_t done, uint64_t t
     assert_true(strcmp(what, "rendering") == 0 || strcmp(what, "planning") == 0);
     assert_true(total == 0 ? done == 0 : done < total); /* the work is not over */
     record->unknown += total == 0;
-    if (total == 0)
+    if (total == 0) {
+        record->unknown_rays = (double)report_of(record->asked).statistics.rays;
         return 0;
+    }
     if (record->count > 0 && record->count < 2048)
         assert_true((double)done / (double)total >= record->shares[record->count - 1]);
     if (record->count < 2048) {
@@ -217,6 +220,30 @@ static void test_progress(void **state) {
         if (done > 0.1 && done < 0.9)
             assert_true(left > 0.5 * (1.0 - done) && left < 2.0 * (1.0 - done));
     }
+    aur_adaptive_destroy(record.asked);
+}
+
+/* A race tells what is left of final gathering, and the bar goes on through maps, rounds and corrections. */
+static void test_progress_of_race(void **state) {
+    const fixture *const f = *state;
+    static progress_record record;
+    aur_render_options options = small(1);
+    options.width = options.height = 96;
+    options.use_cache = 0;
+    options.progress = (aur_progress){keep_progress, &record};
+    aur_adaptive_options target = {.size = sizeof target};
+    aur_adaptive_options_init(&target, NULL);
+    target.error = 0.05;
+    assert_int_equal(aur_adaptive_create(f->renderer, &options, &target, &record.asked, NULL), AUR_OK);
+    assert_int_equal(aur_adaptive_run(record.asked, NULL), AUR_OK);
+    assert_non_null(strstr(aur_adaptive_integrator(record.asked), "finalgather"));
+    const double all = (double)report_of(record.asked).statistics.rays;
+    double off = 0.0;
+    for (size_t i = 0; i < record.count; ++i)
+        off += fabs(record.shares[i] - record.rays[i] / all) / (double)record.count;
+    print_message("%zu reports, %.3f off in the mean, unknown until %.3f\n", record.count, off,
+                  record.unknown_rays / all);
+    assert_true(record.count > 50 && record.unknown_rays < 0.2 * all && off < 0.25);
     aur_adaptive_destroy(record.asked);
 }
 
@@ -372,6 +399,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),
                                        cmocka_unit_test(test_choice),
                                        cmocka_unit_test(test_progress),
+                                       cmocka_unit_test(test_progress_of_race),
                                        cmocka_unit_test(test_unknown_progress),
                                        cmocka_unit_test(test_rounds_and_rays),
                                        cmocka_unit_test(test_rays_make_the_pattern),
