@@ -102,6 +102,18 @@ bad "no surface" "! nothing"
 [ "$(head -1 svf.inp.042)" = "# sky view factors" ] && [ "$(grep -c . facetarea.inp.042)" = 17 ] || fail "uDALES's files: $(head svf.inp.042)"
 { awk '{ print $1, $3 }' vfsparse.inp.042; grep -v '#' svf.inp.042 | awk '{ print NR, $1 }'; } |
   awk '$1 >= 13 { sum[$1] += $2 } END { for (i in sum) { ++n; if (sum[i] > 1.000001 || sum[i] < .9) bad = 1 } exit bad || n != 4 }' || fail "uDALES's rows"
+# Types of facets: what these absorb is what arrives times 1 - albedo. The ground has the sun, 500, and the room is closed.
+mkdir case
+awk 'BEGIN { print "# type, normal"; for (i = 0; i < 16; ++i) print (i < 12 ? 1 : -101), 0, 0, 1 }' >case/facets.inp.042
+printf '# wallid lGR z0 z0h al em d1\n -101 0 .1 .1 .2 .9 1\n 1 0 .1 .1 .6 .9 1\n' >case/factypes.inp.042
+"$aureole" viewfactors open.obj --surfaces case/facets.inp.042 --sun 0,0,500 -q -o case/netsw.inp.042 2>/dev/null || fail "net short-wave"
+[ "$(head -1 case/netsw.inp.042 | cut -c1-25)" = "# net shortwave on facets" ] && [ "$(grep -c . case/netsw.inp.042)" = 17 ] || fail "netsw.inp: $(cat case/netsw.inp.042)"
+"$aureole" viewfactors open.obj --surfaces case/facets.inp.042 --sun 0,0,500 -q -o rows.csv 2>/dev/null
+paste -d, <(tail -n +2 rows.csv) <(tail -n +2 case/netsw.inp.042) | awk -F, '{ a = $1 < 12 ? .6 : .2; d = $9 - (1 - a) * $6; if (!(d < 6e-5 && d > -6e-5)) bad = 1; sum += $9 } END { exit bad || !(sum > 2 * .8 * 500 && sum < 900) }' || fail "what facets absorb"
+sed -i '2d' case/facets.inp.042
+refused "case/facets.inp.042: 15 facets, and the mesh has 16 rows" open.obj --surfaces case/facets.inp.042 --sun 0,0,500
+sed -i '2s/^1 /7 /' case/facets.inp.042
+refused "case/facets.inp.042:2: a line for each facet" open.obj --surfaces case/facets.inp.042 --sun 0,0,500
 refused "vfsparse.inp.NNN expected" open.obj --to udales -o other.txt
 
 # --- a target error

@@ -62,7 +62,8 @@ static const cli_option options[] = {
               "for --radiosity: emission of every facet")},
     {CLI_TEXT(factor_command, surfaces, "surfaces", "FILE", NULL,
               "solve for radiosity with surface data from CSV: name (of a group, or *) or row, reflectance "
-              "or emittance, emission or temperature in kelvin; also reports irradiance and net flux"),
+              "or emittance, emission or temperature in kelvin, or from uDALES's facets.inp.NNN; also "
+              "reports irradiance and net flux"),
      .content = "file"},
     {CLI_FLAG(factor_command, script, "script-f",
               "write Hottel's script F instead of view factors, with the emittances of --surfaces or of a "

@@ -1,6 +1,7 @@
 /* Radiosities of facets under sun and sky, with the matrix or by products without one. */
 #include <aureole/text.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "program/cli/cli.h"
 #include "program/cli/lighting/viewfactors.h"
@@ -39,6 +40,31 @@ static aur_result write_rows(const aur_facets *facets, const double *numbers, bo
     return result;
 }
 
+/* uDALES's netsw.inp.NNN: what facets absorb of the short-wave light. */
+static aur_result write_absorbed(const aur_facets *facets, const double *numbers,
+                                 const aur_facets_light *light, const char *output, aur_error *error) {
+    const size_t rows = aur_facets_rows(facets);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const stream = open_memstream(&text, &size);
+    if (stream == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    fputs("# net shortwave on facets [W/m2] (including reflections and diffusive)\n", stream);
+    for (size_t i = 0; i < rows; ++i) {
+        const double reflectance = light->reflectances != NULL ? light->reflectances[i] : light->reflectance;
+        aur_print(stream, "%.4f\n", (1.0 - reflectance) * numbers[rows * INCOMING + i]);
+    }
+    const aur_result result = fclose(stream) == 0 ? aur_file_write(output, size, text, error)
+                                                  : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    free(text);
+    return result;
+}
+
+static bool is_named(const char *path, const char *name) {
+    const char *const slash = path != NULL ? strrchr(path, '/') : NULL;
+    return path != NULL && strncmp(slash != NULL ? slash + 1 : path, name, strlen(name)) == 0;
+}
+
 int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_options *options,
                               bool matrix_free, bool net, const aur_facets_light *light, report_format format,
                               const char *output) {
@@ -60,7 +86,9 @@ int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_o
         result = aur_view_factors_solve(facets, factors, options, light, &wanted, &error);
     }
     cli_progress_clear();
-    if (result == AUR_OK)
+    if (result == AUR_OK && is_named(output, "netsw.inp"))
+        result = write_absorbed(facets, numbers, light, output, &error);
+    else if (result == AUR_OK)
         result =
             write_rows(facets, numbers, net, format == REPORT_TABLE ? REPORT_CSV : format, output, &error);
     aur_view_factors_destroy(factors);

@@ -126,18 +126,118 @@ static int check_rows(const table_reading *self, const aur_facets *facets, const
     return CLI_SUCCESS;
 }
 
-int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *made) {
-    const size_t rows = aur_facets_rows(facets);
+/* --- uDALES: facets.inp.NNN has the type of each facet, and factypes.inp.NNN beside it albedos of types */
+
+enum { MOST_TYPES = 256, ALBEDO = 4 };
+
+typedef struct facet_types {
+    size_t count;
+    double types[MOST_TYPES], albedos[MOST_TYPES];
+} facet_types;
+
+/* The first `count` numbers of a line with blanks between; false where there are fewer. */
+static bool read_blanks(char *line, size_t count, double *numbers) {
+    size_t found = 0;
+    for (char *rest = line, *word; found < count && (word = strtok_r(rest, " \t\r\n", &rest)) != NULL;
+         ++found)
+        if (!aur_parse_double(word, &numbers[found]))
+            return false;
+    return found == count;
+}
+
+/* Hands the numbers of each line that is no comment to `use`. */
+static int read_lines(const char *path, size_t count, int (*use)(table_reading *, const double *, void *),
+                      void *context) {
     table_reading self = {.path = path};
     FILE *const file = fopen(path, "r");
     if (file == NULL)
         return cli_bad_usage("%s: cannot be opened", path);
+    char *line = NULL;
+    size_t capacity = 0;
+    int status = CLI_SUCCESS;
+    while (status == CLI_SUCCESS && getline(&line, &capacity, file) >= 0) {
+        double numbers[ALBEDO + 1];
+        ++self.line;
+        if (line[strspn(line, " \t\r\n")] == '\0' || line[strspn(line, " \t")] == '#')
+            continue;
+        status = read_blanks(line, count, numbers) ? use(&self, numbers, context)
+                                                   : fail(&self, "numbers expected", line);
+    }
+    free(line);
+    fclose(file);
+    return status;
+}
+
+static int use_type(table_reading *self, const double *numbers, void *context) {
+    facet_types *const types = context;
+    if (types->count == MOST_TYPES || !(numbers[ALBEDO] >= 0.0 && numbers[ALBEDO] <= 1.0))
+        return fail(self, "at most 256 types with albedos from 0 to 1 expected", "al");
+    types->types[types->count] = numbers[0];
+    types->albedos[types->count++] = numbers[ALBEDO];
+    return CLI_SUCCESS;
+}
+
+typedef struct facet_rows {
+    const facet_types *types;
+    size_t row, count;
+    cli_surfaces *made;
+} facet_rows;
+
+static int use_facet(table_reading *self, const double *numbers, void *context) {
+    facet_rows *const rows = context;
+    const facet_types *const types = rows->types;
+    size_t i = 0;
+    while (i < types->count && types->types[i] != numbers[0])
+        ++i;
+    if (rows->row == rows->count || i == types->count)
+        return fail(self, "a line for each facet, of a type of factypes.inp, expected",
+                    rows->row == rows->count ? "too many lines" : "unknown type");
+    rows->made->reflectances[rows->row] = types->albedos[i];
+    rows->made->emittances[rows->row] = 1.0 - types->albedos[i];
+    rows->made->emissions[rows->row++] = 0.0;
+    return CLI_SUCCESS;
+}
+
+static const char UDALES[] = "facets.inp";
+
+/* Whether the path names uDALES's facets.inp.NNN; *name is where that begins. */
+static bool is_udales(const char *path, size_t *name) {
+    const char *const slash = strrchr(path, '/');
+    *name = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    return strncmp(path + *name, UDALES, sizeof UDALES - 1) == 0;
+}
+
+static int read_udales(const char *path, size_t name, const aur_facets *facets, cli_surfaces *made) {
+    facet_types types = {.count = 0};
+    facet_rows rows = {.types = &types, .count = aur_facets_rows(facets), .made = made};
+    char beside[1024];
+    const int length = snprintf(beside, sizeof beside, "%.*sfactypes.inp%s", (int)name, path,
+                                path + name + sizeof UDALES - 1);
+    if (length >= (int)sizeof beside)
+        return cli_bad_usage("%s: the path is too long", path);
+    int status = read_lines(beside, ALBEDO + 1, use_type, &types);
+    if (status == CLI_SUCCESS)
+        status = read_lines(path, 1, use_facet, &rows);
+    if (status == CLI_SUCCESS && rows.row != rows.count)
+        status = cli_bad_usage("%s: %zu facets, and the mesh has %zu rows", path, rows.row, rows.count);
+    return status;
+}
+
+int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *made) {
+    const size_t rows = aur_facets_rows(facets);
+    table_reading self = {.path = path};
     made->emittances = malloc((3 * rows + 1) * sizeof *made->emittances);
     int status = made->emittances != NULL ? CLI_SUCCESS : cli_bad_usage("out of memory");
     for (size_t i = 0; i < rows && status == CLI_SUCCESS; ++i)
         made->emittances[i] = NAN;
     made->reflectances = made->emittances + rows;
     made->emissions = made->reflectances + rows;
+    size_t name;
+    if (status != CLI_SUCCESS || is_udales(path, &name))
+        return status != CLI_SUCCESS ? status : read_udales(path, name, facets, made);
+    FILE *const file = fopen(path, "r");
+    if (file == NULL)
+        return cli_bad_usage("%s: cannot be opened", path);
     char *line = NULL;
     size_t capacity = 0;
     while (status == CLI_SUCCESS && getline(&line, &capacity, file) >= 0) {
