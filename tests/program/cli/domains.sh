@@ -116,7 +116,6 @@ tail -n +2 directions.csv | awk -F, 'BEGIN { print "x,y,z,w# domain: hemisphere"
 tail -n +2 directions.csv | awk 'BEGIN { print "x,y,z,w# domain: hemisphere" } { print $0 ",.0625" }' >equal-directions.csv
 for command in "measure file:%-square.csv -m star --format csv" "render scene.xml -q --spp 16 -o - --sampler file:%-square.csv" \
   "render scene.xml -q --spp 1 -o - --integrator finalgather:pattern=(file:%-square.csv),diffuse_samples=16,glossy_samples=16,photons=100" \
-  "render scene.xml -q --spp 1 -o - --integrator finalgather-lab:pattern=(file:%-directions.csv),scramble=rotate,diffuse_samples=16,glossy_samples=16,photons=100" \
   "render scene.xml -q --spp 1 -o - --integrator ao:pattern=(file:%-directions.csv),scramble=rotate,samples=16" \
   "irradiance scene.xml --sensors sensors.pts -n 256 --set file:%-directions.csv"; do
   says 2 "weights" ${command/\%/weighted}
