@@ -91,6 +91,8 @@ typedef struct aur_scene_stage {
      * other light sources at infinity; NULL keeps them. */
     const char *environment;
     aur_scene_ground ground;
+    bool has_time; /* that of models which assimp reads: where their first animation has nodes and skins */
+    double time;   /* seconds */
     bool has_background;
     double background[3]; /* radiance, RGB, of what the camera sees where there is no surface */
     double aspect;        /* width over height of the image that is framed; 0: the film's */

@@ -5,6 +5,7 @@
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
+#include <aureole/text.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -73,6 +74,10 @@ int main(int argc, char **argv) {
         gltf_read(&self, name);
         gltf_refine_meshes(&self, self.scene->mRootNode, gltf_root(&self, self.scene->mRootNode));
     }
+    const char *const time = name + strlen(name) + 1;
+    double seconds = 0.0;
+    const bool moving = aur_parse_double(time, &seconds);
+    writer_pose(&self, moving, seconds);
     write_scene(&self);
     _exit(0); /* nothing is to be cleaned up, and damaged structures may not bear it */
 }

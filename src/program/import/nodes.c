@@ -235,6 +235,8 @@ static void place_named(writer *self, const struct aiNode *node, const writer_ma
             place_camera(self, scene->mCameras[i], to_world);
 }
 
+static const writer_matrix unmoved = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+
 static void place_node(writer *self, const struct aiNode *node, const gltf_node *exact,
                        const writer_matrix *outer) {
     const writer_matrix to_world = below(outer, node, exact);
@@ -242,8 +244,10 @@ static void place_node(writer *self, const struct aiNode *node, const gltf_node 
     const size_t count = gltf_instances(self, exact, &copies);
     for (size_t k = 0; k < (count > 0 ? count : 1); ++k) {
         const writer_matrix own = count > 0 ? multiply(&to_world, copies[k]) : to_world;
-        for (unsigned i = 0; i < node->mNumMeshes; ++i)
-            place_mesh(self, node->mMeshes[i], &own);
+        for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+            const bool skinned = self->skinned && self->scene->mMeshes[node->mMeshes[i]]->mNumBones > 0;
+            place_mesh(self, node->mMeshes[i], skinned ? &unmoved : &own);
+        }
     }
     free(copies);
     place_named(self, node, &to_world);
@@ -252,9 +256,8 @@ static void place_node(writer *self, const struct aiNode *node, const gltf_node 
 }
 
 void writer_put_nodes(writer *self) {
-    const writer_matrix identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     const gltf_node *const root = gltf_root(self, self->scene->mRootNode);
     count_uses(self, self->scene->mRootNode, root);
     put_groups(self);
-    place_node(self, self->scene->mRootNode, root, &identity);
+    place_node(self, self->scene->mRootNode, root, &unmoved);
 }

@@ -26,6 +26,7 @@ typedef struct writer {
     const struct aiScene *scene;
     FILE *records; /* of elements: render/scene/importers/model/message.h */
     bool is_gltf;
+    bool skinned;        /* meshes with bones are in the world, wherever their nodes are */
     unsigned first;      /* files before this model: makes ids of several models differ */
     unsigned files;      /* of this model, so far */
     unsigned *mesh_file; /* of each mesh: its file, or NO_FILE where there is no triangle */
@@ -57,6 +58,9 @@ unsigned writer_add_mesh_file(writer *self, size_t size, const void *data);
 /* The same of a picture; NO_FILE for one that cannot be read. */
 unsigned writer_add_picture_file(writer *self, size_t size, const void *data);
 
+/* Puts nodes, morph targets and skins of the first animation where they are at that time; without `moving`,
+ * skins and targets of glTF as they are at rest. */
+void writer_pose(writer *self, bool moving, double seconds);
 /* The meshes as PLY files: positions, and what they have of normals, texture coordinates and colours. */
 void writer_add_meshes(writer *self);
 /* <bsdf>s with the ids material-FIRST-i. */

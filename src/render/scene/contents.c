@@ -17,6 +17,8 @@ static void write_stage(const aur_scene_stage *stage, FILE *stream) {
         fprintf(stream, "environment %s\n", stage->environment);
     if (stage->ground != AUR_SCENE_GROUND_AUTO)
         fprintf(stream, "ground %u\n", (unsigned)stage->ground);
+    if (stage->has_time)
+        fprintf(stream, "time %.17g\n", stage->time);
     if (stage->has_background)
         fprintf(stream, "background %.17g %.17g %.17g\n", b[0], b[1], b[2]);
     for (size_t i = 0; i < stage->placement_count; ++i) {

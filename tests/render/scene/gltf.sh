@@ -120,10 +120,42 @@ with open("body.ply", "w") as file:
         file.write(" ".join(map(str, p + n + (uv[0], uv[1]))) + "\n")
     for i in range(0, len(indices), 3):
         file.write("3 %d %d %d\n" % tuple(indices[i:i + 3]))
+
+# Motion: a node, a morph target and a skin half way between keys, beside models that stand there.
+m, attributes, index = build(False)
+times, moves = m.add([1.0, 3.0], FLOAT), m.add([(0, 0, 0), (2, 4, 0)], FLOAT)
+turns = m.add([(0, 0, 0, 1), (0, 1, 0, 0)], FLOAT)  # half a turn about y
+for entry in (times,):
+    m.accessors[entry].update(min=[1.0], max=[3.0])
+ups = [(0, 2, 0)] * len(points)
+lift = m.bounds(m.add(ups, FLOAT), ups)
+weights = m.add([0.0, 1.0], FLOAT)
+def moving(name, tree, *channels):
+    tree["animations"] = [{"samplers": [{"input": times, "output": output} for _, _, output in channels],
+                           "channels": [{"sampler": i, "target": {"node": node, "path": path}} for i, (node, path, _) in enumerate(channels)]}]
+    m.write(name + ".gltf", tree)
+moving("node", m.tree(attributes, index, [{"mesh": 0}]), (0, "translation", moves), (0, "rotation", turns))
+tree = m.tree(attributes, index, [{"mesh": 0}])
+tree["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": lift}]
+tree["meshes"][0]["weights"] = [0]
+moving("morph", tree, (0, "weights", weights))
+joints = m.add([(1, 0, 0, 0)] * len(points), USHORT)
+full = m.add([(1.0, 0.0, 0.0, 0.0)] * len(points), FLOAT)
+identity = tuple(float(i % 5 == 0) for i in range(16))
+m.views.append({"buffer": 0, "byteOffset": len(m.data), "byteLength": 128})
+m.data += struct.pack("<32f", *(identity * 2))
+m.accessors.append({"bufferView": len(m.views) - 1, "componentType": FLOAT, "count": 2, "type": "MAT4"})
+tree = m.tree(dict(attributes, JOINTS_0=joints, WEIGHTS_0=full), index, [{"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"children": [2]}, {}])
+tree["scenes"][0]["nodes"] = [0, 1]
+tree["skins"] = [{"joints": [1, 2], "inverseBindMatrices": len(m.accessors) - 1}]
+moving("skin", tree, (2, "translation", moves))
+for name, transform in (("node", {"translation": [1, 2, 0], "rotation": [0, 0.5 ** 0.5, 0, 0.5 ** 0.5]}), ("morph", {"translation": [0, 1, 0]}),
+                        ("skin", {"translation": [1, 2, 0]}), ("skin-rest", {})):
+    m.write(name + "-there.gltf", m.tree(attributes, index, [dict({"mesh": 0}, **transform)]))
 PYTHON
 
 draw() { # draw FILE OUTPUT
-  "$aureole" render "$1" -q --camera 3,2,6,0.5,0.5,0.5,40 --environment studio --width 32 --height 24 --spp 16 --filter box -o "$2" || fail "$1 is not rendered"
+  "$aureole" render "$1" -q "${@:3}" --camera 3,2,6,0.5,0.5,0.5,40 --environment studio --width 32 --height 24 --spp 16 --filter box -o "$2" || fail "$1 is not rendered"
 }
 draw float.gltf float.exr
 for model in integer.gltf integer.glb beside.gltf; do
@@ -140,4 +172,12 @@ for name in sheen specular volume sheet; do
   draw $name.xml scene.exr
   "$aureole" compare scene.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "$name is not its scene: $(cat compared)"
 done
+for name in node morph skin; do
+  draw $name.gltf made.exr --at 2
+  draw $name-there.gltf there.exr
+  "$aureole" compare there.exr made.exr --metric relative-rmse --tolerance 1e-4 >compared || fail "$name.gltf is elsewhere at 2 s: $(cat compared)"
+done
+draw skin.gltf made.exr
+draw skin-rest-there.gltf there.exr
+"$aureole" compare there.exr made.exr --metric relative-rmse --tolerance 1e-4 >compared || fail "a skin is not where its bones are: $(cat compared)"
 exit 0

@@ -29,6 +29,14 @@ static aur_result parse_background(const char *text, void *field, aur_error *err
     return AUR_OK;
 }
 
+static aur_result parse_time(const char *text, void *field, aur_error *error) {
+    aur_scene_stage *const stage = field;
+    stage->has_time = aur_parse_double(text, &stage->time) && fabs(stage->time) < 1e9;
+    return stage->has_time
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT, "--at: expected a time in seconds, not '%s'", text);
+}
+
 const cli_option cli_stage_options[] = {
     {CLI_TEXT(cli_stage, stage.camera, "camera", "VIEW", NULL,
               "front, back, left, right, top, bottom, corner, iso or AZIMUTH,ELEVATION: a camera that shows "
@@ -43,6 +51,9 @@ const cli_option cli_stage_options[] = {
     {CLI_TEXT(cli_stage, stage, "background", "COLOR", NULL,
               "background that the camera sees instead of the environment: #rrggbb or a radiance R,G,B"),
      .parse = parse_background},
+    {CLI_TEXT(cli_stage, stage, "at", "SECONDS", NULL,
+              "show a model as its first animation has it at this time; without it at rest"),
+     .parse = parse_time},
     {.key = {0}}};
 
 size_t cli_split_numbers(const char *text, size_t most, double *numbers) {

@@ -7,6 +7,7 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
+#include "points/base/text.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };
 
@@ -198,13 +199,19 @@ static aur_result take(conversation *self, message *got, bool *over) {
 }
 
 static aur_result start(conversation *self) {
-    const size_t version = strlen(aur_version()) + 1, name = strlen(self->source->name) + 1;
-    char *const text = malloc(version + name);
+    const aur_model_source *const source = self->source;
+    const size_t version = strlen(aur_version()) + 1, name = strlen(source->name) + 1;
+    char time[32] = "";
+    if (source->time != NULL)
+        aur_format(time, sizeof time, "%.17g", *source->time);
+    const size_t size = version + name + strlen(time) + 1;
+    char *const text = malloc(size);
     if (text == NULL)
-        return aur_fail_memory_at(self->error, self->source->location);
+        return aur_fail_memory_at(self->error, source->location);
     memcpy(text, aur_version(), version);
-    memcpy(text + version, self->source->name, name);
-    const aur_result result = send(self, AUR_IMPORT_START, (uint32_t)self->first, version + name, text);
+    memcpy(text + version, source->name, name);
+    memcpy(text + version + name, time, strlen(time) + 1);
+    const aur_result result = send(self, AUR_IMPORT_START, (uint32_t)self->first, size, text);
     free(text);
     return result;
 }

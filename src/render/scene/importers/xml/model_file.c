@@ -33,6 +33,7 @@ aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_option
                                      .size = size,
                                      .data = data,
                                      .stage = included ? NULL : &document->stage,
+                                     .time = options->stage.has_time ? &options->stage.time : NULL,
                                      .warnings = &options->warnings,
                                      .progress = options->progress,
                                      .location = nodes->location,
