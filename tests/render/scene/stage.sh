@@ -141,5 +141,5 @@ refused 'sky:TURBIDITY' --environment sky:20
 refused "cannot find 'nothing.exr'" --environment nothing.exr
 refused 'R,G,B' --background 1,2
 refused 'FILE@X,Y,Z' one.obj@1,2
-refused "are for .png" --exposure 1
+refused "need a .png output" --exposure 1
 exit 0
