@@ -15,7 +15,7 @@ import aureole
 SETS = {
     6: (16384, [("cbc", "shift"), ("cbc:baker=true", "shift"), ("interlaced", "owen"), ("sobol", "owen"),
                 ("cascaded", "owen"), ("r2", "shift"), ("random", "none")]),
-    2: (1024, [("cbc", "shift"), ("cbc:baker=true", "shift"), ("sobol", "owen"), ("pmj02", "none"), ("sliced", "none"), ("bnot", "shift"),
+    2: (1024, [("cbc", "shift"), ("cbc:baker=true", "shift"), ("sobol", "owen"), ("pmj02", "none"), ("owen-tree", "none"), ("sliced", "none"), ("bnot", "shift"),
                ("blue-noise", "shift"), ("jittered", "none"), ("random", "none")]),
 }  # fmt: skip
 

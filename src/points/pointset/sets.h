@@ -30,6 +30,7 @@
     ROW(blue_noise)                                                                                          \
     ROW(bnot)                                                                                                \
     ROW(sliced)                                                                                              \
+    ROW(owen_tree)                                                                                           \
     ROW(file)
 
 #define AUR_DECLARE_SQUARE_SET(name) extern const aur_square_set aur_set_##name;

@@ -55,6 +55,48 @@ static void neighbours_of_cascaded_points_are_nets(void **state) {
     }
 }
 
+/* The mean over points of the distance to the nearest other one, on the torus. */
+static double mean_distance(size_t count, const double *points) {
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        double least = 2.0;
+        for (size_t j = 0; j < count; ++j) {
+            double square = 0.0;
+            for (size_t d = 0; d < 2; ++d) {
+                const double a = fabs(points[2 * i + d] - points[2 * j + d]);
+                square += fmin(a, 1.0 - a) * fmin(a, 1.0 - a);
+            }
+            least = j != i ? fmin(least, sqrt(square)) : least;
+        }
+        sum += least / (double)count;
+    }
+    return sum;
+}
+
+/* Chosen flips keep the nets, and neighbours farther apart than any of 20 drawn scramblings does. */
+static void owen_trees_keep_nets_and_distances(void **state) {
+    (void)state;
+    enum { DIGITS = 8, N = 1 << DIGITS };
+    double drawn = 0.0;
+    for (uint64_t seed = 0; seed < 20; ++seed) {
+        aur_pointset_options options = options_of(N, 2);
+        options.seed = seed;
+        options.scramble = AUR_SCRAMBLE_OWEN;
+        double *const points = make_points("sobol", options);
+        drawn = fmax(drawn, mean_distance(N, points));
+        free(points);
+    }
+    for (uint64_t seed = 0; seed < 3; ++seed) {
+        aur_pointset_options options = options_of(N, 2);
+        options.seed = seed;
+        double *const points = make_points("owen-tree", options);
+        for (unsigned m = 0; m <= DIGITS; ++m)
+            assert_true(is_net(2, m, points, 2, 0, 1));
+        assert_true(mean_distance(N, points) > drawn);
+        free(points);
+    }
+}
+
 static int ascending(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -95,6 +137,7 @@ static void slices_are_even(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(prefixes_of_pmj02_are_nets),
                                        cmocka_unit_test(neighbours_of_cascaded_points_are_nets),
+                                       cmocka_unit_test(owen_trees_keep_nets_and_distances),
                                        cmocka_unit_test(slices_are_even)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
