@@ -75,7 +75,7 @@ printf '\211PNG\r\n\032\n\0\0\0\rIHDR\0\0\177\377\0\0\177\377\010\002\0\0\0' >li
 bad "a PNG that lies" '(\./)?lie.png: ' "$(texture lie.png)"
 
 # Cycles, includes without end, ids given twice.
-bad "a cycle" 's.xml:[0-9]+:[0-9]+: .*a cycle' "<bsdf type='twosided' id='a'><bsdf type='mask'><ref id='a'/></bsdf></bsdf>"
+bad "a cycle" 's.xml:[0-9]+:[0-9]+: .*a cycle' "<bsdf type='twosided' id='a'><bsdf type='mask'><ref id='a'/></bsdf></bsdf><shape type='cube'><ref id='a'/></shape>"
 echo "<scene version='3.0.0'><include filename='self.xml'/></scene>" >self.xml
 bad "an include of itself" 'self.xml:1:[0-9]+: .*nested deeper than 15' "<include filename='self.xml'/>"
 bad "an id given twice" "s.xml:[0-9]+:[0-9]+: id 'a' is given twice, first at s.xml" "<bsdf type='diffuse' id='a'/><bsdf type='diffuse' id='a'/>"

@@ -132,6 +132,11 @@ render a "${deep/OUTER/statistical}$(floor "")" --integrator path
 cmp -s a.pfm b.pfm || fail "an integrator around two: not the same picture"
 for outer in moment aov; do refused "a second <integrator> inside another" "${deep/OUTER/$outer}$(floor "")"; done
 
+# Materials and textures that nothing refers to are not built, so that a file that they name need not be there.
+same "materials that are not used" "$camera$light<shape type='rectangle'>$(grey .4)</shape><texture type='bitmap' id='t'><string name='filename' value='none.png'/></texture>
+<bsdf type='diffuse' id='m'><texture type='bitmap' name='reflectance'><string name='filename' value='none.png'/></texture></bsdf>" "$camera$light<shape type='rectangle'>$(grey .4)</shape>"
+refused "none.png" "$camera<bsdf type='diffuse'><texture type='bitmap' name='reflectance'><string name='filename' value='none.png'/></texture></bsdf>"
+
 # What is not supported is refused by name, with the reason.
 refused "integrator 'stokes' is not supported: light is unpolarised here" "<integrator type='stokes'><integrator type='path'/></integrator>$(floor "")"
 refused "shape 'sdfgrid' is not supported: a mesh" "$camera<shape type='sdfgrid'/>"

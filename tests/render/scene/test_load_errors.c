@@ -63,8 +63,10 @@ static const struct bad_row {
     {"<shape type='cube'><ref id='nix'/></shape>", 2, 20, "there is no object with the id 'nix'"},
     {"<bsdf type='diffuse' id='white'/><shape type='cube'><ref id='whte'/></shape>", 2, 53,
      "did you mean 'white'?"},
-    {"<bsdf type='twosided' id='a'><ref id='b'/></bsdf><bsdf type='twosided' id='b'><ref id='a'/></bsdf>", 2,
-     79, "a cycle"},
+    {"<bsdf type='twosided' id='a'><ref id='b'/></bsdf><bsdf type='twosided' id='b'><ref "
+     "id='a'/></bsdf><shape "
+     "type='cube'><ref id='a'/></shape>",
+     2, 79, "a cycle"},
     {"<shape type='cube'><transform name='to_world'><scale value='0'/></transform></shape>", 2, 47,
      "<scale> by 0"},
     {"<shape type='cube'><transform name='to_world'><rotate angle='3'/></transform></shape>", 2, 47,
@@ -239,13 +241,13 @@ static char *chain(size_t count) {
     char *end = text;
     for (size_t i = 0; i + 1 < count; ++i)
         end += sprintf(end, "<bsdf type='twosided' id='b%zu'><ref id='b%zu'/></bsdf>", i, i + 1);
-    sprintf(end, "<bsdf type='diffuse' id='b%zu'/>", count - 1);
+    sprintf(end, "<bsdf type='diffuse' id='b%zu'/><shape type='cube'><ref id='b0'/></shape>", count - 1);
     return text;
 }
 
 static void refuses_long_chains(void **state) {
     (void)state;
-    static const size_t counts[] = {100, 101, 20000};
+    static const size_t counts[] = {99, 100, 20000}; /* in a shape */
     for (size_t i = 0; i < 3; ++i) {
         char *const text = chain(counts[i]);
         aur_scene *scene = NULL;

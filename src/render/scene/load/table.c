@@ -23,6 +23,16 @@ static bool is_part(const aur_xml_node *node) {
     return false;
 }
 
+/* Whether it is built when something refers to it, and else not at all: files of many materials for a few
+ * objects take no memory for the others, nor for their textures. */
+static bool is_built_on_demand(const aur_xml_node *node) {
+    static const char *const tags[] = {"bsdf", "texture", "volume"};
+    for (size_t i = 0; i < sizeof tags / sizeof tags[0]; ++i)
+        if (strcmp(node->tag, tags[i]) == 0)
+            return aur_xml_attribute_value(node, "id") != NULL;
+    return false;
+}
+
 static aur_result build_top(aur_loader *self, aur_xml_node *node) {
     static const char *const names[] = {"integrator", "sensor",  "shape",  "bsdf",    "emitter", "texture",
                                         "film",       "default", "alias",  "include", "path",    "ref",
@@ -35,6 +45,8 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
                          "<%s> cannot stand here: it belongs inside a <%s>, or needs an 'id' by which "
                          "one refers to it",
                          node->tag, strcmp(node->tag, "rfilter") == 0 ? "film" : "sensor");
+    if (is_built_on_demand(node))
+        return AUR_OK;
     if (aur_loader_find_kind(self, node->tag) == NULL)
         return aur_xml_fail_tag(node, sizeof names / sizeof names[0], names, self->error);
     if (strcmp(node->tag, "sensor") == 0 && self->scene->has_sensor) {
