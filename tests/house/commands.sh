@@ -36,7 +36,7 @@ find . -name '*.md' -not -path './build/*' -not -path './out/*' -not -path './CH
       if (!(verb in is)) { wrong("aureole has no command " verb); continue }
       ++seen
       name = word[at + 3]
-      if (verb " " word[at + 2] == "lab run" && name ~ /^[a-z0-9-]+$/ && name !~ /^-/ && !(("experiment " name) in is)) wrong("there is no experiment " name)
+      if (verb " " word[at + 2] == "lab run" && name ~ /^[a-z0-9-]+$/ && name !~ /^-/ && $0 !~ /--module/ && !(("experiment " name) in is)) wrong("there is no experiment " name)
       for (j = at + 2; j <= words; ++j) {
         if (word[j] ~ /^--[a-z]/) { option = word[j]; sub(/[=\[\].].*/, "", option); if (!((verb " " option) in is)) wrong("aureole " verb " has no option " option) }
       }

@@ -19,7 +19,7 @@ static aur_result choose_json(const char *text, void *field, aur_error *error) {
 
 const cli_option cli_format_option[] = {
     {CLI_CHOICE(cli_common, format, "format", "FORMAT", "table", "output format"),
-     .key.words = (const char *const[]){"table", "csv", "json", NULL}},
+     .key.words = (const char *const[]){"table", "csv", "json", "latex", NULL}},
     {CLI_FLAG(cli_common, format, "json", "same as --format json"), .parse = choose_json},
     {.key = {0}}};
 

@@ -33,7 +33,7 @@ static aur_result print_plot(const publication *p, const char *experiment, const
         char name[128], path[AUR_ERROR_FILE_CAPACITY];
         snprintf(name, sizeof name, "%s-%s.%s", experiment, plot->name, extensions[i]);
         snprintf(path, sizeof path, "%s/%s", p->folder, name);
-        result = report_plot_save(path, table, plot, &drawn, error);
+        result = report_plot_save(path, table, plot, NULL, &drawn, error);
         if (drawn)
             fprintf(p->page, "%s<a href=\"%s\">%s</a>", i == 0 ? "<p>For print: " : ", ", name, name);
     }

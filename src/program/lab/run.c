@@ -146,6 +146,14 @@ static aur_result save_all(lab_run *run, aur_error *error) {
         result = lab_run_save(run, run->further[i], run->further_names[i], NULL, true, error);
     for (size_t i = 0; i < report_rows(run->pictures); ++i)
         fprintf(run->files, "%s/%s\n", run->folder, report_cell(run->pictures, i, 2));
+    char raw[AUR_ERROR_FILE_CAPACITY];
+    bool written = false;
+    lab_run_path(run, "unfinished", "txt", path, sizeof path);
+    lab_run_path(run, "runs", "npz", raw, sizeof raw);
+    if (result == AUR_OK && aur_ranks_rank() == 0)
+        result = lab_store_export(path, raw, &written, error);
+    if (written)
+        fprintf(run->files, "%s\n", raw);
     run->result->seconds = lab_run_seconds(run);
     lab_time(run, "all", run->result->seconds);
     if (result == AUR_OK)

@@ -26,6 +26,10 @@ bool lab_store_find(const lab_store *store, const char *key, size_t count, doubl
 aur_result lab_store_add(lab_store *store, const char *key, size_t count, const double *values,
                          double seconds, aur_error *error);
 
+/* Writes the measurements of a store's file as NPZ, an array a key; *written is false when there are none.
+ * Errors: WRITE, MEMORY. */
+aur_result lab_store_export(const char *store, const char *path, bool *written, aur_error *error);
+
 enum { LAB_FURTHER_TABLES = 8, LAB_IDENTITY = 1024 };
 
 struct lab_run {

@@ -34,6 +34,8 @@ struct report_canvas {
     const report_canvas_format *format;
     FILE *to;
     double width, height;
+    double scale_by;   /* of a PDF; 0: 1 */
+    const char *font;  /* of a PDF; NULL: Helvetica */
     bool inside;       /* a page, which has the styles */
     bool open;         /* there is a group for `pen` */
     bool title;        /* the next mark has the words below */

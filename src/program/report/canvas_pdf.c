@@ -1,11 +1,14 @@
-/* PDF 1.4 (ISO 32000-1): one page, in Helvetica, which every reader has. */
+/* PDF 1.4 (ISO 32000-1): one page, in Helvetica or Times, which every reader has. */
 #include <aureole/text.h>
 #include <math.h>
 #include <string.h>
 
 #include "program/report/canvas.h"
 
-static const double points_a_pixel = 0.72; /* 100 pixels are an inch */
+/* 100 pixels are an inch. */
+static double points_a_pixel(const report_canvas *c) {
+    return 0.72 * (c->scale_by > 0.0 ? c->scale_by : 1.0);
+}
 
 enum { CATALOG = 1, PAGES, PAGE, FONT, CONTENTS, LENGTH, OBJECTS };
 
@@ -28,16 +31,16 @@ static void begin(report_canvas *c) {
     aur_print(c->to,
               "<< /Type /Page /Parent %d 0 R /MediaBox [0 0 %.2f %.2f] /Contents %d 0 R\n"
               "/Resources << /Font << /F %d 0 R >> >> >>\nendobj\n",
-              PAGES, points_a_pixel * c->width, points_a_pixel * c->height, CONTENTS, FONT);
+              PAGES, points_a_pixel(c) * c->width, points_a_pixel(c) * c->height, CONTENTS, FONT);
     begin_object(c, FONT);
-    fputs("<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>\nendobj\n",
-          c->to);
+    fprintf(c->to, "<< /Type /Font /Subtype /Type1 /BaseFont /%s /Encoding /WinAnsiEncoding >>\nendobj\n",
+            c->font != NULL ? c->font : "Helvetica");
     begin_object(c, CONTENTS);
     fprintf(c->to, "<< /Length %d 0 R >>\nstream\n", LENGTH);
     c->offsets[0] = position(c);
     /* Pixels from the upper left corner. */
-    aur_print(c->to, "%g 0 0 %g 0 %.2f cm\n1 J 1 j\n", points_a_pixel, -points_a_pixel,
-              points_a_pixel * c->height);
+    aur_print(c->to, "%g 0 0 %g 0 %.2f cm\n1 J 1 j\n", points_a_pixel(c), -points_a_pixel(c),
+              points_a_pixel(c) * c->height);
 }
 
 static void use(report_canvas *c, const report_pen *pen) {

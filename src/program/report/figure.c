@@ -310,7 +310,10 @@ aur_result report_figure_save(const char *path, const char *format, const report
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "%s: png needs libaureole-render, which this program was built without", path);
     char *text = NULL;
-    report_canvas canvas = {.format = formats[of].canvas, .to = open_memstream(&text, &size)};
+    report_canvas canvas = {.format = formats[of].canvas,
+                            .to = open_memstream(&text, &size),
+                            .scale_by = figure->scale_by,
+                            .font = figure->font};
     if (canvas.to == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     if (canvas.format != NULL)

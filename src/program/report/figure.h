@@ -86,6 +86,9 @@ typedef struct report_figure {
     const report_panel *panels;
     report_legend legend;
     report_scale scale;
+    double scale_by;  /* of all lengths of PDF and TeX; 0: 1 */
+    const char *font; /* of PDF: "Times-Roman"; NULL: Helvetica */
+    const char *data; /* of TeX: the file that has the numbers; NULL: they stand in the text */
 } report_figure;
 
 /* "svg", "pdf", "png", "tex"; NULL beyond them. */
@@ -139,5 +142,8 @@ bool report_drawable(const report_panel *panel, const report_point *point);
 size_t report_legend_entries(const report_figure *figure, size_t panel, size_t capacity,
                              const report_series **entries);
 
+/* Writes the numbers of a figure, a line a point: columns x1 y1 (above1 below1 of intervals) x2 ..., nan
+ * where a series has ended. */
+void report_figure_data(FILE *to, const report_figure *figure);
 /* Writes a figure for pgfplots. */
 void report_figure_tikz(FILE *to, const report_figure *figure);

@@ -5,32 +5,15 @@
 
 #include "program/report/canvas.h"
 #include "program/report/figure.h"
+#include "program/report/report.h"
 
 enum { MOST_ENTRIES = 64 };
-
-/* Text that is no command of TeX's. */
-static void put_text(FILE *to, const char *text) {
-    static const char special[] = "\\{}$&#^_%~";
-    static const char *const names[] = {
-        "\\textbackslash{}", "\\{", "\\}", "\\$", "\\&", "\\#", "\\textasciicircum{}", "\\_", "\\%",
-        "\\textasciitilde{}"};
-    for (const char *from = text; *text != '\0'; from = text) {
-        const uint32_t letter = report_next_letter(&text);
-        const char *const found = letter < 0x7f ? strchr(special, (int)letter) : NULL;
-        if (found != NULL)
-            fputs(names[found - special], to);
-        else if (letter < ' ' || letter == 0x7f || letter == 0xfffd)
-            fputc('?', to);
-        else
-            fwrite(from, 1, (size_t)(text - from), to);
-    }
-}
 
 static void put_key(FILE *to, const char *key, const char *text) {
     if (text == NULL || text[0] == '\0')
         return;
     fprintf(to, ", %s={", key);
-    put_text(to, text);
+    report_escape_latex(to, text);
     fputc('}', to);
 }
 
@@ -66,7 +49,29 @@ static void put_segments(FILE *to, const report_series *series) {
                   series->points[i].y, series->points[i + 1].x, series->points[i + 1].y);
 }
 
-static void put_series(FILE *to, const report_panel *panel, const report_series *series) {
+/* The numbers of a series that stand in the figure's file. */
+static void put_reference(FILE *to, const char *data, size_t number, bool bars) {
+    const char *const slash = strrchr(data, '/');
+    fprintf(to, "] table[x=x%zu, y=y%zu", number, number);
+    if (bars)
+        fprintf(to, ", y error plus=above%zu, y error minus=below%zu", number, number);
+    fprintf(to, "] {%s};\n", slash != NULL ? slash + 1 : data);
+}
+
+static double above(const report_point *p) {
+    return isfinite(p->high) ? p->high - p->y : 0.0;
+}
+
+static double below(const report_point *p) {
+    return isfinite(p->low) ? p->y - p->low : 0.0;
+}
+
+static bool in_file(const report_series *series) {
+    return series->count > 0 && (series->parts & (REPORT_SEGMENTS | REPORT_CELLS | REPORT_DOTS)) == 0;
+}
+
+static void put_series(FILE *to, const report_panel *panel, const report_series *series, const char *data,
+                       size_t number) {
     if ((series->parts & REPORT_SEGMENTS) != 0) {
         put_segments(to, series);
         return;
@@ -92,6 +97,10 @@ static void put_series(FILE *to, const report_panel *panel, const report_series 
     }
     if (bars)
         fputs(", error bars/.cd, y dir=both, y explicit", to);
+    if (data != NULL && in_file(series)) {
+        put_reference(to, data, number, bars);
+        return;
+    }
     fprintf(to, "] table[x=x, y=y%s%s, row sep=\\\\] {\n%s\\\\\n",
             bars ? ", y error plus=above, y error minus=below" : "", cells || dots ? ", meta=value" : "",
             bars    ? "x y above below"
@@ -107,8 +116,7 @@ static void put_series(FILE *to, const report_panel *panel, const report_series 
         else if (dots)
             aur_print(to, "%.9g %.9g %.9g %.3g\\\\\n", p->x, p->y, scaled ? p->value : 0.0, 0.72 * p->size);
         else if (bars)
-            aur_print(to, "%.9g %.9g %.9g %.9g\\\\\n", p->x, p->y, isfinite(p->high) ? p->high - p->y : 0.0,
-                      isfinite(p->low) ? p->y - p->low : 0.0);
+            aur_print(to, "%.9g %.9g %.9g %.9g\\\\\n", p->x, p->y, above(p), below(p));
         else
             aur_print(to, "%.9g %.9g\\\\\n", p->x, p->y);
     }
@@ -147,8 +155,9 @@ static void put_panel(FILE *to, const report_figure *figure, size_t index) {
     const report_panel *const panel = &figure->panels[index];
     const bool axes = panel->border == REPORT_BORDER_AXES, last = index + 1 == figure->panel_count;
     const report_series *entries[MOST_ENTRIES];
-    aur_print(to, "\\nextgroupplot[width=%gbp, height=%gbp%s", 0.72 * figure->width, 0.72 * figure->height,
-              axes ? ", grid=major" : ", ticks=none");
+    const double scale = figure->scale_by > 0.0 ? figure->scale_by : 1.0;
+    aur_print(to, "\\nextgroupplot[width=%gbp, height=%gbp%s", 0.72 * scale * figure->width,
+              0.72 * scale * figure->height, axes ? ", grid=major" : ", ticks=none");
     put_key(to, "title", panel->title);
     put_axis(to, panel, false);
     put_axis(to, panel, true);
@@ -164,8 +173,11 @@ static void put_panel(FILE *to, const report_figure *figure, size_t index) {
     for (size_t i = 0; i < 2; ++i)
         if (panel->rings[i] > 0.0)
             aur_print(to, "\\draw[ink3] (axis cs:0,0) circle[radius=%.9g];\n", panel->rings[i]);
+    size_t before = 0;
+    for (size_t i = 0; i < index; ++i)
+        before += figure->panels[i].series_count;
     for (size_t s = 0; s < panel->series_count; ++s)
-        put_series(to, panel, &panel->series[s]);
+        put_series(to, panel, &panel->series[s], figure->data, before + s + 1);
     const size_t count = figure->legend == REPORT_LEGEND_SHARED && !last
                              ? 0
                              : report_legend_entries(figure, index, MOST_ENTRIES, entries);
@@ -173,8 +185,41 @@ static void put_panel(FILE *to, const report_figure *figure, size_t index) {
         fputs("\\addlegendimage{", to);
         put_style(to, entries[e]);
         fputs("}\\addlegendentry{", to);
-        put_text(to, entries[e]->label);
+        report_escape_latex(to, entries[e]->label);
         fputs("}\n", to);
+    }
+}
+
+/* Row `row` of the drawn points of a series; the first row has the names of the columns. */
+static void put_data(FILE *to, const report_panel *panel, const report_series *series, size_t number,
+                     size_t row) {
+    const bool bars = (series->parts & REPORT_BARS) != 0;
+    const report_point *found = NULL;
+    for (size_t i = 0, seen = 0; i < series->count && row > 0 && found == NULL; ++i)
+        if (report_drawable(panel, &series->points[i]) && ++seen == row)
+            found = &series->points[i];
+    if (row == 0)
+        fprintf(to, bars ? "x%zu y%zu above%zu below%zu " : "x%zu y%zu ", number, number, number, number);
+    else if (found == NULL)
+        fputs(bars ? "nan nan nan nan " : "nan nan ", to);
+    else if (bars)
+        aur_print(to, "%.9g %.9g %.9g %.9g ", found->x, found->y, above(found), below(found));
+    else
+        aur_print(to, "%.9g %.9g ", found->x, found->y);
+}
+
+void report_figure_data(FILE *to, const report_figure *figure) {
+    size_t rows = 0;
+    for (size_t p = 0; p < figure->panel_count; ++p)
+        for (size_t s = 0; s < figure->panels[p].series_count; ++s)
+            rows = figure->panels[p].series[s].count > rows ? figure->panels[p].series[s].count : rows;
+    for (size_t row = 0; row <= rows; ++row) {
+        size_t number = 1;
+        for (size_t p = 0; p < figure->panel_count; ++p)
+            for (size_t s = 0; s < figure->panels[p].series_count; ++s, ++number)
+                if (in_file(&figure->panels[p].series[s]))
+                    put_data(to, &figure->panels[p], &figure->panels[p].series[s], number, row);
+        fputc('\n', to);
     }
 }
 

@@ -1,6 +1,7 @@
 /* Figures of tables: which rows belong to which panel and line. */
 #include "program/report/report.h"
 
+#include <aureole/core.h>
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>
@@ -152,19 +153,47 @@ static layout *create(const report_table *table, const report_plot *plot) {
     return NULL;
 }
 
-aur_result report_plot_save(const char *path, const report_table *table, const report_plot *plot, bool *drawn,
-                            aur_error *error) {
+static aur_result save_data(const char *path, const report_figure *figure, aur_error *error) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const to = open_memstream(&text, &size);
+    if (to != NULL)
+        report_figure_data(to, figure);
+    const bool written = to != NULL && fclose(to) == 0;
+    const aur_result result = written ? aur_file_write(path, size, text, error)
+                                      : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    free(text);
+    return result;
+}
+
+/* Sizes in pixels of 1/100 inch in which REPORT_TEXT_SIZE is the text's size in points. */
+static void apply_style(const report_style *style, report_figure *figure) {
+    figure->width = 500.0;
+    figure->height = 360.0;
+    if (style == NULL)
+        return;
+    figure->scale_by = style->text_size / (0.72 * REPORT_TEXT_SIZE);
+    const double pixels = 100.0 / 2.54 / figure->scale_by;
+    figure->width = pixels * style->width / (double)figure->columns;
+    figure->height = pixels * style->height;
+    figure->font = style->font;
+    figure->data = style->data;
+}
+
+aur_result report_plot_save(const char *path, const report_table *table, const report_plot *plot,
+                            const report_style *style, bool *drawn, aur_error *error) {
     layout *const l = create(table, plot);
     if (l == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     aur_result result = AUR_OK;
     const char *const format = report_figure_format_of(path);
     l->figure.columns = l->panels.count < 2 ? 1 : 2;
-    l->figure.width = 500.0;
-    l->figure.height = 360.0;
+    apply_style(style, &l->figure);
     *drawn = l->panels.count > 0;
     if (*drawn)
         result = report_figure_save(path, format != NULL ? format : path, &l->figure, error);
+    if (*drawn && result == AUR_OK && l->figure.data != NULL)
+        result = save_data(l->figure.data, &l->figure, error);
     destroy(l);
     return result;
 }

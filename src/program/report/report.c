@@ -185,12 +185,75 @@ static void write_json(const report_table *table, FILE *stream) {
     aur_json_close(&json, ']');
 }
 
+/* A column of numbers and empty cells alone stands to the right. */
+static bool has_numbers(const report_table *table, size_t column) {
+    bool some = false;
+    for (size_t row = 0; row < report_rows(table); ++row) {
+        const bool number = isfinite(report_value(table, row, column));
+        if (!number && report_cell(table, row, column)[0] != '\0')
+            return false;
+        some |= number;
+    }
+    return some;
+}
+
+/* With `digits` significant digits; powers of ten as TeX writes them. */
+static void put_number(FILE *to, double value, int digits) {
+    char text[64];
+    aur_format(text, sizeof text, "%.*g", digits, value);
+    char *const power = strchr(text, 'e');
+    if (power == NULL) {
+        fprintf(to, text[0] == '-' ? "$%s$" : "%s", text);
+        return;
+    }
+    *power = '\0';
+    double exponent = 0.0;
+    aur_parse_double(power[1] == '+' ? power + 2 : power + 1, &exponent);
+    fprintf(to, "$%s\\cdot10^{%d}$", text, (int)exponent);
+}
+
+void report_write_latex(const report_table *table, int digits, FILE *to) {
+    const size_t columns = report_columns(table);
+    fputs("% \\usepackage{booktabs}\n\\begin{tabular}{", to);
+    for (size_t c = 0; c < columns; ++c)
+        fputc(has_numbers(table, c) ? 'r' : 'l', to);
+    fputs("}\n\\toprule\n", to);
+    for (size_t c = 0; c < columns; ++c) {
+        fputs(c > 0 ? " & " : "", to);
+        report_escape_latex(to, report_column_name(table, c));
+    }
+    fputs(" \\\\\n\\midrule\n", to);
+    for (size_t row = 0; row < report_rows(table); ++row)
+        for (size_t c = 0; c < columns; ++c) {
+            fputs(c > 0 ? " & " : "", to);
+            if (has_numbers(table, c) && report_cell(table, row, c)[0] != '\0')
+                put_number(to, report_value(table, row, c), digits);
+            else
+                report_escape_latex(to, report_cell(table, row, c));
+            fputs(c + 1 == columns ? " \\\\\n" : "", to);
+        }
+    fputs("\\bottomrule\n\\end{tabular}\n", to);
+}
+
+void report_write_data(const report_table *table, FILE *to) {
+    for (size_t row = 0; row < report_rows(table) + 1; ++row)
+        for (size_t c = 0; c < report_columns(table); ++c) {
+            const char *const text = row == 0 ? report_column_name(table, c) : report_cell(table, row - 1, c);
+            fputs(c > 0 ? "\t" : "", to);
+            for (const char *letter = text; *letter != '\0'; ++letter)
+                fputc((unsigned char)*letter < ' ' ? ' ' : *letter, to);
+            fputs(c + 1 == report_columns(table) ? "\n" : "", to);
+        }
+}
+
 aur_result report_write(const report_table *table, report_format format, FILE *stream, aur_error *error) {
     if (table == NULL || table->failed)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     if (format == REPORT_TABLE)
         return write_text(table, stream, error);
-    if (format == REPORT_CSV)
+    if (format == REPORT_LATEX)
+        report_write_latex(table, 4, stream);
+    else if (format == REPORT_CSV)
         write_csv(table, stream);
     else
         write_json(table, stream);

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-typedef enum report_format { REPORT_TABLE, REPORT_CSV, REPORT_JSON } report_format;
+typedef enum report_format { REPORT_TABLE, REPORT_CSV, REPORT_JSON, REPORT_LATEX } report_format;
 
 /* Returns NULL when out of memory; the functions below accept NULL and then do nothing, and writing fails. */
 report_table *report_create(size_t column_count, const char *const *columns);
@@ -25,6 +25,11 @@ void report_fact_number(report_table *table, const char *name, double value);
 
 /* Writes a table, in JSON as an array of objects; the stream keeps its own errors. Errors: MEMORY. */
 aur_result report_write(const report_table *table, report_format format, FILE *stream, aur_error *error);
+/* The parts of tables for papers: a tabular of LaTeX with booktabs' rules, numbers with so many significant
+ * digits; cells between tabs, without quotes; text that is no command of TeX's. */
+void report_write_latex(const report_table *table, int digits, FILE *to);
+void report_write_data(const report_table *table, FILE *to);
+void report_escape_latex(FILE *to, const char *text);
 /* Replaces the file `path` by the table as CSV, and the lines of `notes` (NULL: none) after it as comments.
  * Errors: MEMORY, WRITE. */
 aur_result report_save(const report_table *table, const char *notes, const char *path, aur_error *error);
@@ -48,9 +53,17 @@ const char *report_cell(const report_table *table, size_t row, size_t column);
 /* A cell as a number; NaN when it is none, or `column` is SIZE_MAX. */
 double report_value(const report_table *table, size_t row, size_t column);
 
+/* How a plot is made for a paper. */
+typedef struct report_style {
+    double width, height; /* of the drawing without its legend, in cm; the font keeps its size */
+    double text_size;     /* in points */
+    const char *font;     /* of PDF: "Helvetica" or "Times-Roman" */
+    const char *data;     /* of TeX: the file of the numbers; NULL: they stand in the text */
+} report_style;
+
 /* Writes the plot to `path`, in a format of report/figure.h that its name ends in; no file, and *drawn false,
  * when a column is missing or no row has numbers. Errors: NAME, MEMORY, WRITE. */
-aur_result report_plot_save(const char *path, const report_table *table, const report_plot *plot, bool *drawn,
-                            aur_error *error);
+aur_result report_plot_save(const char *path, const report_table *table, const report_plot *plot,
+                            const report_style *style, bool *drawn, aur_error *error);
 /* The same as a part of a page, a drawing for each panel: nothing without numbers. Errors: MEMORY. */
 aur_result report_plot_put(FILE *page, const report_table *table, const report_plot *plot, aur_error *error);

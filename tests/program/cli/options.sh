@@ -30,7 +30,7 @@ refuses "--size: must be an integer, not '1e3'" points sobol -n 1e3
 refuses "--spp: must be between 1 and 1073741824, not '0'" render a.xml --spp 0
 refuses "--smoothness: must be between 1 and 6, both exclusive, not '6'" points sobol -n 4 --smoothness 6
 refuses "--count: must be a size N of at least 1, A:B" measure sobol -n 4,0 --metric star
-refuses "--format: must be one of table, csv, json, not 'jsn'; did you mean 'json'?" sets --format jsn
+refuses "--format: must be one of table, csv, json, latex, not 'jsn'; did you mean 'json'?" sets --format jsn
 refuses "--map: must be one of lambert, concentric, azimuthal, polar, not 'lamber'; did you mean 'lambert'?" \
   points sobol -n 4 --domain disk --map lamber
 refuses "--to: must be one of exr, pfm, hdr, png, jpg, not 'gif'" convert a b --to gif

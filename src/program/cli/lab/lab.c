@@ -50,6 +50,11 @@ static const cli_option options[] = {
     {CLI_TEXT(cli_lab, definitions.count, "integrand", "NAME", NULL,
               "same as -D integrand=NAME, for experiments that integrate any function"),
      .parse = add_integrand},
+    {CLI_REAL(cli_lab, paper.width, "width", "CM", 1, 100, "8.5", "paper: width of plots")},
+    {CLI_REAL(cli_lab, paper.height, "height", "CM", 1, 100, "6", "paper: height of plots, without legends")},
+    {CLI_REAL(cli_lab, paper.text_size, "font-size", "PT", 1, 100, "8", "paper: size of text in PDF")},
+    {CLI_FLAG(cli_lab, paper.times, "times", "paper: PDF in Times, not Helvetica")},
+    {CLI_INTEGER(cli_lab, paper.digits, "digits", "N", 1, 17, "4", "paper: significant digits of tables")},
     {CLI_TEXT(cli_lab, lab.rows, "rows", "PATTERN", NULL,
               "compute only rows that match a pattern such as '*/bnot', in experiments with named rows")},
     {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, or those of the source tree",
@@ -66,7 +71,7 @@ static const char *experiment_name(unsigned index) {
 }
 
 static const char *action_name(unsigned index) {
-    static const char *const names[] = {"list", "run", "check", "report"};
+    static const char *const names[] = {"list", "run", "check", "report", "paper"};
     return index < sizeof names / sizeof names[0] ? names[index] : NULL;
 }
 
@@ -137,6 +142,15 @@ static int run(const cli_call *call) {
         return report(call->operand_count > 1 ? call->operands[1] : "lab-results",
                       folder != NULL ? folder : "lab-report", command->small);
     }
+    if (strcmp(action, "paper") == 0) {
+        if (call->operand_count > 2)
+            return cli_bad_usage("lab paper: takes one folder of results");
+        aur_error error = {0};
+        return cli_status(lab_write_paper(call->operand_count > 1 ? call->operands[1] : "lab-results",
+                                          folder != NULL ? folder : "lab-paper", &command->paper, stdout,
+                                          &error),
+                          &error);
+    }
     if (strcmp(action, "list") != 0)
         return cli_bad_usage("lab: %s: try 'aureole help lab'", call->command->too_few);
     if (call->operand_count > 1)
@@ -150,13 +164,15 @@ const cli_command cli_command_lab = {
     .notes =
         "The same command continues an interrupted run. Each experiment writes its tables (NAME.csv), images "
         "and timings.csv to a folder of its name. Only timings.csv differs from run to run. See docs/lab.md.",
-    .too_few = "expected 'list', 'run', 'check' or 'report'",
+    .too_few = "expected 'list', 'run', 'check', 'report' or 'paper'",
     .operands =
         {{"ACTION",
           "list: print the experiments, what each reproduces, and its processor time; run: run experiments, "
           "write CSV files and images, print the tables; check: run experiments (all without a NAME) and "
           "compare with the stored tables, exit status 1 if one differs; report: write a page with plots and "
-          "images of the results in the folder NAME (lab-results) to DIR/index.html (lab-report)",
+          "images of the results in the folder NAME (lab-results) to DIR/index.html (lab-report); paper: "
+          "write "
+          "LaTeX tables, PDF and TikZ plots and their data to DIR (lab-paper)",
           .name = action_name},
          {"NAME", "experiments to run, or the folder with results to report", .optional = true,
           .repeated = true, .name = experiment_name}},

@@ -8,6 +8,7 @@ typedef struct cli_lab {
     lab_options lab;
     cli_definitions definitions; /* parameters of experiments */
     const char *module;
+    lab_paper_style paper;
     bool all, again, small;
     bool check;       /* compare what is run with the tables that are kept */
     const char *kept; /* the folder of those; NULL: ./docs/report/results, else that of the source tree */
