@@ -51,7 +51,7 @@ typedef struct rays_on_the_way {
 
 /* On the way to an error, where `part` of a step is done. */
 static double left_to_error(const aur_candidate *candidate, double part) {
-    const double before = candidate->begun ? candidate->before : candidate->samples;
+    const double before = candidate->finished;
     const double now = before + (candidate->begun ? part * (candidate->samples - before) : 0.0);
     if (!(before > 0.0 && candidate->whole > 0.0))
         return INFINITY;
@@ -346,8 +346,7 @@ aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_re
                                .mean = adaptive->candidate.measure.mean,
                                .degrees = interval.degrees,
                                .rounds = adaptive->candidate.rounds,
-                               .samples_per_pixel = adaptive->candidate.begun ? adaptive->candidate.before
-                                                                              : adaptive->candidate.samples,
+                               .samples_per_pixel = adaptive->candidate.finished,
                                .replicas = adaptive->candidate.replicas.count,
                                .candidate_rays = aur_adaptive_other_rays(adaptive),
                                .bias_high = sqrt(adaptive->bias[adaptive->target.measure].high)};

@@ -1,4 +1,5 @@
 /* An image to a target in a file: the state that the next round depends on, and the replicas' films. */
+#include <stddef.h>
 #include <stdlib.h>
 
 #include "points/base/error.h"
@@ -7,151 +8,137 @@
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-/* Numbers between rounds, before those of the tiles and of the replicas. */
-enum {
-    NUMBERS = 7,
-    INTERVALS = 4 * AUR_ERROR_MEASURE_COUNT,
-    CHOICE = NUMBERS + INTERVALS + 2,
-    RACE = CHOICE + 7,
-    STATE_WORDS = RACE + 1 + 2 * AUR_RACE_ROWS
+/* Numbers of eight bytes each, which are saved and loaded as they are. */
+typedef struct field {
+    size_t offset, bytes;
+} field;
+
+#define FIELD(name)                                                                                          \
+    { offsetof(aur_adaptive, name), sizeof(((aur_adaptive *)NULL)->name) }
+
+static const field fields[] = {
+    FIELD(place),
+    FIELD(others.rays),
+    FIELD(others.prepare_seconds),
+    FIELD(others.render_seconds),
+    FIELD(others.cpu_seconds),
+    FIELD(race.order_count),
+    FIELD(race.order),
+    FIELD(race.entries[AUR_RACE_PATH].need),
+    FIELD(race.entries[AUR_RACE_SHARED].need),
+    FIELD(race.entries[AUR_RACE_MIDDLE].need),
+    FIELD(race.entries[AUR_RACE_LIGHTS].need),
+    FIELD(race.entries[AUR_RACE_LONG].need),
+    FIELD(candidate.rate),
+    FIELD(candidate.finished),
+    FIELD(candidate.measure.mean),
+    FIELD(candidate.bound),
+    FIELD(candidate.intervals),
+    FIELD(candidate.rounds),
 };
+enum { FIELD_COUNT = sizeof fields / sizeof fields[0] };
+
+/* Words before them. */
+enum { ROW, PHOTONS, STEPS, FLAGS, BUDGET, TRACED, FIRST_FIELD };
 
 static size_t word_count(const aur_adaptive *adaptive) {
-    return STATE_WORDS + 3 * adaptive->candidate.value_count + 2 * adaptive->candidate.replicas.pixel_count +
+    size_t count = FIRST_FIELD;
+    for (size_t i = 0; i < FIELD_COUNT; ++i)
+        count += fields[i].bytes / sizeof(uint64_t);
+    return count + 3 * adaptive->candidate.value_count + 2 * adaptive->candidate.replicas.pixel_count +
            adaptive->candidate.replicas.count * AUR_SPENT_WORDS;
 }
 
 aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur_error *error) {
+    const aur_candidate *const candidate = &adaptive->candidate;
     if (adaptive->identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "only an image whose options say 'resumable' can be saved");
     if (adaptive->open) /* races are short, and begin again */
         return AUR_OK;
-    uint64_t *const words = malloc(word_count(adaptive) * sizeof *words);
+    const size_t count = word_count(adaptive);
+    uint64_t *const words = malloc(count * sizeof *words), *word = words + FIRST_FIELD;
     if (words == NULL)
         return aur_fail_memory(error);
-    const double numbers[NUMBERS] = {adaptive->candidate.rate,
-                                     adaptive->candidate.begun ? adaptive->candidate.before
-                                                               : adaptive->candidate.samples,
-                                     adaptive->candidate.measure.mean,
-                                     adaptive->others.prepare_seconds,
-                                     adaptive->others.render_seconds,
-                                     adaptive->others.cpu_seconds,
-                                     adaptive->candidate.bound};
-    size_t at = 0;
-    for (size_t i = 0; i < NUMBERS; ++i)
-        words[at++] = aur_word_of_double(numbers[i]);
-    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
-        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].estimate);
-        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].low);
-        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].high);
-        words[at++] = aur_word_of_double(adaptive->candidate.intervals[m].degrees);
+    words[ROW] = adaptive->path != NULL ? adaptive->row : AUR_RACE_PATH;
+    words[PHOTONS] = adaptive->photons;
+    words[STEPS] = adaptive->corrections.steps;
+    words[FLAGS] =
+        (uint64_t)candidate->begun + 2 * (uint64_t)candidate->looked_at + 4 * (uint64_t)adaptive->unchecked;
+    words[BUDGET] = aur_adaptive_other_rays(adaptive);
+    words[TRACED] = candidate->traced;
+    for (size_t i = 0; i < FIELD_COUNT; word += fields[i++].bytes / sizeof *word)
+        memcpy(word, (const char *)adaptive + fields[i].offset, fields[i].bytes);
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        *word++ = candidate->targets[i];
+        *word++ = candidate->earlier[i];
+        *word++ = aur_word_of_double(candidate->variances[i]);
     }
-    words[at++] = adaptive->candidate.rounds;
-    words[at++] = (uint64_t)adaptive->candidate.begun + 2 * (uint64_t)adaptive->candidate.looked_at +
-                  4 * (uint64_t)adaptive->unchecked;
-    words[at++] = adaptive->path != NULL ? adaptive->row : AUR_RACE_PATH;
-    words[at++] = adaptive->photons;
-    words[at++] = adaptive->place;
-    words[at++] = adaptive->corrections.steps;
-    words[at++] = adaptive->others.rays;
-    words[at++] = aur_adaptive_other_rays(adaptive);
-    words[at++] = adaptive->candidate.traced;
-    words[at++] = adaptive->race.order_count;
-    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
-        words[at++] = adaptive->race.order[i];
-        words[at++] = aur_word_of_double(adaptive->race.entries[i].need);
-    }
-    for (size_t i = 0; i < adaptive->candidate.value_count; ++i) {
-        words[at++] = adaptive->candidate.targets[i];
-        words[at++] = adaptive->candidate.earlier[i];
-        words[at++] = aur_word_of_double(adaptive->candidate.variances[i]);
-    }
-    for (size_t i = 0; i < adaptive->candidate.replicas.pixel_count; ++i) {
-        words[at++] = aur_word_of_double(adaptive->candidate.pixels[i].variance);
-        words[at++] = aur_word_of_double(adaptive->candidate.pixels[i].spread);
-    }
+    const size_t spreads = candidate->replicas.pixel_count * sizeof *candidate->pixels;
+    memcpy(word, candidate->pixels, spreads);
+    word += spreads / sizeof *word;
     const aur_film *films[AUR_REPLICAS_MAX];
-    for (size_t r = 0; r < adaptive->candidate.replicas.count; ++r, at += AUR_SPENT_WORDS) {
-        films[r] = aur_render_film(adaptive->candidate.replicas.renders[r]);
-        aur_render_put_spent(adaptive->candidate.replicas.renders[r], words + at);
+    for (size_t r = 0; r < candidate->replicas.count; ++r, word += AUR_SPENT_WORDS) {
+        films[r] = aur_render_film(candidate->replicas.renders[r]);
+        aur_render_put_spent(candidate->replicas.renders[r], word);
     }
-    const aur_result result = aur_checkpoint_save(path, adaptive->identity, at, words,
-                                                  adaptive->candidate.replicas.count, films, error);
+    const aur_result result =
+        aur_checkpoint_save(path, adaptive->identity, count, words, candidate->replicas.count, films, error);
     free(words);
     return result;
 }
 
-/* Targets and variances of the pixels. Returns what comes after them. */
-static const uint64_t *take_pixels(aur_candidate *candidate, const uint64_t *word) {
+static bool is_damaged(const aur_adaptive *adaptive) {
+    bool damaged = adaptive->place >= AUR_RACE_ROWS || adaptive->race.order_count > AUR_RACE_ROWS;
+    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
+        damaged = damaged || adaptive->race.order[i] >= AUR_RACE_ROWS;
+    return damaged;
+}
+
+static aur_result take_candidate(aur_candidate *candidate, const uint64_t *word, const char *path,
+                                 const aur_checkpoint *saved, aur_error *error) {
     for (size_t i = 0; i < candidate->value_count; ++i) {
         candidate->targets[i] = (uint32_t)*word++;
         candidate->earlier[i] = (uint32_t)*word++;
         candidate->variances[i] = aur_double_of_word(*word++);
     }
-    for (size_t i = 0; i < candidate->replicas.pixel_count; ++i) {
-        candidate->pixels[i].variance = aur_double_of_word(*word++);
-        candidate->pixels[i].spread = aur_double_of_word(*word++);
+    const size_t spreads = candidate->replicas.pixel_count * sizeof *candidate->pixels;
+    memcpy(candidate->pixels, word, spreads);
+    word += spreads / sizeof *word;
+    aur_result result = AUR_OK;
+    for (size_t r = 0; r < candidate->replicas.count && result == AUR_OK; ++r, word += AUR_SPENT_WORDS) {
+        aur_render *const render = candidate->replicas.renders[r];
+        aur_render_take_spent(render, word);
+        result = aur_fail_in(error, aur_render_merge(render, saved->films[r], error), path);
     }
-    return word;
+    return result;
 }
 
-static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_checkpoint *kept,
+static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_checkpoint *saved,
                             aur_error *error) {
-    double numbers[NUMBERS];
-    const uint64_t *word = kept->words;
-    for (size_t i = 0; i < NUMBERS; ++i)
-        numbers[i] = aur_double_of_word(*word++);
-    const uint64_t *const choice = kept->words + CHOICE;
+    const uint64_t *const words = saved->words, *word = words + FIRST_FIELD;
+    aur_candidate *const candidate = &adaptive->candidate;
     aur_result result = AUR_OK;
-    bool damaged = choice[0] >= AUR_RACE_ROWS || choice[2] >= AUR_RACE_ROWS;
-    const uint64_t *const race = kept->words + RACE;
-    for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-        damaged = damaged || race[0] > AUR_RACE_ROWS || race[1 + 2 * i] >= AUR_RACE_ROWS;
-    if (damaged)
-        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "a damaged checkpoint");
-    if (adaptive->path != NULL && choice[0] != AUR_RACE_PATH)
-        result = aur_adaptive_take(adaptive, choice[0], choice[1], error);
+    if (adaptive->path != NULL && words[ROW] < AUR_RACE_ROWS && words[ROW] != AUR_RACE_PATH)
+        result = aur_adaptive_take(adaptive, words[ROW], words[PHOTONS], error);
     if (result != AUR_OK)
         return result;
+    for (size_t i = 0; i < FIELD_COUNT; word += fields[i++].bytes / sizeof *word)
+        memcpy((char *)adaptive + fields[i].offset, word, fields[i].bytes);
+    if (words[ROW] >= AUR_RACE_ROWS || is_damaged(adaptive))
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "a damaged checkpoint");
     adaptive->open = false;
-    adaptive->candidate.rate = numbers[0];
-    adaptive->candidate.samples = adaptive->candidate.before = numbers[1];
-    adaptive->candidate.measure.mean = numbers[2];
-    adaptive->others.prepare_seconds = numbers[3];
-    adaptive->others.render_seconds = numbers[4];
-    adaptive->others.cpu_seconds = numbers[5];
-    adaptive->candidate.bound = numbers[6];
-    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m, word += 4)
-        adaptive->candidate.intervals[m] = (aur_error_interval){.estimate = aur_double_of_word(word[0]),
-                                                                .low = aur_double_of_word(word[1]),
-                                                                .high = aur_double_of_word(word[2]),
-                                                                .degrees = aur_double_of_word(word[3])};
-    adaptive->candidate.interval = adaptive->candidate.intervals[adaptive->target.measure];
-    adaptive->candidate.rounds = *word++;
-    adaptive->candidate.begun = (*word & 1) != 0;
-    adaptive->unchecked = (*word & 4) != 0;
-    adaptive->candidate.looked_at = (*word++ & 2) != 0;
-    word += 4; /* the choice */
-    adaptive->others.rays = *word++;
-    adaptive->others.budget = *word++ - (adaptive->uses.rays - adaptive->candidate.shared);
-    adaptive->candidate.traced += *word++;
-    adaptive->place = choice[2];
-    adaptive->race.order_count = *word++;
-    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
-        adaptive->race.order[i] = *word++;
-        adaptive->race.entries[i].need = aur_double_of_word(*word++);
-    }
-    word = take_pixels(&adaptive->candidate, word);
-    for (size_t r = 0; r < adaptive->candidate.replicas.count && result == AUR_OK;
-         ++r, word += AUR_SPENT_WORDS) {
-        aur_render_take_spent(adaptive->candidate.replicas.renders[r], word);
-        result = aur_fail_in(
-            error, aur_render_merge(adaptive->candidate.replicas.renders[r], kept->films[r], error), path);
-    }
-    if (result == AUR_OK && choice[3] > 0 && adaptive->row != AUR_RACE_PATH) {
-        aur_candidate_look(&adaptive->candidate);
-        result = aur_corrections_repeat(&adaptive->corrections, choice[3], &adaptive->cancelled, error);
+    candidate->samples = candidate->before = candidate->finished;
+    candidate->interval = candidate->intervals[adaptive->target.measure];
+    candidate->begun = (words[FLAGS] & 1) != 0;
+    candidate->looked_at = (words[FLAGS] & 2) != 0;
+    adaptive->unchecked = (words[FLAGS] & 4) != 0;
+    adaptive->others.budget = words[BUDGET] - (adaptive->uses.rays - candidate->shared);
+    candidate->traced += words[TRACED];
+    result = take_candidate(candidate, word, path, saved, error);
+    if (result == AUR_OK && words[STEPS] > 0 && adaptive->row != AUR_RACE_PATH) {
+        aur_candidate_look(candidate);
+        result = aur_corrections_repeat(&adaptive->corrections, words[STEPS], &adaptive->cancelled, error);
         aur_adaptive_bound_bias(adaptive);
     }
     return result;

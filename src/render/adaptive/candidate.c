@@ -398,7 +398,7 @@ aur_result aur_candidate_render(aur_candidate *candidate, double confidence, con
     ++candidate->rounds;
     aur_render_statistics spent;
     aur_candidate_spent(candidate, &spent);
-    candidate->samples = (double)spent.samples / (double)replicas->pixel_count;
+    candidate->samples = candidate->finished = (double)spent.samples / (double)replicas->pixel_count;
     measure(candidate, confidence);
     smooth(candidate);
     const variance_sums sums = pool_variances(candidate);

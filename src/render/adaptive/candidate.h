@@ -31,6 +31,7 @@ typedef struct aur_candidate {
     double bound;           /* of the error, by the rounds before too: at least the interval's upper end */
     double rate;            /* the error's square falls as samples^-rate */
     double samples;         /* a pixel, all replicas together */
+    double finished;        /* the same after the last whole round */
     double before;          /* the same before the round that is planned or rendered */
     size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
     double whole;           /* and in the end, as aur_candidate_look_ahead thought last; 0: nobody knows */

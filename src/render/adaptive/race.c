@@ -126,14 +126,6 @@ static aur_result render_blocks(aur_race *race, size_t row, size_t count, const 
 
 /* --- scores */
 
-typedef struct race_scores {
-    size_t blocks;
-    double (*means)[3];        /* of each block, over the candidates */
-    aur_error_weight *weights; /* of each block */
-    double *roots;             /* [rows][blocks] of the mean variance of a sample */
-    double *sums;              /* [rows] scratch */
-} race_scores;
-
 static const float *values_at(const aur_race *race, const aur_race_entry *entry, size_t block, size_t pixel) {
     return entry->values + ((block * PIXELS + pixel) * race->replica_count) * 3;
 }
@@ -146,20 +138,21 @@ static void mean_of_pixel(const aur_race *race, const float *values, double mean
     }
 }
 
-static void mean_of_blocks(const aur_race *race, const size_t *order, race_scores *scores) {
-    for (size_t b = 0; b < scores->blocks; ++b) {
+/* Over the candidates. */
+static void mean_of_blocks(const aur_race *race, const size_t *order, size_t blocks, double (*means)[3]) {
+    for (size_t b = 0; b < blocks; ++b) {
         size_t pixels[PIXELS], count = 0;
         const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
         double sum[3] = {0.0};
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-            for (size_t p = 0; p < pixel_count && race->entries[i].blocks >= scores->blocks; ++p, ++count) {
+            for (size_t p = 0; p < pixel_count && race->entries[i].blocks >= blocks; ++p, ++count) {
                 double mean[3];
                 mean_of_pixel(race, values_at(race, &race->entries[i], b, p), mean);
                 for (size_t c = 0; c < 3; ++c)
                     sum[c] += mean[c];
             }
         for (size_t c = 0; c < 3; ++c)
-            scores->means[b][c] = sum[c] / (double)count;
+            means[b][c] = sum[c] / (double)count;
     }
 }
 
@@ -216,39 +209,29 @@ static double work_of(const aur_race *race, size_t row, double mean_root) {
     return fmax(work + (row != AUR_RACE_PATH ? map : 0.0), least_work(race, row));
 }
 
-static aur_result allocate(race_scores *scores, size_t blocks, aur_error *error) {
-    *scores = (race_scores){.blocks = blocks,
-                            .means = calloc(blocks, sizeof *scores->means),
-                            .weights = calloc(blocks, sizeof *scores->weights),
-                            .roots = calloc(AUR_RACE_ROWS * blocks, sizeof *scores->roots)};
-    const bool made = scores->means != NULL && scores->weights != NULL && scores->roots != NULL;
-    return made ? AUR_OK : aur_fail_memory(error);
-}
-
-static void release_scores(race_scores *scores) {
-    free(scores->means);
-    free(scores->weights);
-    free(scores->roots);
-}
-
-/* Sets what each candidate needs by all of its blocks. */
-static aur_result measure(aur_race *race, const size_t *order, size_t blocks, race_scores *scores,
-                          aur_error *error) {
-    const aur_result result = allocate(scores, blocks, error);
-    if (result != AUR_OK)
-        return result;
-    mean_of_blocks(race, order, scores);
-    aur_error_weigh(race->measure, blocks, (const double(*)[3])scores->means,
-                    (const double(*)[3])scores->means, scores->weights);
-    for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
+/* Sets what each candidate needs by all of its blocks, and its roots. */
+static aur_result measure(aur_race *race, const size_t *order, size_t blocks, aur_error *error) {
+    double(*const means)[3] = calloc(blocks, sizeof *means);
+    aur_error_weight *const weights = calloc(blocks, sizeof *weights);
+    bool made = means != NULL && weights != NULL;
+    if (made) {
+        mean_of_blocks(race, order, blocks, means);
+        aur_error_weigh(race->measure, blocks, (const double(*)[3])means, (const double(*)[3])means, weights);
+    }
+    for (size_t i = 0; i < AUR_RACE_ROWS && made; ++i) {
         double sum = 0.0;
         if (!is_measured(&race->entries[i], blocks))
             continue;
-        for (size_t b = 0; b < blocks; ++b)
-            sum += scores->roots[i * blocks + b] = root_variance(race, order, i, b, &scores->weights[b]);
+        double *const roots = realloc(race->entries[i].roots, blocks * sizeof *roots);
+        made = roots != NULL;
+        for (size_t b = 0; b < blocks && made; ++b)
+            sum += roots[b] = root_variance(race, order, i, b, &weights[b]);
+        race->entries[i].roots = made ? roots : race->entries[i].roots;
         race->entries[i].need = work_of(race, i, sum / (double)blocks);
     }
-    return AUR_OK;
+    free(means);
+    free(weights);
+    return made ? AUR_OK : aur_fail_memory(error);
 }
 
 static size_t best_of(const aur_race *race, size_t blocks) {
@@ -262,22 +245,22 @@ static size_t best_of(const aur_race *race, size_t blocks) {
 
 /* Drops what is worse than the best in nearly all resamplings of the blocks (bootstrap). Returns how many are
  * left. */
-static size_t drop(aur_race *race, const race_scores *scores, size_t best) {
-    const double blocks = (double)scores->blocks;
+static size_t drop(aur_race *race, size_t blocks, size_t best) {
     size_t worse[AUR_RACE_ROWS] = {0}, left = 0;
     for (size_t k = 0; k < RESAMPLINGS; ++k) {
         double sums[AUR_RACE_ROWS] = {0.0};
-        for (size_t j = 0; j < scores->blocks; ++j) {
-            const size_t b = aur_hash3(UINT64_C(0x72616365), k, j) % scores->blocks;
+        for (size_t j = 0; j < blocks; ++j) {
+            const size_t b = aur_hash3(UINT64_C(0x72616365), k, j) % blocks;
             for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-                sums[i] += scores->roots[i * scores->blocks + b];
+                sums[i] += is_measured(&race->entries[i], blocks) ? race->entries[i].roots[b] : 0.0;
         }
+        const double least = work_of(race, best, sums[best] / (double)blocks);
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
-            worse[i] += is_measured(&race->entries[i], scores->blocks) &&
-                        work_of(race, i, sums[i] / blocks) > work_of(race, best, sums[best] / blocks);
+            worse[i] +=
+                is_measured(&race->entries[i], blocks) && work_of(race, i, sums[i] / (double)blocks) > least;
     }
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
-        if (!is_measured(&race->entries[i], scores->blocks))
+        if (!is_measured(&race->entries[i], blocks))
             continue;
         if (i != best && (double)worse[i] >= CONFIDENCE * RESAMPLINGS)
             say(&race->entries[i], true, "dropped: more work in 95 % of resamplings");
@@ -337,11 +320,9 @@ static aur_result run_others(aur_race *race, const size_t *order, size_t blocks,
 static aur_result run_rungs(aur_race *race, const size_t *order, size_t all, size_t blocks,
                             aur_error *error) {
     for (;;) {
-        race_scores scores;
-        aur_result result = measure(race, order, blocks, &scores, error);
+        aur_result result = measure(race, order, blocks, error);
         const size_t best = best_of(race, blocks);
-        const size_t left = result == AUR_OK && best < AUR_RACE_ROWS ? drop(race, &scores, best) : 0;
-        release_scores(&scores);
+        const size_t left = result == AUR_OK && best < AUR_RACE_ROWS ? drop(race, blocks, best) : 0;
         double next = 0.0;
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
             next += race->entries[i].out ? 0.0 : race->entries[i].rays;
@@ -407,9 +388,7 @@ aur_result aur_race_run(aur_race *race, aur_error *error) {
         middle->blocks = 0;
         say(middle, true, "no light was found in the first blocks");
     } else if (result == AUR_OK) {
-        race_scores scores;
-        result = measure(race, order, blocks, &scores, error);
-        release_scores(&scores);
+        result = measure(race, order, blocks, error);
         if (result == AUR_OK)
             result = run_others(race, order, blocks, error);
         if (result == AUR_OK)
@@ -426,6 +405,8 @@ aur_result aur_race_run(aur_race *race, aur_error *error) {
 void aur_race_release(aur_race *race) {
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
         free(race->entries[i].values);
+        free(race->entries[i].roots);
         race->entries[i].values = NULL;
+        race->entries[i].roots = NULL;
     }
 }

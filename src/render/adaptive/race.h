@@ -38,6 +38,7 @@ size_t aur_race_pixels(size_t width, size_t height, size_t block,
 typedef struct aur_race_entry {
     size_t blocks;   /* that it has rendered */
     float *values;   /* [blocks][16 pixels][replicas][3] */
+    double *roots;   /* [blocks] of the mean variance of a sample */
     double rays;     /* all that it took, without photons */
     double samples;  /* of all pixels and replicas */
     double need;     /* estimated work to the target, in rays; 0: not measured */
