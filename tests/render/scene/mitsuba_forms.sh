@@ -119,6 +119,7 @@ near "a mixture of three" "$(mixture ".25, .25, .25" "$(grey .8)$(grey .4)$(grey
 near "weights above 1" "$(mixture "1 3" "$(grey .8)$(grey .4)")" "$camera$light<shape type='rectangle'>$(grey .5)</shape>"
 near "weights of 0" "$(mixture "0 1 0" "$(grey .8)$(grey .4)$(grey .2)")" "$camera$light<shape type='rectangle'>$(grey .4)</shape>"
 refused "'weights' must be one number for each of its 2 bsdfs (found '1')" "$(mixture 1 "$(grey .8)$(grey .4)")"
+refused "'weights' must be one number for each of its 1 bsdfs (found '')" "$camera<bsdf type='mixturebsdf'><string name='weights'/>$(grey .8)</bsdf>"
 refused "'weights' must be between 0 and 1 (found '-1')" "$(mixture -1 "$(grey .8)")"
 
 # An integrator that is not known does not matter where another one takes its place, whatever stands inside.

@@ -63,12 +63,13 @@ static aur_result read_mixture(const aur_xml_node *node, mixture *self, aur_erro
                                 "bsdf 'mixturebsdf': expected 'weights' and nested bsdfs, not <%s>",
                                 child->tag);
     }
+    text = text != NULL ? text : "";
     count = aur_parse_doubles(text, self->weights, room + 1);
     if (self->count == 0 || count != self->count)
         return aur_xml_fail(node, error,
                             "bsdf 'mixturebsdf': 'weights' must be one number for each of its %zu bsdfs "
                             "(found '%s')",
-                            self->count, text != NULL ? text : "");
+                            self->count, text);
     for (size_t i = 0; i < count; ++i) {
         if (!(self->weights[i] >= 0.0 && self->weights[i] <= 1e6))
             return aur_xml_fail(node, error,
