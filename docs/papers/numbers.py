@@ -251,3 +251,21 @@ for set_ in ("random", "spherical-fibonacci"):
 page = "../view-factors.md"
 held = [100 * float(row["held"]) for row in rows("factors-coverage") if row["case"] != "pooled"]
 line(page, f"held in {value('factors-coverage', 'held', 100, case='pooled')} % of 1,000 seeds, over eight cases ({put(min(held))} to {put(max(held))} %)")
+page = "../lighting-accuracy.md"
+t = "irradiance-coverage"
+
+
+def is_asked(text):
+    return float(text) > 0
+
+
+for name, case in (("closed room, all light from everywhere | 1 %", "furnace"), ("lamp behind half a screen | .1 %", "screen"),
+                   ("uniform sky next to a wall | .5 %", "wall"), ("Cornell box | 2 %", "cornell-box"), ("functional of `aur_estimate` | .5 %", "functional")):
+    line(page, f"| {name} | {value(t, 'held', 100, case=case, asked=0)} % | {value(t, 'held', 100, case=case, asked=is_asked)} % | "
+               f"{value(t, 'directions', case=case, asked=is_asked)} |")
+line(page, f"| pooled | | {value(t, 'held', 100, case='pooled')} % | {value(t, 'held', 100, case='pooled to errors')} % | |")
+t = "picture-coverage"
+held = [value(t, "held", 100, case="picture's error", asked=asked) for asked in (0, 0.08)]
+nets = value(t, "held", 100, case="discrepancy of scrambled nets")
+line(page, f"radiosities ({value('factors-coverage', 'held', 100, case='pooled')} %), and `aureole lab run picture-coverage` for the errors that "
+           f"`aureole render --error` prints ({held[0]} %; stopped by an error of 8 %: {held[1]} %) and for `aureole measure --seeds 8` ({nets} %)")
