@@ -151,6 +151,7 @@ done
 # The elements that give a kind's row its defaults.
 children() { # children KIND ROW
   defaults "$1" "$2" | while IFS=$'\t' read -r name type default values; do
+    [ "$2:$name" != irradiancemeter:to_world ] || continue # it stands where its shape is
     case $type:$values in
       vector:*) tag=vector && [[ $default != *[a-z]* ]] || tag=string ;;
       boolean:* | integer:*) tag=$type ;;
@@ -174,7 +175,7 @@ picture="<texture type='bitmap' name='%s'><string name='filename' value='$plugin
 # What a row must be given besides.
 needs() { # needs KIND ROW
   case $1:$2 in
-    bsdf:twosided | bsdf:mask) echo "$coloured" ;;
+    bsdf:twosided | bsdf:mask | bsdf:*coating) echo "$coloured" ;;
     bsdf:blendbsdf) echo "$grey$coloured" ;;
     bsdf:bumpmap | bsdf:normalmap) printf "$grey$picture" "${2/bumpmap/texture}" ;;
     texture:bitmap) echo "<string name='filename' value='$plugins/picture.png'/>" ;;
@@ -217,6 +218,7 @@ scene() { # scene KIND ROW CONTENT
     emitter:area | emitter:directionalarea) stage "$film" "<shape type='rectangle'>$thing</shape><shape type='sphere'/>" ;;
     emitter:*) stage "$film" "$thing<shape type='sphere'/>" ;;
     sensor:batch) return 1 ;;
+    sensor:irradiancemeter) echo "<scene version='3.0.0'>$sky<shape type='sphere'><sensor type='$2'>$3$film</sensor></shape></scene>" ;;
     sensor:*) echo "<scene version='3.0.0'><sensor type='$2'>$3$film</sensor>$sky<shape type='sphere'><point name='center' x='1' y='0' z='3'/></shape></scene>" ;;
     film:*) stage "$thing<sampler type='sobol'><integer name='sample_count' value='1'/></sampler>" "<emitter type='constant'/>" ;;
     rfilter:*) stage "${film/<\/film>/$thing<\/film>}" "$sky<shape type='sphere'>$coloured</shape>" ;;

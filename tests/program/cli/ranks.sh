@@ -17,15 +17,16 @@ many() { timeout 120 mpirun -n "$@" 2>said; }
 scene=$source/scenes/cornell-box/glossy.xml
 small="--width 40 --height 36 -q"
 
-# same RANKS OPTION...
+# same RANKS OPTION...: raw runs of the lab are left out, which several ranks do not store
 same() {
   local ranks=$1
   shift
   "$aureole" "$@" -t 1 >one.txt 2>said || { fail "one process: $* ($(head -1 said))"; return; }
   rm -rf first && mkdir first && for f in out*; do [ ! -e "$f" ] || mv "$f" first; done
   many "$ranks" "$aureole" "$@" -t 1 >many.txt || fail "$ranks ranks: $* ($(head -3 said))"
+  sed -i '/-runs\.npz$/d' one.txt
   cmp one.txt many.txt || fail "$ranks ranks print something else: $*"
-  for f in first/*; do [ ! -e "$f" ] || diff -r -x '*-timings.csv' "$f" "${f#first/}" >/dev/null || fail "$ranks ranks make another $f: $*"; done
+  for f in first/*; do [ ! -e "$f" ] || diff -r -x '*-timings.csv' -x '*-runs.npz' "$f" "${f#first/}" >/dev/null || fail "$ranks ranks make another $f: $*"; done
   rm -rf out*
 }
 for work in path 'finalgather:photons=2000,diffuse_samples=16'; do
