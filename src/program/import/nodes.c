@@ -85,6 +85,8 @@ static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world
     writer_open(self, "shape", "ply");
     writer_property(self, "string", "filename", "*%u", self->mesh_file[index]);
     writer_property(self, "boolean", "face_normals", "%s", smooth ? "false" : "true");
+    if (mesh->mNormals == NULL && smooth)
+        writer_property(self, "float", "crease_angle", "30");
     if (to_world != NULL)
         put_matrix(self, to_world);
     put_reference(self, "material", mesh->mMaterialIndex);

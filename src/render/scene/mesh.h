@@ -42,6 +42,9 @@ aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_p
 void aur_mesh_flip(aur_mesh *mesh);
 /* Normals at vertices: those of the triangles around, by their angle there (Thuermer and Wuethrich 1998). */
 AUR_INTERNAL aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error);
+/* Doubles vertices, before aur_mesh_recenter, where triangles that share a side meet at more than so many
+ * degrees, so that aur_mesh_smooth leaves these sides sharp. */
+aur_result aur_mesh_split_creases(aur_mesh *mesh, double degrees, aur_location location, aur_error *error);
 /* Frees normals that are everywhere those of the triangles, but for rounding: what is flat has faster ways to
  * be rendered. */
 void aur_mesh_drop_flat_normals(aur_mesh *mesh);

@@ -76,6 +76,8 @@ aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, 
         return result;
     result = read_mesh(&file, &keys, shape, error);
     aur_shape_file_close(&file);
+    if (result == AUR_OK && !keys.face_normals && shape->mesh.normals == NULL && keys.crease_angle < 180.0)
+        result = aur_mesh_split_creases(&shape->mesh, keys.crease_angle, shape->location, error);
     if (result != AUR_OK)
         return result;
     aur_shape_place(input, shape);

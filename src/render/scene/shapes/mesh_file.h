@@ -29,6 +29,7 @@ struct aur_mesh_file {
 typedef struct aur_mesh_file_keys {
     const char *filename;
     bool face_normals, flip_v;
+    double crease_angle;
     uint64_t shape_index;
 } aur_mesh_file_keys;
 
@@ -36,9 +37,11 @@ typedef struct aur_mesh_file_keys {
 #define AUR_MESH_FILE_KEYS                                                                                   \
     {AUR_KEY_OF_TEXT(aur_mesh_file_keys, "filename", filename, NULL,                                         \
                      "file, relative to the scene; required")},                                              \
+        {AUR_KEY_OF_BOOLEAN(aur_mesh_file_keys, "face_normals", face_normals, "false",                       \
+                            "flat triangles, whatever normals the file has")},                               \
     {                                                                                                        \
-        AUR_KEY_OF_BOOLEAN(aur_mesh_file_keys, "face_normals", face_normals, "false",                        \
-                           "flat triangles, whatever normals the file has")                                  \
+        AUR_KEY_OF_REAL(aur_mesh_file_keys, "crease_angle", crease_angle, 0.0, 180.0, "180",                 \
+                        "degrees: triangles that meet at more keep a sharp edge, in files without normals")  \
     }
 
 /* The `create` of shapes with a `read_file`. */

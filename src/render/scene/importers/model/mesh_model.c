@@ -46,6 +46,8 @@ static aur_result add_shape(mesh_model *self, const char *type, const aur_mtl_ma
                             bool colored) {
     aur_xml_node *const shape = aur_node_object(self->nodes, self->parent, "shape", type);
     aur_node_property(self->nodes, shape, "string", "filename", "*%zu", self->files->count - 1);
+    if (self->data.normals == NULL) /* 30 degrees, as VTK and Blender have it */
+        aur_node_property(self->nodes, shape, "float", "crease_angle", "30");
     aur_mesh_material_add(material, colored, self->nodes, shape);
     if (aur_mesh_material_emits(material)) {
         aur_mesh_material_add_emitter(material, self->nodes, shape);
