@@ -61,9 +61,9 @@ def _library() -> Bridge:
         attach(bridge)
         return bridge
     raise ImportError(
-        "pictures, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found. "
-        "They are no part of this package: build the second one in the source tree (pip install ./python/render), or install its wheel "
-        "aureole_render-*.whl or the tree itself (cmake --install build/release), or name the library in AUREOLE_RENDER_LIBRARY. Tried: "
+        "rendering, view factors and irradiance need libaureole-lighting or libaureole-render, which were not found. "
+        "Install the package aureole-render (pip install ./python/render in the source tree, or the wheel aureole_render-*.whl), "
+        "install the tree (cmake --install build/release), or set AUREOLE_RENDER_LIBRARY to build/release/libaureole-lab.so. Tried: "
         + "; ".join(tried)
     )
 

@@ -107,7 +107,7 @@ done
 "$aureole" irradiance -q hour.xml --sensors last.pts --weather mixed.epw -n 64 --series hours.npy -o last.csv || fail "NPY"
 [ "$(stat -c %s hours.npy)" = $((128 + 2 * 8760 * 8)) ] || fail "the series is $(stat -c %s hours.npy) bytes"
 "$aureole" irradiance hour.xml --sensors last.pts --weather mixed.epw -n 64 -o last.csv 2>&1 |
-  grep -qF 'aureole: 3650 hours count; ' || fail "no summary"
+  grep -qF 'aureole: 3650 occupied hours; ' || fail "no summary"
 
 # What the summary says of all sensors is what its table says of each, by intervals of 95 % of 16 randomisations (a quantile of
 # Student's t of 2.13145). A row of sensors goes from under a roof into the open.
@@ -119,7 +119,7 @@ for x in $(seq 0 .1 2 | tr , .) $(seq 2 .02 3 | tr , .); do echo "$x 0 0 0 0 1";
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
   { ++n; value = $column["autonomy"]; half = 2.13145 * $column["autonomy_error"]; enough += value >= 50; least += value - half >= 50
     most += value + half >= 50; sunny += $column["sun_hours"] > 250 }
-  END { printf "aureole: 1460 hours count; %.4g %% of the sensors have daylight for half of them or more (%.4g to %.4g %% by their intervals), %.4g %% have more than 250 hours of sun\n",
+  END { printf "aureole: 1460 occupied hours; %.4g %% of the sensors reach the threshold in half of them or more (%.4g to %.4g %% by their intervals), %.4g %% have more than 250 hours of direct sun\n",
           100 * enough / n, 100 * least / n, 100 * most / n, 100 * sunny / n
         exit !(least < enough && enough < most && sunny > 0 && sunny < n) }' row.csv >expected || fail "all sensors are alike: $(cat expected)"
 grep -qxFf expected said || fail "the summary: $(cat said), not $(cat expected)"

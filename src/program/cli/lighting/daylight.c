@@ -165,8 +165,9 @@ bool cli_daylight_check(const cli_call *call) {
 /* On one line, for people. */
 static void print_summary(const aur_daylight_summary *summary) {
     aur_print(stderr,
-              "aureole: %zu hours count; %.4g %% of the sensors have daylight for half of them or more (%.4g "
-              "to %.4g %% by their intervals), %.4g %% have more than 250 hours of sun\n",
+              "aureole: %zu occupied hours; %.4g %% of the sensors reach the threshold in half of them or "
+              "more (%.4g "
+              "to %.4g %% by their intervals), %.4g %% have more than 250 hours of direct sun\n",
               summary->hours, summary->spatial_autonomy, summary->spatial_autonomy_least,
               summary->spatial_autonomy_most, summary->sunlight_exposure);
 }
