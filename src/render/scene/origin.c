@@ -19,19 +19,9 @@ static inline double larger_of(double a, double b) {
     return a > b ? a : b;
 }
 
-static void include(aur_patch_box *box, const double point[3], double radius) {
-    for (size_t i = 0; i < 3; ++i) {
-        box->lower[i] = smaller_of(box->lower[i], point[i] - radius);
-        box->upper[i] = larger_of(box->upper[i], point[i] + radius);
-    }
-}
-
 static aur_patch_box box_of(const aur_shape *shape, size_t primitive) {
-    aur_patch_box box = {.lower = {HUGE_VAL, HUGE_VAL, HUGE_VAL},
-                         .upper = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
-                         .shape = shape->index};
+    aur_patch_box box = {.shape = shape->index};
     const aur_mesh *const mesh = &shape->mesh;
-    const aur_curves *const curves = &shape->curves;
     if (shape->curved == NULL) {
         const double *corners[3];
         for (size_t i = 0; i < 3; ++i)
@@ -40,18 +30,8 @@ static aur_patch_box box_of(const aur_shape *shape, size_t primitive) {
             box.lower[i] = smaller_of(corners[0][i], smaller_of(corners[1][i], corners[2][i]));
             box.upper[i] = larger_of(corners[0][i], larger_of(corners[1][i], corners[2][i]));
         }
-    } else if (curves->segment_count > 0) {
-        for (size_t i = 0; i < (curves->smooth ? 4u : 2u); ++i) {
-            const size_t point = curves->firsts[primitive] + i;
-            include(&box, &curves->places[3 * point], (double)curves->points[4 * point + 3]);
-        }
     } else {
-        /* `center` is 0 as yet. */
-        shape->curved->bounds(shape, primitive, box.lower, box.upper);
-        for (size_t i = 0; i < 3; ++i) {
-            box.lower[i] += shape->place[i];
-            box.upper[i] += shape->place[i];
-        }
+        aur_shape_curved_bounds(shape, primitive, box.lower, box.upper);
     }
     return box;
 }

@@ -127,3 +127,28 @@ void aur_shape_release_attributes(aur_shape *shape) {
     shape->attributes = NULL;
     shape->attribute_count = 0;
 }
+
+void aur_shape_curved_bounds(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]) {
+    const aur_curves *const curves = &shape->curves;
+    if (curves->segment_count == 0) {
+        shape->curved->bounds(shape, primitive, lower, upper); /* `center` is 0 as yet */
+        for (size_t d = 0; d < 3; ++d) {
+            lower[d] += shape->place[d];
+            upper[d] += shape->place[d];
+        }
+        return;
+    }
+    for (size_t d = 0; d < 3; ++d) {
+        lower[d] = HUGE_VAL;
+        upper[d] = -HUGE_VAL;
+    }
+    for (size_t i = 0; i < (curves->smooth ? 4u : 2u); ++i) {
+        const size_t point = curves->firsts[primitive] + i;
+        const double *const place = &curves->places[3 * point],
+                            radius = (double)curves->points[4 * point + 3];
+        for (size_t d = 0; d < 3; ++d) {
+            lower[d] = place[d] - radius < lower[d] ? place[d] - radius : lower[d];
+            upper[d] = place[d] + radius > upper[d] ? place[d] + radius : upper[d];
+        }
+    }
+}

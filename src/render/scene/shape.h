@@ -123,6 +123,9 @@ static inline size_t aur_shape_primitives(const aur_shape *shape) {
     return shape->curves.segment_count != 0 ? shape->curves.segment_count : 1;
 }
 
+/* The bounds of one of a curved shape in world coordinates, before the shape is recentred. */
+void aur_shape_curved_bounds(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]);
+
 /* Of a point and its unit normal, offset and rounding where rays meet the shape in doubles and `position` was
  * found in doubles: it is rounded once, and the origin of the ray once more, which are 2 of the 4 roundings
  * of 6e-8 here. Doubles have some 1e-15 of `size`, that of all coordinates. */

@@ -20,57 +20,23 @@ static const view_name views[] = {{"front", 0, 0},           {"back", 180, 0},  
 
 /* --- what there is to see */
 
-static void visit_shape(const aur_shape *shape, const aur_transform *to_world, aur_stage_visit *visit,
-                        void *user) {
-    double moved[3];
-    for (size_t i = 0; i < 3 * shape->mesh.triangle_count; ++i) {
-        const double *const point = &shape->mesh.points[3 * (size_t)shape->mesh.indices[i]];
-        if (to_world != NULL)
-            aur_transform_point(to_world, point, moved);
-        visit(user, to_world != NULL ? moved : point);
-    }
-    for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
-        double lower[3], upper[3];
-        shape->curved->bounds(shape, k, lower, upper);
-        for (size_t corner = 0; corner < 8; ++corner) {
-            double point[3];
-            for (size_t d = 0; d < 3; ++d)
-                point[d] = (corner >> d & 1 ? upper[d] : lower[d]) + shape->place[d];
-            if (to_world != NULL)
-                aur_transform_point(to_world, point, moved);
-            visit(user, to_world != NULL ? moved : point);
-        }
-    }
-}
-
-void aur_stage_visit_points(const aur_scene *scene, aur_stage_visit *visit, void *user) {
-    for (size_t i = 0; i < scene->shape_count; ++i)
-        if (!scene->shapes[i]->grouped)
-            visit_shape(scene->shapes[i], NULL, visit, user);
-    for (size_t i = 0; i < scene->instance_count; ++i) {
-        const aur_instance *const instance = scene->instances[i];
-        for (size_t k = 0; k < instance->group->count; ++k)
-            visit_shape(scene->shapes[instance->group->shapes[k]], &instance->to_world, visit, user);
-    }
-}
-
-typedef struct box {
-    double lower[3], upper[3];
-} box;
-
 static void widen(void *user, const double point[3]) {
-    box *const bounds = user;
-    for (size_t d = 0; d < 3; ++d) {
-        bounds->lower[d] = fmin(bounds->lower[d], point[d]);
-        bounds->upper[d] = fmax(bounds->upper[d], point[d]);
-    }
+    aur_stage_widen(user, point);
+}
+
+static bool is_outside(const void *user, const aur_stage_box *box) {
+    const aur_stage_box *const bounds = user;
+    bool inside = true;
+    for (size_t d = 0; d < 3; ++d)
+        inside = inside && box->sides[0][d] >= bounds->sides[0][d] && box->sides[1][d] <= bounds->sides[1][d];
+    return !inside;
 }
 
 bool aur_stage_bounds(const aur_scene *scene, double lower[3], double upper[3]) {
-    box bounds = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
-    aur_stage_visit_points(scene, widen, &bounds);
-    memcpy(lower, bounds.lower, sizeof bounds.lower);
-    memcpy(upper, bounds.upper, sizeof bounds.upper);
+    aur_stage_box bounds = {{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}};
+    aur_stage_visit_points(scene, &(aur_stage_visitor){widen, is_outside, &bounds});
+    memcpy(lower, bounds.sides[0], sizeof bounds.sides[0]);
+    memcpy(upper, bounds.sides[1], sizeof bounds.sides[1]);
     return lower[0] <= upper[0];
 }
 
@@ -99,6 +65,26 @@ static void extend(void *user, const double point[3]) {
         self->beyond[2 * k + 1] = fmax(self->beyond[2 * k + 1], -along[k] - depth);
     }
     self->nearest = fmin(self->nearest, along[2]);
+}
+
+/* By the least and the most of each step of `extend`: rounding reverses no order. */
+static bool may_extend(const void *user, const aur_stage_box *box) {
+    const reach *const self = user;
+    double along[2][3];
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t side = 0; side < 2; ++side) {
+            double offset[3];
+            for (size_t d = 0; d < 3; ++d)
+                offset[d] = box->sides[self->axes[k][d] < 0.0 ? 1 - side : side][d] - self->center[d];
+            along[side][k] = aur_dot3(offset, self->axes[k]);
+        }
+    bool within = along[0][2] >= self->nearest;
+    for (size_t k = 0; k < 2; ++k) {
+        const double depth = self->tangents[k] * along[0][2];
+        within = within && along[1][k] - depth <= self->beyond[2 * k] &&
+                 -along[0][k] - depth <= self->beyond[2 * k + 1];
+    }
+    return !within;
 }
 
 /* Of a camera at (a, b, c) along its axes, each pair of planes gives the place across in the middle, and the
@@ -141,19 +127,19 @@ static void set_sensor(aur_sensor *sensor, double axes[3][3], const double place
 static aur_result frame(aur_scene *scene, double azimuth, double elevation, double aspect, bool z_up,
                         aur_error *error) {
     aur_sensor *const sensor = &scene->sensor;
-    box bounds;
+    double lower[3], upper[3];
     reach self = {.beyond = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, .nearest = HUGE_VAL};
-    if (!aur_stage_bounds(scene, bounds.lower, bounds.upper))
+    if (!aur_stage_bounds(scene, lower, upper))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the scene has no surface to look at");
     for (size_t d = 0; d < 3; ++d)
-        self.center[d] = 0.5 * bounds.lower[d] + 0.5 * bounds.upper[d];
+        self.center[d] = 0.5 * lower[d] + 0.5 * upper[d];
     set_axes(azimuth, elevation, z_up, self.axes);
     const bool flat = strcmp(sensor->descriptor->row.name, "orthographic") == 0;
     if (!flat) {
         self.tangents[0] = FILL * (double)aur_sensor_half_width(sensor, (float)aspect);
         self.tangents[1] = self.tangents[0] / aspect;
     }
-    aur_stage_visit_points(scene, extend, &self);
+    aur_stage_visit_points(scene, &(aur_stage_visitor){extend, may_extend, &self});
     double place[3];
     stand_back(&self, place);
     const double *const b = self.beyond;

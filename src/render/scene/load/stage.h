@@ -12,9 +12,24 @@ typedef struct aur_stage_axes {
 
 /* --- the camera (framing.c) */
 
-/* All corners of surfaces in the world, one after the other; curved shapes have those of their bounds. */
-typedef void aur_stage_visit(void *user, const double point[3]);
-void aur_stage_visit_points(const aur_scene *scene, aur_stage_visit *visit, void *user);
+typedef struct aur_stage_box {
+    double sides[2][3]; /* lower, upper */
+} aur_stage_box;
+
+/* What corners of surfaces are for: `visit` sees one after the other; `matters` is false for a box, its lower
+ * and its upper sides, where no corner within it changes what those before came to. */
+typedef struct aur_stage_visitor {
+    void (*visit)(void *user, const double point[3]);
+    bool (*matters)(const void *user, const aur_stage_box *box);
+    void *user;
+} aur_stage_visitor;
+
+/* All corners of surfaces in the world that matter (corners.c), each once or more often; curved shapes have
+ * those of their bounds. */
+void aur_stage_visit_points(const aur_scene *scene, const aur_stage_visitor *visitor);
+
+/* Widens a box to hold a point. */
+void aur_stage_widen(aur_stage_box *box, const double point[3]);
 
 /* The bounds of the scene; false when nothing is there. */
 bool aur_stage_bounds(const aur_scene *scene, double lower[3], double upper[3]);
