@@ -17,6 +17,8 @@ flux=$(awk -v f="$script" 'BEGIN { printf "%.12g", 5.670374419e-8 * (350 ^ 4 - 3
 "$aureole" viewfactors room.obj --group --surfaces warm.csv -q -o warm.out || fail "temperatures"
 near "the floor's net flux" "$(awk -F, 'NR == 2 { print $7 }' warm.out)" "$flux" 1e-4
 near "the rest's net flux" "$(awk -F, 'NR == 3 { printf "%.12g", 5 * $7 }' warm.out)" "-$flux" 1e-4
+printf 'name, emittance, temperature\nfloor, .7, 350\n*, .4, 300\n' >after.csv
+"$aureole" viewfactors room.obj --group --surfaces after.csv -q | cmp - warm.out || fail "'*' takes a row that another line names"
 "$aureole" viewfactors room.obj --group --surfaces warm.csv --matrix-free --rays 16384 -q -o free.out || fail "without a matrix"
 awk -F, -v q="$flux" 'NR == 2 { d = $7 - q; exit !($8 > 0 && d < 3 * $8 && d > -3 * $8) }' free.out || fail "the floor's net flux, matrix-free: $(cat free.out)"
 "$aureole" viewfactors room.obj --group --script-f --surfaces warm.csv -q -o script.csv || fail "script F"
@@ -41,6 +43,9 @@ for bad in '*,1.5,0' '*,x,0' '*,.5,-1' 'none,.5,1' '*,.5' ; do
   printf "name,emittance,temperature\n$bad\n" >bad.csv
   refused "bad.csv:2: " room.obj --group --surfaces bad.csv
 done
+printf 'name,reflectance\nfloor,.5\n*,.1\nfloor,.6\n' >bad.csv
+refused "bad.csv:4: a second line of this name (floor)" room.obj --group --surfaces bad.csv
+refused "bad.csv:2: the rows of a mesh have names with --group only (floor)" room.obj --surfaces bad.csv
 printf 'name,reflectance\nfloor,.5\n' >bad.csv
 refused "no line is of row 1, rest of it" room.obj --group --surfaces bad.csv
 refused "cannot be opened" room.obj --surfaces none.csv

@@ -22,6 +22,7 @@ typedef struct table_reading {
     size_t line, columns;
     column order[MOST_COLUMNS];
     bool has[COLUMNS];
+    bool *named; /* rows that a line has named */
 } table_reading;
 
 static int fail(const table_reading *self, const char *what, const char *found) {
@@ -78,7 +79,8 @@ static bool is_of_row(const table_reading *self, const aur_facets *facets, const
     return name != NULL && strcmp(name, field) == 0;
 }
 
-/* The line's numbers go to every row that it is of. */
+/* The line's numbers go to every row that it names; those of '*' to the rows that no line names, before it
+ * or after. */
 static int use_line(const table_reading *self, const aur_facets *facets, const char *key,
                     const double values[COLUMNS], cli_surfaces *made) {
     const double emittance = self->has[EMITTANCE] ? values[EMITTANCE] : 1.0 - values[REFLECTANCE];
@@ -87,18 +89,30 @@ static int use_line(const table_reading *self, const aur_facets *facets, const c
         return fail(self, "a reflectance or emittance from 0 to 1 expected", key);
     if (!(kelvin >= 0.0 && kelvin < 1e6) || !(values[EMISSION] >= 0.0))
         return fail(self, "a temperature in kelvin, or an emission, that is not negative expected", key);
+    const bool others = strcmp(key, "*") == 0;
     size_t count = 0;
     for (size_t i = 0; i < aur_facets_rows(facets); ++i) {
         if (!is_of_row(self, facets, key, i))
             continue;
+        ++count;
+        if (self->named[i] && others)
+            continue;
+        if (self->named[i])
+            return fail(self, "a second line of this name", key);
+        self->named[i] = !others;
         made->emittances[i] = emittance;
         made->reflectances[i] = 1.0 - emittance;
         made->emissions[i] = self->has[TEMPERATURE]
                                  ? emittance * STEFAN_BOLTZMANN * kelvin * kelvin * kelvin * kelvin
                                  : values[EMISSION];
-        ++count;
     }
-    return count > 0 ? CLI_SUCCESS : fail(self, "the mesh has no row of this name", key);
+    if (count > 0)
+        return CLI_SUCCESS;
+    const bool nameless = self->has[NAME] && aur_facets_name(facets, 0) == NULL;
+    return fail(self,
+                nameless ? "the rows of a mesh have names with --group only"
+                         : "the mesh has no row of this name",
+                key);
 }
 
 static int read_line(table_reading *self, const aur_facets *facets, char *text, cli_surfaces *made) {
@@ -120,8 +134,8 @@ static int check_rows(const table_reading *self, const aur_facets *facets, const
     for (size_t i = 0; i < aur_facets_rows(facets); ++i)
         if (isnan(made->emittances[i])) {
             const char *const name = aur_facets_name(facets, i);
-            return cli_bad_usage("%s: no line is of row %zu%s%s: name it, or '*' for all others first",
-                                 self->path, i, name != NULL ? ", " : "", name != NULL ? name : "");
+            return cli_bad_usage("%s: no line is of row %zu%s%s: name it, or '*' for all others", self->path,
+                                 i, name != NULL ? ", " : "", name != NULL ? name : "");
         }
     return CLI_SUCCESS;
 }
@@ -238,6 +252,9 @@ int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *
     FILE *const file = fopen(path, "r");
     if (file == NULL)
         return cli_bad_usage("%s: cannot be opened", path);
+    self.named = calloc(rows + 1, sizeof *self.named);
+    if (self.named == NULL)
+        status = cli_bad_usage("out of memory");
     char *line = NULL;
     size_t capacity = 0;
     while (status == CLI_SUCCESS && getline(&line, &capacity, file) >= 0) {
@@ -246,6 +263,7 @@ int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *
             continue;
         status = self.columns == 0 ? read_header(&self, line) : read_line(&self, facets, line, made);
     }
+    free(self.named);
     free(line);
     fclose(file);
     return status == CLI_SUCCESS ? check_rows(&self, facets, made) : status;

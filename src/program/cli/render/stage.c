@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "program/cli/render/stage.h"
 
@@ -73,9 +74,10 @@ size_t cli_split_numbers(const char *text, size_t most, double *numbers) {
     return count;
 }
 
+/* Without opening it: to open a pipe would wait for its writer, or take what it holds from the reader. */
 static bool exists(const char *path) {
-    FILE *const file = fopen(path, "rb");
-    return file != NULL && fclose(file) == 0;
+    struct stat status;
+    return stat(path, &status) == 0;
 }
 
 aur_result cli_stage_read_files(cli_stage *given, const cli_call *call, aur_error *error) {

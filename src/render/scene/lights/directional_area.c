@@ -25,10 +25,10 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     const aur_shape *const shape = emitter->scene->shapes[emitter->shape];
     const bool round = shape->ellipse;
     if (!round && !shape->parallelogram)
-        return aur_fail_at(
-            error, emitter->location, AUR_ERROR_UNSUPPORTED,
-            "emitter 'directionalarea': a shape '%s' cannot be one, only a rectangle or a disk",
-            shape->descriptor->row.name);
+        return aur_fail_at(error, emitter->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter 'directionalarea': a shape '%s' cannot be one, only a rectangle or a "
+                           "disk that lies on no other shape",
+                           shape->descriptor->row.name);
     if (!(shape->area > 0.0))
         return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
                            "emitter 'directionalarea': its shape has no area, so it gives no light");
