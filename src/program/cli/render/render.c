@@ -395,8 +395,8 @@ static const char *conflict(const cli_call *call, const render_command *command)
     if (command->reference != NULL)
         return "render: '--errors' cannot be used with '--error', '--time', '--rays' or '--rounds'";
     if (cli_given(call, "spp") != NULL || cli_given(call, "samples") != NULL)
-        return "render: '--spp' cannot be used with '--error', '--time', '--rays' or '--rounds', which "
-               "choose the samples";
+        return "render: '--samples' and '--spp' cannot be used with '--error', '--time', '--rays' or "
+               "'--rounds', which choose the samples";
     return NULL;
 }
 
