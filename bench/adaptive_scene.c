@@ -7,13 +7,13 @@
 
 enum { TRUE_SEED = 1001 };
 
-/* The truth is the mean of two pictures to this part of the error asked, by paths and other seeds: an error
+/* The truth is the mean of two images to this part of the error asked, by paths and other seeds: an error
  * so small gives the pixels that most of it comes from the samples they need. What the truth is wrong by is
- * told by the difference of the two, not by the intervals that are measured. Large pictures have many values
+ * told by the difference of the two, not by the intervals that are measured. Large images have many values
  * by which that is told, and truths that cost minutes. */
 static const double TRUE_PART = 0.125, LARGE_TRUE_PART = 0.25;
 
-/* Errors that take some ten to some hundred samples a pixel, so that those of the truth are small beside
+/* Errors that take some ten to some hundred samples per pixel, so that those of the truth are small beside
  * them. Keller's scenes name an integrator of their own, which is told another one. */
 const bench_adaptive_row bench_adaptive_rows[] = {
     {"cornell-box/cornell-box.xml", "path", 0.08, 1},

@@ -1,5 +1,5 @@
-/* Scenes in small pictures to an error: the bundled ones and Veach's, each with its truth, which is the mean
- * of two long path-traced pictures with seeds of their own, rendered once and kept beside the program. */
+/* Scenes in small images to an error: the bundled ones and Veach's, each with its truth, which is the mean
+ * of two long path-traced images with seeds of their own, rendered once and kept beside the program. */
 #pragma once
 
 #include <aureole-render/adaptive.h>
@@ -36,7 +36,7 @@ typedef struct bench_adaptive_scene {
     aur_renderer *renderer;
     size_t width, height, count;               /* of values: three a pixel */
     double values[BENCH_ADAPTIVE_MOST_VALUES]; /* of the truth */
-    double wrong[BENCH_ADAPTIVE_MOST_VALUES];  /* half the difference of its two pictures: errors as it has
+    double wrong[BENCH_ADAPTIVE_MOST_VALUES];  /* half the difference of its two images: errors as it has
                                                   itself */
     double mean, own_square;                   /* of the truth; of its own error */
 } bench_adaptive_scene;
@@ -46,6 +46,6 @@ aur_result bench_adaptive_scene_open(const bench_options *options, const bench_a
                                      const char *folder, bench_adaptive_scene *self, aur_error *error);
 void bench_adaptive_scene_close(bench_adaptive_scene *self);
 
-/* A picture to the row's error. The caller destroys both, also after a failure. */
+/* An image to the row's error. The caller destroys both, also after a failure. */
 aur_result bench_adaptive_scene_render(const bench_adaptive_scene *self, uint64_t seed,
                                        aur_adaptive **adaptive, aur_image **image, aur_error *error);

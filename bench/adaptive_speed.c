@@ -10,7 +10,7 @@
 #include "study.h"
 
 /* An attempt that is expected to take longer is not made: the law of the last one tells its seconds. What is
- * asked for goes further, as much of what a coarse picture takes goes into the choice of the integrator. */
+ * asked for goes further, as much of what a coarse image takes goes into the choice of the integrator. */
 static const double seconds_limit = 60.0, error_limit = 600.0;
 
 enum { QUICK_SUBJECTS = 2, FIRST_SAMPLES = 16, COARSEST = 8, STEP = 4 };
@@ -33,9 +33,9 @@ static const speed_row rows[] = {
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
 
-/* The last picture on the way to an error, and how its seconds go on: as error^-power. */
+/* The last image on the way to an error, and how its seconds go on: as error^-power. */
 typedef struct attempt {
-    double asked;            /* error, or samples a pixel */
+    double asked;            /* error, or samples per pixel */
     double seconds;          /* CPU; 0: none was made */
     double error, uncertain; /* the true one, and its standard error */
 } attempt;
@@ -101,7 +101,7 @@ static bool follow(const bench_study *self, double wanted, attempt *found) {
     return true;
 }
 
-/* The fastest of the other renderers to each error, by their own laws. Of those whose picture is another one,
+/* The fastest of the other renderers to each error, by their own laws. Of those whose image is another one,
  * such as of a light that they were not told, nothing is taken. */
 static bool ask_peers(const bench_study *self, size_t count, const speed_row *wanted, peer *found) {
     const char *const python = getenv("AUREOLE_PEERS_PYTHON");
@@ -128,7 +128,7 @@ static bool ask_peers(const bench_study *self, size_t count, const speed_row *wa
             continue;
         }
         const bool alike = fabs(mean / self->light - 1.0) < 0.05;
-        printf("    %s: mean %.4g of %.4g%s\n", name, mean, self->light, alike ? "" : ", another picture");
+        printf("    %s: mean %.4g of %.4g%s\n", name, mean, self->light, alike ? "" : ", another image");
         const char *rest = line + read;
         for (size_t i = 0; i < count && alike; ++i) {
             char *end;
@@ -189,7 +189,7 @@ static bool study_row(const bench_study *self, const speed_row *row, attempt *as
     return true;
 }
 
-/* Half the error is asked again and again, until the denoised picture has `wanted` over the mean; `least` is
+/* Half the error is asked again and again, until the denoised image has `wanted` over the mean; `least` is
  * of an infinite error before. It ends where the filter's own error is all that is left, or where the next
  * would take too long. */
 static bool denoise_own(const bench_study *self, double wanted, attempt *least) {
@@ -213,7 +213,7 @@ static bool denoise_own(const bench_study *self, double wanted, attempt *least) 
     return true;
 }
 
-/* The same of Mitsuba's pictures, by more and more samples. Without it `least` stays as it is. */
+/* The same of Mitsuba's images, by more and more samples. Without it `least` stays as it is. */
 static bool denoise_peer(const bench_study *self, double wanted, attempt *least) {
     const char *const python = getenv("AUREOLE_PEERS_PYTHON");
     if (python == NULL)

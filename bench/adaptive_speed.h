@@ -1,4 +1,4 @@
-/* What pictures to an error cost, by recipe, by `--error`, by our path tracer and by other renderers. */
+/* What images to an error cost, by recipe, by `--error`, by our path tracer and by other renderers. */
 #pragma once
 
 #include <stdbool.h>
@@ -7,6 +7,6 @@
 #include "figures.h"
 
 /* Where AUREOLE_PEERS_PYTHON names a Python that has Mitsuba (bench/peers/time_to_quality.py), that is
- * measured too, and where AUREOLE_OIDN names Open Image Denoise, what pictures err when they are denoised.
+ * measured too, and where AUREOLE_OIDN names Open Image Denoise, what images err when they are denoised.
  * False after bench_fail. */
 bool bench_adaptive_speed(const bench_options *options, bench_figures *figures);

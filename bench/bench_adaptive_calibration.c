@@ -21,7 +21,7 @@ enum {
     QUICK_TRUE_SAMPLES = 256
 };
 
-/* Errors that take some tens to some hundreds of samples a pixel. */
+/* Errors that take some tens to some hundreds of samples per pixel. */
 typedef struct calibration_row {
     const char *scene, *integrator;
     double errors[AUR_ERROR_MEASURE_COUNT]; /* in the order of aur_error_measure */

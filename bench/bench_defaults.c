@@ -1,5 +1,5 @@
 /* What is on by default because it is faster, or errs less, against the plain form that it replaces: whole
- * pictures, but for their photon maps and surveys for lamps, which are made once. What tables of weights save
+ * images, but for their photon maps and surveys for lamps, which are made once. What tables of weights save
  * is in the bench `gather-weights`. A ratio below 1 is a default that should not be one, but for what errs
  * less: there the errors' squares are compared too, and the product is what counts.
  * tests/render/transport/test_defaults.c counts the rays of the rows that are faster. */
@@ -53,7 +53,7 @@ static void render(void *data) {
     aur_image_destroy(image);
 }
 
-/* Half the mean square of the difference of the pictures by two seeds: what one errs by where the default has
+/* Half the mean square of the difference of the images by two seeds: what one errs by where the default has
  * no bias. */
 static double squared_error(const default_render *work, uint64_t seed) {
     aur_image *images[2] = {NULL, NULL};
@@ -114,7 +114,7 @@ static bool compare(const bench_options *options, const default_row *row, aur_re
 
 static bool run(const bench_options *options) {
     bench_options few = *options;
-    few.pairs = few.pairs < 5 ? few.pairs : 5; /* a picture takes most of a second */
+    few.pairs = few.pairs < 5 ? few.pairs : 5; /* an image takes most of a second */
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         if (options->only != NULL && strstr(rows[i].name, options->only) == NULL)
             continue;

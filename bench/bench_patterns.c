@@ -1,5 +1,5 @@
-/* Whether pictures to an error have patterns in it: how far neighbouring pixels are wrong alike, beside the
- * truth. What the truth is wrong by itself is told by half the difference of its two pictures, whose sums are
+/* Whether images to an error have patterns in it: how far neighbouring pixels are wrong alike, beside the
+ * truth. What the truth is wrong by itself is told by half the difference of its two images, whose sums are
  * taken from those of the errors. */
 #include <math.h>
 #include <stdio.h>
@@ -36,7 +36,7 @@ static double clumps_of(const error_blocks *squares) {
     return squares->of_each > 0.0 ? sqrt(fmax(squares->of_sums, 0.0) / squares->of_each) : 0.0;
 }
 
-/* The sums of a picture's error, less those of the truth's own. */
+/* The sums of an image's error, less those of the truth's own. */
 static void add(const bench_adaptive_scene *known, const error_pattern *error, const error_pattern *own,
                 alike *sum) {
     const error_blocks seen = error_pattern_blocks(error, BLOCK),
@@ -57,7 +57,7 @@ static void add(const bench_adaptive_scene *known, const error_pattern *error, c
     ++sum->seeds;
 }
 
-/* Pictures of two seeds: what each is wrong by, and what they are not wrong by alike. */
+/* Images of two seeds: what each is wrong by, and what they are not wrong by alike. */
 static aur_result add_pair(const bench_adaptive_scene *known, uint64_t seed, alike *sum, aur_error *error) {
     double values[2][BENCH_ADAPTIVE_MOST_VALUES];
     error_pattern own = {known->width, known->height, (double *)known->wrong};
@@ -137,7 +137,7 @@ static aur_result study(const bench_options *options, const bench_adaptive_row *
     return AUR_OK;
 }
 
-/* The bundled scenes, each with the error of the calibration's small pictures: these are larger, so that
+/* The bundled scenes, each with the error of the calibration's small images: these are larger, so that
  * blocks are many. */
 static bool run(const bench_options *options) {
     char folder[4000];
@@ -164,4 +164,4 @@ static bool run(const bench_options *options) {
     return true;
 }
 
-const bench bench_patterns = {"patterns", "whether neighbours are wrong alike in pictures to an error", run};
+const bench bench_patterns = {"patterns", "whether neighbours are wrong alike in images to an error", run};

@@ -1,4 +1,4 @@
-/* What sharing gathered light among pixels leaves of the error, and how even that error is: pictures by the
+/* What sharing gathered light among pixels leaves of the error, and how even that error is: images by the
  * same directions with each choice of the key `share`, two seeds each. */
 #include <aureole-render/render.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ static const char *const scenes[] = {"cornell-box/cornell-box.xml", "cornell-box
 static const char *const shares[] = {"false", "near", "true"};
 static const size_t directions[] = {4, 16};
 
-/* The mean of all values, and how much two pictures differ; CPU seconds of one. */
+/* The mean of all values, and how much two images differ; CPU seconds of one. */
 typedef struct shared_error {
     double mean, error, clumps, seconds;
 } shared_error;

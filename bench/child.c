@@ -51,7 +51,7 @@ static bool wait_for(pid_t child, const char *what, bench_child_cost *cost) {
     return true;
 }
 
-/* An interrupt is for the bench alone: the program would leave its picture as it is then. */
+/* An interrupt is for the bench alone: the program would leave its image as it is then. */
 static void end_with_parent(pid_t parent) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);

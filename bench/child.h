@@ -1,4 +1,4 @@
-/* The program `aureole` as a process of its own: what a whole run costs, from load to written picture. */
+/* The program `aureole` as a process of its own: what a whole run costs, from load to written image. */
 #pragma once
 
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-/* Whether the error of a picture has a pattern, from the difference of two pictures of other seeds: what both
+/* Whether the error of an image has a pattern, from the difference of two images of other seeds: what both
  * are wrong by alike is not seen. */
 #pragma once
 
@@ -12,7 +12,7 @@ typedef struct error_pattern {
     double *differences; /* [3 * width * height] */
 } error_pattern;
 
-/* The difference of two pictures, three channels a pixel first. False when out of memory. */
+/* The difference of two images, three channels a pixel first. False when out of memory. */
 static inline bool error_pattern_open(size_t width, size_t height, size_t channels, const float *a,
                                       const float *b, error_pattern *pattern) {
     *pattern = (error_pattern){width, height, malloc(3 * width * height * sizeof *pattern->differences)};
@@ -71,7 +71,7 @@ static inline double error_pattern_product(const error_pattern *pattern, size_t 
 }
 
 /* How much more alike the errors of pixels are that lie `lag` apart, along rows or columns, than those of
- * pixels one nearer and one farther: over its standard error. Differences of two pictures are distributed
+ * pixels one nearer and one farther: over its standard error. Differences of two images are distributed
  * evenly about 0, so where there is no peak this is nearly normal, with deviation 1. */
 static inline double error_pattern_peak(const error_pattern *pattern, size_t lag, bool down) {
     const size_t step = down ? pattern->width : 1;

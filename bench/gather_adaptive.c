@@ -1,5 +1,5 @@
 /* Fixed patterns of several sizes are rendered over the same photon map and the same primary hits, a line is
- * laid through the logarithms of their errors and rays, and where it has the error of the adaptive picture
+ * laid through the logarithms of their errors and rays, and where it has the error of the adaptive image
  * the rays are compared. Every seed of the patterns is one such comparison. */
 #include "gather_adaptive.h"
 #include "program/lab/gather.h"
@@ -76,7 +76,7 @@ static bool fit_fixed(adaptive_context *context, size_t seed, line *fitted) {
     for (size_t i = 0; i < FIXED_COUNT; ++i) {
         char keys[80];
         outcome found;
-        /* 80 + 40 to 320 + 160, where the adaptive pictures' errors lie. */
+        /* 80 + 40 to 320 + 160, where the adaptive images' errors lie. */
         const size_t glossy = (size_t)(40.0 * pow(4.0, (double)i / (FIXED_COUNT - 1)) + 0.5);
         snprintf(keys, sizeof keys, "diffuse_samples=%zu,glossy_samples=%zu", 2 * glossy, glossy);
         if (!measure(context, keys, seed, &found))

@@ -157,7 +157,7 @@ bool bench_gather_memory(const bench_options *options, bench_figures *figures) {
             peaks[i] = cost.peak_bytes;
         }
         const double bytes = (peaks[1] - peaks[0]) / (double)(counts[1] - counts[0]);
-        printf("  %-36s %9.4g bytes a photon\n", scenes[k], bytes);
+        printf("  %-36s %9.4g bytes per photon\n", scenes[k], bytes);
         bench_figures_add(figures, BENCH_AT_MOST, 100.0, bytes, "bytes", "8. memory a photon at the peak, %s",
                           scenes[k]);
     }

@@ -124,10 +124,9 @@ static bool compare(const bench_options *options, gather_context *context, const
     if (good) {
         qsort(more, rounds, sizeof *more, ascending);
         *percent = more[rounds / 2];
-        printf(
-            "  %-36s takes %.2f %% more than equal weights, quartiles %.2f and %.2f, %zu pairs of pictures; "
-            "prepared in %.3f CPU s\n",
-            name, *percent, more[rounds / 4], more[3 * rounds / 4], rounds, way.prepare_seconds);
+        printf("  %-36s takes %.2f %% more than equal weights, quartiles %.2f and %.2f, %zu pairs of images; "
+               "prepared in %.3f CPU s\n",
+               name, *percent, more[rounds / 4], more[3 * rounds / 4], rounds, way.prepare_seconds);
         fflush(stdout);
     }
     aur_integrator_destroy(way.integrator);

@@ -1,4 +1,4 @@
-/* What optimal weights cost in a picture (Marques 2018, section 6: 7m40s against 7m36s). */
+/* What optimal weights cost in an image (Marques 2018, section 6: 7m40s against 7m36s). */
 #pragma once
 
 #include "bench.h"

@@ -93,7 +93,7 @@ static bool follow_recipe(const bench_study *self, const bench_recipe *recipe, s
     return true;
 }
 
-/* What the photon map costs in truth: pictures with so many directions that hardly any other error is left,
+/* What the photon map costs in truth: images with so many directions that hardly any other error is left,
  * compared by means of 8 x 8 pixels, by photons and by photons on a texel. */
 static bool measure_bias(const bench_study *self, bench_figures *figures) {
     static const size_t photons[] = {20000, 200000, 2000000}, texels[] = {4, 16, 64};

@@ -1,4 +1,4 @@
-/* Time to quality: CPU seconds of whole processes against the error of the pictures they write. */
+/* Time to quality: CPU seconds of whole processes against the error of the images they write. */
 #pragma once
 
 #include <stdbool.h>
@@ -19,7 +19,7 @@ typedef struct bench_recipe {
 extern const bench_recipe bench_recipes[];
 extern const size_t bench_recipe_count;
 
-/* How many times the samples a path traced picture needs to go from an error to the one wanted, by Sobol
+/* How many times the samples a path traced image needs to go from an error to the one wanted, by Sobol
  * numbers: the root of the mean square error falls as samples^-.62 on the diffuse boxes. */
 double bench_samples_for(double error, double wanted);
 

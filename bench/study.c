@@ -1,4 +1,4 @@
-/* Subjects, the pictures that are their truth, and what other pictures cost and err. */
+/* Subjects, the images that are their truth, and what other images cost and err. */
 #include "study.h"
 
 #include <aureole-render/image.h>
@@ -17,7 +17,7 @@ enum { HEAVY_TRIANGLES = 500000, WORDS = 28, MOST_SEEDS = 8, QUICK_SIDE = 16 };
 static const char in_boxes[] = "path:interleaved=true,rr_depth=3",
                   in_rooms[] = "path:interleaved=true,rr_depth=4";
 
-/* An error of the references of twice or thrice that of the finest picture is enough, as their own noise has
+/* An error of the references of twice or thrice that of the finest image is enough, as their own noise has
  * no part in the mean of what is told. */
 /* clang-format off */
 const bench_subject bench_subjects[] = {
@@ -35,7 +35,7 @@ const bench_subject bench_subjects[] = {
 
 const size_t bench_subject_count = sizeof bench_subjects / sizeof bench_subjects[0];
 
-/* --- pictures */
+/* --- images */
 
 /* By our program as a process, which finds no photon maps of earlier runs. Where no integrator is told, to
  * the error. */

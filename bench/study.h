@@ -1,9 +1,9 @@
-/* A scene whose true picture is known: what pictures of it cost as whole processes, and how they err.
+/* A scene whose true image is known: what images of it cost as whole processes, and how they err.
  *
- * The truth is two path-traced pictures with independent seeds, a and b, rendered once and kept beside the
- * program. The mean square error of a picture x is estimated by the mean of (x - a)(x - b): that has no bias
+ * The truth is two path-traced images with independent seeds, a and b, rendered once and kept beside the
+ * program. The mean square error of an image x is estimated by the mean of (x - a)(x - b): that has no bias
  * from the noise of a and b, so an error far below their own noise can be told. Their samples are spent pixel
- * by pixel, as those of pictures to an error are, by what other samples say, so that their mean is that of
+ * by pixel, as those of images to an error are, by what other samples say, so that their mean is that of
  * path tracing. */
 #pragma once
 
@@ -20,7 +20,7 @@ typedef struct bench_subject {
     const char *definition; /* "name=value" or NULL */
     const char *path;       /* the fastest form of our path tracer there, which others are compared to */
     size_t width, height;
-    double reference_error; /* over the mean, of each of the two pictures */
+    double reference_error; /* over the mean, of each of the two images */
     bool relative;          /* errors are divided by the mean of the truth */
 } bench_subject;
 
@@ -38,11 +38,11 @@ typedef struct bench_study {
     double mean;  /* the same, or 1: what errors are divided by */
 } bench_study;
 
-/* A picture: samples of an integrator, or an error over the mean, for which the program chooses. */
+/* An image: samples of an integrator, or an error over the mean, for which the program chooses. */
 typedef struct bench_request {
     const char *integrator; /* NULL: the program's choice */
     size_t samples;         /* a pixel, where no error is asked */
-    double error;           /* over the mean of the picture; 0: none is asked */
+    double error;           /* over the mean of the image; 0: none is asked */
     bool denoised;
 } bench_request;
 
@@ -50,7 +50,7 @@ typedef struct bench_outcome {
     double seconds; /* CPU, one thread: median over the seeds */
     double error;   /* root of the mean square error over the seeds */
     /* Standard error of `error`, as the pixels' scatter tells it: rather too large where errors are uneven.
-     * The truth's noise is in it, the luck of a picture's seed too. */
+     * The truth's noise is in it, the luck of an image's seed too. */
     double uncertain;
 } bench_outcome;
 
@@ -62,7 +62,7 @@ void bench_study_close(bench_study *self);
 
 enum { BENCH_STUDY_PATH = 4400 };
 
-/* The file of the truth's first (k = 0) or second picture. */
+/* The file of the truth's first (k = 0) or second image. */
 void bench_study_truth_path(const bench_study *self, size_t k, size_t capacity, char *path);
 
 /* Over the seeds 1 .. seeds (at most 8), by one thread, of means of block x block pixels. False after

@@ -22,7 +22,7 @@ size_t bench_trace_packets(const bench_rays *rays);
 /* The ray in Embree's form. */
 struct RTCRayHit bench_query(const aur_ray *ray);
 
-/* The pixel of ray `index` in a picture `width` wide, a multiple of 4: 4 by 4 pixels make a packet. */
+/* The pixel of ray `index` in an image `width` wide, a multiple of 4: 4 by 4 pixels make a packet. */
 void bench_pixel(size_t index, size_t width, size_t *x, size_t *y);
 
 /* A cosine distributed direction about a unit normal, by a hash of `index`. */

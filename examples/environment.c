@@ -4,7 +4,7 @@
  *     cc examples/environment.c -laureole -lm -o environment && ./environment 1e-4
  *
  * Prints the irradiance, its error and the closed form. Any function of a direction may take the sky's place:
- * a picture of the surroundings, a sky model, rays of a renderer. */
+ * an image of the surroundings, a sky model, rays of a renderer. */
 #include <aureole/integrate.h>
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
  *     cc examples/views.c -laureole -lm -o views && ./views 40 110
  *
  * Prints the positions in metres on a sphere of radius 0.5, and how far, in degrees, any direction of the
- * part is from the nearest view: what an overlap of pictures is planned by. The second number is the lowest
+ * part is from the nearest view: what an overlap of images is planned by. The second number is the lowest
  * view's angle from the top. */
 #include <aureole/quality.h>
 #include <aureole/sphere.h>

@@ -1,4 +1,4 @@
-/* Checkpoints, and parts of pictures, which are such files too: read by themselves, gone on from, and merged.
+/* Checkpoints, and parts of images, which are such files too: read by themselves, gone on from, and merged.
  * Their hashes are made right before. */
 #include <aureole-render/render.h>
 

@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     } else {
         aur_image *image = NULL;
         double rmse[4];
-        fuzz_require(aur_film_develop(film, &image, NULL) == AUR_OK, "a film without a picture");
+        fuzz_require(aur_film_develop(film, &image, NULL) == AUR_OK, "a film without an image");
         aur_image_destroy(image);
         aur_film_error(film, rmse, NULL, NULL);
         fuzz_require(aur_film_merge(film, film, NULL) == AUR_OK, "a film that is not like itself");
@@ -29,7 +29,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     return 0;
 }
 
-/* A whole picture, and a part of one with a channel of its own. */
+/* A whole image, and a part of one with a channel of its own. */
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index > 1)
         return 0;

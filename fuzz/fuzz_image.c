@@ -1,4 +1,4 @@
-/* Pictures of all formats. One in eight is named as a TGA, which nothing else can tell. */
+/* Images of all formats. One in eight is named as a TGA, which nothing else can tell. */
 #include <aureole-render/image.h>
 #include <openexr.h>
 #include <stb_image_write.h>
@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const aur_result result =
         aur_image_read_memory(size % 8 == 0 ? "input.tga" : "input", size, data, &image, &error);
     if (result != AUR_OK) {
-        fuzz_require(image == NULL, "a failed read left a picture");
+        fuzz_require(image == NULL, "a failed read left an image");
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_ARGUMENT,
                      "a failure of the wrong kind");
@@ -23,11 +23,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     fuzz_require(aur_image_width(image) > 0 && aur_image_height(image) > 0 &&
                      aur_image_channel_count(image) > 0,
-                 "an empty picture");
+                 "an empty image");
     double value[4];
     const aur_result compared = aur_image_compare(image, image, AUR_IMAGE_RELMSE, value, &error);
     fuzz_require(compared == AUR_ERROR_ARGUMENT || (compared == AUR_OK && value[3] == 0.0),
-                 "a picture differs from itself");
+                 "an image differs from itself");
     aur_image_destroy(image);
     return 0;
 }
@@ -36,10 +36,10 @@ static void put(void *stream, void *bytes, int count) {
     fwrite(bytes, 1, (size_t)count, stream);
 }
 
-/* A smooth picture with some noise, so that every kind of code occurs. */
+/* A smooth image with some noise, so that every kind of code occurs. */
 static aur_image *make_picture(size_t channel_count) {
     aur_image *image;
-    fuzz_require(aur_image_create(19, 18, channel_count, &image, NULL) == AUR_OK, "no picture");
+    fuzz_require(aur_image_create(19, 18, channel_count, &image, NULL) == AUR_OK, "no image");
     for (size_t i = 0; i < 19 * 18 * channel_count; ++i)
         aur_image_data(image)[i] = (float)(i % 57) / 40.0f + (i % 11 == 0 ? 0.3f : 0.0f);
     return image;

@@ -47,7 +47,7 @@ static void write_companions(void) {
     free(grid);
 }
 
-/* Whether the picture comes out is not asked: a scene may ask for what no sample can give. Each length of the
+/* Whether the image comes out is not asked: a scene may ask for what no sample can give. Each length of the
  * input stands for an integrator. */
 static void render(const aur_scene *scene, size_t size) {
     static const char *const integrators[] = {

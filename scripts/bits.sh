@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Checksums of pictures, points, weights and measures, a line each. A change that only moves code leaves every line as it
+# Checksums of images, points, weights and measures, a line each. A change that only moves code leaves every line as it
 # was: scripts/bits.sh PROGRAM > before; ...; scripts/bits.sh PROGRAM > after; diff before after
-# The sums of pictures are of this machine: Embree's hits differ in the last bits between processors. The others, which
+# The sums of images are of this machine: Embree's hits differ in the last bits between processors. The others, which
 # scripts/bits.sh PROGRAM numbers gives alone, are those of every processor. COUNT is the number of points a set (64).
-#   scripts/bits.sh PROGRAM record [numbers]  stores all of them, or numbers alone, in scripts/bits.txt; pictures by AVX2, with the processor's name
+#   scripts/bits.sh PROGRAM record [numbers]  stores all of them, or numbers alone, in scripts/bits.txt; images by AVX2, with the processor's name
 #   scripts/bits.sh PROGRAM check [numbers]   counts how many are as recorded, perhaps by another processor; exit status 1 where numbers are not
 set -euo pipefail
 export AUREOLE_CACHE= # everything is made anew

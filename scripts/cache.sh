@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the cache of photon maps and tables of weights saves: CPU seconds of a render of 256 pixels, without it, leaving
-# an entry, and taking it: scripts/cache.sh [PROGRAM [RUNS]]. Medians of RUNS runs; exit status 1 where a picture differs.
+# an entry, and taking it: scripts/cache.sh [PROGRAM [RUNS]]. Medians of RUNS runs; exit status 1 where an image differs.
 set -uo pipefail
 aureole=$(realpath "${1:-build/release/aureole}")
 runs=${2:-5}

@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   # tools
   ca-certificates clang-format cmake g++ gcc git ninja-build pkg-config
-  # ray tracing, pictures, scene files, models, linear algebra, the page of a render
+  # ray tracing, images, scene files, models, linear algebra, the page of a render
   libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev libassimp-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
   libmicrohttpd-dev
   # unit tests

@@ -35,7 +35,7 @@ for work in "${works[@]}"; do
     { printf '| `%s` | | | | refused: %s |\n' "${command/"$source/"/}" "$(head -1 whole/said)"; status=1; continue; }
   rm whole/said
   killed=0 stopped=0 finished=0
-  # A run that was not killed in time begins anew, so that there are as many kills as asked for.
+  # A run that was not killed in time starts again, so that there are as many kills as asked for.
   for ((i = 0; i < each || !finished; ++i)); do
     # shellcheck disable=SC2086
     "$aureole" $command $option "$output" $more >/dev/null 2>&1 &

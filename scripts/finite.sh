@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Renders every bundled scene by every integrator, small, and prints a table: "finite" where all values of the picture are, and no
+# Renders every bundled scene by every integrator, small, and prints a table: "finite" where all values of the image are, and no
 # sample was NaN or infinite on the way; "refused" where the integrator does not take the scene, with the reason below.
 #   scripts/finite.sh [PROGRAM]
 # Scenes whose meshes have not been made (scripts/scenes.sh) are named and left out. Exit status 1 where something is not finite.

@@ -23,7 +23,7 @@ figure|cornell-box/figure.xml|--width 960 --error 3% --error-measure mean|1.6|fi
 sphere|sphere/sphere.xml|--width 960 --error 8% --error-measure mean|0.5|filmic|A glossy sphere among seeds
 occlusion|occlusion/occlusion.xml|--width 960 --error 2% --error-measure mean|0|srgb|Ambient occlusion among columns
 plates|plates/plates.xml|--width 960 --error 6% --error-measure mean|1|filmic|Four plates and seven lights
-cornell-box|cornell-box/cornell-box.xml|--width 960 --error 2% --error-measure mean|0.5|srgb|The measured Cornell box
+cornell-box|cornell-box/cornell-box.xml|--width 960 --error 1% --error-measure mean|0.5|srgb|The measured Cornell box
 glossy|cornell-box/glossy.xml|--width 960 --error 3% --error-measure mean|1|srgb|A teapot in a glossy Cornell box
 living-room|keller/living-room.xml|$radiosity --width 960 --error 7% --error-measure mean|0.5|srgb|Keller's living room, by radiosity
 office|keller/office.xml|$radiosity --width 960 --error 5% --error-measure mean|0.5|srgb|Keller's office

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes docs/keys.md, every key of every table of the program, to standard output: scripts/keys_page.sh PROGRAM.
-# With --options, docs/options.md, every option of every verb. With --words, the names of all kinds, things, keys and
+# With --options, docs/options.md, every option of every command. With --words, the names of all kinds, things, keys and
 # choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
 set -eu
 program=$1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # wheel_bare.sh [FOLDER]: installs the wheels that scripts/wheel.sh made (build/wheel) in a bare Debian 12, which has python3-pip and neither a
-# compiler nor a library of ours, by `pip install aureole[render]`, and makes points and a picture there. As root; needs debootstrap, or BARE,
+# compiler nor a library of ours, by `pip install aureole[render]`, and makes points and an image there. As root; needs debootstrap, or BARE,
 # the folder of a bare system that is copied. Packages of PyPI are fetched here, so that pip needs no network in there.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -46,7 +46,7 @@ def reference(aureole, scene, folder, samples):
 
 
 def samples_for(render, seconds, first, allowed):
-    """The largest number of samples whose picture, by the times of one and of two more, takes at most so many seconds."""
+    """The largest number of samples whose image, by the times of one and of two more, takes at most so many seconds."""
     few, many = render(first, 1)[1], render(4 * first, 1)[1]
     each = max(many - few, 1e-3) / (3 * first)
     return max(allowed(math.floor((seconds - few) / each + first)), 1)

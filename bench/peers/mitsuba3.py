@@ -128,7 +128,7 @@ def all_scenes():
         yield name, text, text
 
 
-# Bundled scenes in the form with rough materials, 64 samples a pixel; their meshes are made by scripts/scenes.sh.
+# Bundled scenes in the form with rough materials, 64 samples per pixel; their meshes are made by scripts/scenes.sh.
 BUNDLED = ("plates/plates", "sphere/sphere", "statue/statue", "room/room", "parade/parade", "occlusion/occlusion",
            "cornell-box/figure")
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes")

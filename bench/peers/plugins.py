@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mitsuba 3's own test of pictures on a folder of scenes: does each of our pixels lie within the noise of Mitsuba's?
+"""Mitsuba 3's own test of images on a folder of scenes: does each of our pixels lie within the noise of Mitsuba's?
 (needs `pip install mitsuba`)
 
     plugins.py PROGRAM [FOLDER] [--references FOLDER] [--only NAME]
@@ -67,7 +67,7 @@ def has_moments(scene):
 
 
 def make_reference(path):
-    """The names of a picture's channels, colours first, as XYZ, their means and the variances of a sample."""
+    """The names of an image's channels, colours first, as XYZ, their means and the variances of a sample."""
     mi.set_variant("scalar_spectral" if any(words in text_of(path) for words in SPECTRAL) else "scalar_rgb")
     scene = mi.load_file(path, **({"integrator": "ptracer"} if PARTICLES in text_of(path) else {}))
     if not has_box(scene):  # which the scalar modes look up among 31 values, up to 3 % too wide
@@ -123,7 +123,7 @@ def judge(name, pictures, mean, variance):
 
 
 def render(options, path, seed, out):
-    """What the program says of a scene it refuses, or None; its picture is in `out`."""
+    """What the program says of a scene it refuses, or None; its image is in `out`."""
     run = subprocess.run([options.program, "render", path, "-q", "--seed", str(seed), "--spp", str(SAMPLES), "-o", out],
                          capture_output=True, text=True, check=False)
     return None if run.returncode == 0 else run.stderr.strip().splitlines()[0]

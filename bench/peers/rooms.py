@@ -157,7 +157,7 @@ def write(folder, seed):
 
 
 def render(given, scene, *options, seed=1):
-    """The picture, CPU seconds of the process, and its last line."""
+    """The image, CPU seconds of the process, and its last line."""
     import numpy as np
     width, height = given.size.split("x")
     with tempfile.TemporaryDirectory() as folder:
@@ -181,7 +181,7 @@ def error_of(values, truth):
 
 
 def for_seconds(given, scene, integrator, seconds, samples):
-    """A picture that takes half of that or more: samples go up fourfold, or by less where more is seen to be too much."""
+    """An image that takes half of that or more: samples go up fourfold, or by less where more is seen to be too much."""
     while True:
         values, taken, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
         if taken >= .5 * seconds or samples >= MOST_SAMPLES:
@@ -208,7 +208,7 @@ def compare(given, name, scene):
 
 
 def until(given, scene, integrator, samples, truth):
-    """Error, its own relative standard error, CPU seconds and samples of the first picture that has the error, or of the last one."""
+    """Error, its own relative standard error, CPU seconds and samples of the first image that has the error, or of the last one."""
     while True:
         values, taken, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
         error, uncertain = error_of(values, truth)

@@ -87,7 +87,7 @@ def name_of(path):
     return os.path.splitext(os.path.basename(path))[0]
 
 
-# --- renderers: each gives a function (samples, seed) -> (picture, CPU seconds)
+# --- renderers: each gives a function (samples, seed) -> (image, CPU seconds)
 
 
 def mitsuba(variant, sampler, path, threads):
@@ -316,7 +316,7 @@ def child(kind, aureole, path, threads, wanted_errors, pixels):
 
 
 def print_peers(given, folder):
-    """name|mean of the picture, CPU seconds to each of the errors; or why it is not measured."""
+    """name|mean of the image, CPU seconds to each of the errors; or why it is not measured."""
     path, _, _, definitions = (SCENES | BUNDLED)[given.peers]
     width, height = (int(side) for side in given.size.split("x"))
     copy = os.path.join(folder, given.peers + ".xml")
@@ -337,7 +337,7 @@ def print_peers(given, folder):
 
 
 def equal_samples_child(given, path):
-    """CPU seconds of pairs: Mitsuba's call, our process, and ours of one sample; with the means of both pictures."""
+    """CPU seconds of pairs: Mitsuba's call, our process, and ours of one sample; with the means of both images."""
     theirs = mitsuba("llvm_ad_rgb", "independent", path, given.threads)
     own = ours(given.aureole, given.integrator, path, given.threads)
     theirs(given.samples, 999)
@@ -349,7 +349,7 @@ def equal_samples_child(given, path):
 
 
 def compiling_child(given, path):
-    """CPU seconds from loading to the first picture."""
+    """CPU seconds from loading to the first image."""
     import mitsuba as mi
     import numpy as np
     mi.set_variant("llvm_ad_rgb")

@@ -4,7 +4,7 @@
  * with libaureole-lab, or functions of Python (aureole.lab).
  *
  * An experiment says what it measures, and its function fills a table with it row by row, says in notes what
- * it found, and writes pictures.
+ * it found, and writes images.
  *
  * Experimental: all of this header may change in any version, and a module is of one version alone. */
 #ifndef AUREOLE_LAB_LAB_H
@@ -128,8 +128,8 @@ typedef struct lab_result {
     double seconds;                /* of the processors, with those before interruptions */
 } lab_result;
 
-/* Runs it, and writes FOLDER/NAME/: NAME.csv, the further tables, pictures, and timings.csv, which alone
- * differs from run to run. A run that was interrupted goes on, one that was finished begins anew. The result
+/* Runs it, and writes FOLDER/NAME/: NAME.csv, the further tables, images, and timings.csv, which alone
+ * differs from run to run. A run that was interrupted goes on, one that was finished starts again. The result
  * is to be released even after an error: what was finished is in it, and in the files. */
 AUR_EXPERIMENTAL aur_result lab_run_experiment(const lab_experiment *experiment, const lab_options *options,
                                                lab_result *result, aur_error *error);
@@ -177,7 +177,7 @@ AUR_EXPERIMENTAL void lab_time(lab_run *run, const char *what, double seconds);
  *         result = lab_keep(run, key, 2, values, error);
  *     }
  *
- * `key` says of what the numbers are, in a line, and is used once. Pictures that were made before lab_keep
+ * `key` says of what the numbers are, in a line, and is used once. Images that were made before lab_keep
  * stay too. */
 AUR_EXPERIMENTAL bool lab_recall(const lab_run *run, const char *key, size_t count, double *values);
 /* Errors: WRITE, MEMORY, CANCELLED. */
@@ -189,7 +189,7 @@ AUR_EXPERIMENTAL aur_result lab_keep(lab_run *run, const char *key, size_t count
 AUR_EXPERIMENTAL aur_result lab_forgive(lab_run *run, const char *set, aur_result result,
                                         const aur_error *error);
 
-/* --- pictures */
+/* --- images */
 
 /* Loads a bundled scene by its path below the scenes folder. */
 AUR_EXPERIMENTAL aur_result lab_load_scene(const lab_run *run, const char *path, size_t definition_count,
@@ -212,7 +212,7 @@ typedef struct lab_rendering {
     aur_renderer *renderer;
     const char *integrator; /* NAME:KEYS */
     size_t width, height;
-    size_t crop[4]; /* only the pixels of [x0, x1) x [y0, y1); all 0: the whole picture */
+    size_t crop[4]; /* only the pixels of [x0, x1) x [y0, y1); all 0: the whole image */
     size_t samples; /* a pixel; 0: 1 */
     uint64_t seed;
 } lab_rendering;
@@ -221,11 +221,11 @@ typedef struct lab_rendering {
 AUR_EXPERIMENTAL aur_result lab_render(const lab_run *run, const lab_rendering *how, aur_image **image,
                                        aur_error *error);
 
-/* The mean of (x - a)(x - b) over pixels and channels of pictures of one size: the mean square error of x,
+/* The mean of (x - a)(x - b) over pixels and channels of images of one size: the mean square error of x,
  * where a and b are two references whose own errors are independent and so drop out. */
 AUR_EXPERIMENTAL double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image *b);
 
-/* A picture of the report. Those of one view are seen in one viewer, and compared with its reference. */
+/* An image of the report. Those of one view are seen in one viewer, and compared with its reference. */
 typedef struct lab_image_position {
     const char *view; /* "diffuse"; NULL: a view of its own */
     const char *name; /* "sobol" */
@@ -261,7 +261,7 @@ AUR_EXPERIMENTAL lab_interval lab_slope(size_t count, const double *x, const dou
 /* --- the report of what was run */
 
 /* Writes the page of all results in a folder to `folder`/index.html, which `path` gets. Beside it stand its
- * plots for print, as PDF, SVG and TikZ, unless it is small; a small page shows large pictures as means of 2
+ * plots for print, as PDF, SVG and TikZ, unless it is small; a small page shows large images as means of 2
  * x 2 pixels, within .8 %. Errors: OPEN when there are no results, FORMAT, WRITE, MEMORY. */
 AUR_EXPERIMENTAL aur_result lab_publish(const char *results, const char *folder, bool small,
                                         char path[AUR_ERROR_FILE_CAPACITY], aur_error *error);

@@ -87,8 +87,8 @@ AUR_EXPERIMENTAL const aur_sensors_view *aur_sensors_get_view(const aur_sensors 
 enum { AUR_IRRADIANCE_REPLICATES = 16 }; /* independent randomisations, from which errors come */
 
 /* How light that was reflected is found: by paths; or by a photon map or a radiosity solution, whose errors a
- * quarter of the paths take away, so that there is no bias either. The map and the solution are found anew in
- * each call: they are for many sensors. */
+ * quarter of the paths take away, so that there is no bias either. The map and the solution are found again
+ * in each call: they are for many sensors. */
 typedef enum aur_reflected {
     AUR_REFLECTED_BY_PATHS,
     AUR_REFLECTED_BY_MAP,

@@ -182,7 +182,7 @@ AUR_EXPERIMENTAL aur_result aur_facets_light_init(aur_facets_light *light, aur_e
 
 /* B = emission + reflectance (sun + sky + F B), for each row. With `factors` (of the same facets; else NULL)
  * the products are the matrix's, and solutions by the matrices of its single randomisations say what the one
- * by their mean errs by. Without, rays are traced anew for each reflection, in memory that grows with the
+ * by their mean errs by. Without, rays are traced again for each reflection, in memory that grows with the
  * facets alone: the solution is the mean of one for each randomisation, from which the intervals come.
  * half_widths may be NULL, which spares their time where there is a matrix. Later reflections, which carry
  * less light, have fewer rays; the last ones, which together are less than a fiftieth of what rays err by,

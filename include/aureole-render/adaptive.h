@@ -47,8 +47,8 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_create(aur_renderer *renderer, const au
 AUR_EXPERIMENTAL void aur_adaptive_destroy(aur_adaptive *adaptive); /* NULL is allowed */
 
 /* Renders rounds until the target is met. Errors: CANCELLED by aur_adaptive_cancel or the progress callback:
- * the picture keeps the samples of tiles that were finished, the report is that of the last whole round, and
- * another call goes on to the same picture as if nothing had been; MEMORY and others, after which it
+ * the image keeps the samples of tiles that were finished, the report is that of the last whole round, and
+ * another call goes on to the same image as if nothing had been; MEMORY and others, after which it
  * can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) AUR_NONNULL(1);
 /* Stops aur_adaptive_run in another thread; may be called from a signal handler. */
@@ -77,7 +77,7 @@ typedef struct aur_adaptive_report {
      * pixels share an error, such as a photon map's. */
     double degrees;
     uint64_t rounds;
-    double samples_per_pixel; /* mean over the picture, of all replicas and finished rounds: the error's */
+    double samples_per_pixel; /* mean over the image, of all replicas and finished rounds: the error's */
     size_t replicas;
     aur_render_statistics
         statistics; /* of all replicas together, and of what was tried; its size is set here */
@@ -115,10 +115,10 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_get_candidate(const aur_adaptive *adapt
 /* The integrator with its keys, as aur_render_options take it. `adaptive` owns the text. */
 AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);
 
-/* The picture, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
- * error of each value as the replicas tell it, in the picture's units. Channels that an integrator adds are
+/* The image, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
+ * error of each value as the replicas tell it, in the image's units. Channels that an integrator adds are
  * left out, which aur_adaptive_create warns of. It and aur_adaptive_get_report may also be called from the
- * progress callback. Errors: UNSUPPORTED while there is no picture yet, MEMORY. */
+ * progress callback. Errors: UNSUPPORTED while there is no image yet, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                                  aur_error *error) AUR_NONNULL(1, 3);
 

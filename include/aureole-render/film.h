@@ -1,5 +1,5 @@
-/* Films: the sums of a picture's samples while it is rendered, and after. A film can be kept in a file, put
- * together from parts, and made into a picture at any time.
+/* Films: the sums of an image's samples while it is rendered, and after. A film can be kept in a file, put
+ * together from parts, and made into an image at any time.
  *
  * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_FILM_H
@@ -16,12 +16,12 @@ typedef struct aur_film aur_film;
 
 AUR_EXPERIMENTAL void aur_film_destroy(aur_film *film); /* NULL is allowed */
 
-/* The picture: the mean of each pixel's samples, weighed by the filter where pixels share samples; 0 where
+/* The image: the mean of each pixel's samples, weighed by the filter where pixels share samples; 0 where
  * there are none. A new image, which the caller destroys. Errors: MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_film_develop(const aur_film *film, aur_image **image, aur_error *error)
     AUR_NONNULL(1, 2);
 
-/* The standard error of each pixel's mean, in the picture's units, in channels R, G, B: what the means of the
+/* The standard error of each pixel's mean, in the image's units, in channels R, G, B: what the means of the
  * film's steps (aur_render_step) say of it, s = sqrt(sum_b n_b (m_b - m)^2 / ((B - 1) N)) for B steps of n_b
  * samples with means m_b, N samples in all; where pixels share samples, the same of their weighed sums. It is
  * the error of independent samples; where later samples fill

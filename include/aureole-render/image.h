@@ -1,4 +1,4 @@
-/* Pictures: reading, writing, comparing. Radiance is linear, Rec. 709 primaries. */
+/* Images: reading, writing, comparing. Radiance is linear, Rec. 709 primaries. */
 #ifndef AUREOLE_IMAGE_H
 #define AUREOLE_IMAGE_H
 
@@ -101,7 +101,7 @@ AUR_API bool aur_image_color_channels(const aur_image *image, size_t channels[3]
 /* Adds to found[0], found[1] and found[2] how many values of a channel are infinite, NaN and negative
  * (-infinity counts as negative). */
 AUR_API void aur_image_count_odd(const aur_image *image, size_t channel, size_t found[3]) AUR_NONNULL(1, 3);
-/* A picture of some of the channels, in the order given. Errors: NAME, MEMORY. */
+/* An image of some of the channels, in the order given. Errors: NAME, MEMORY. */
 AUR_API aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
                                     aur_image **selected, aur_error *error) AUR_NONNULL(1, 3, 4);
 /* Means of block x block pixels; blocks at the right and lower edge are averaged over what they have. */
@@ -111,14 +111,14 @@ AUR_API aur_result aur_image_downsample(const aur_image *image, size_t block, au
  * not finite. */
 AUR_API aur_result aur_image_mean(const aur_image *image, double mean[4], aur_error *error) AUR_NONNULL(1, 2);
 
-/* Figures of the difference of two pictures of one size; a is the picture, r the reference. */
+/* Figures of the difference of two images of one size; a is the image, r the reference. */
 typedef enum aur_image_metric {
     AUR_IMAGE_RMSE,
     AUR_IMAGE_MSE,
     AUR_IMAGE_MAE,
     AUR_IMAGE_RELMSE,        /* mean of (a-r)^2 / (r^2 + 0.01) */
     AUR_IMAGE_MRSE,          /* mean of (a-r)^2 / r^2 over non-zero r */
-    AUR_IMAGE_RELATIVE_RMSE, /* RMSE / mean of r: 0 for equal pictures, infinite when only the mean is zero */
+    AUR_IMAGE_RELATIVE_RMSE, /* RMSE / mean of r: 0 for equal images, infinite when only the mean is zero */
     AUR_IMAGE_FLIP           /* mean of aur_image_flip's map, the same value for all channels */
 } aur_image_metric;
 
@@ -157,7 +157,7 @@ AUR_API aur_result aur_image_error(const aur_image *reference, const aur_image *
     AUR_NONNULL(1, 2, 4);
 
 /* LDR-FLIP (Andersson et al. 2020) of each pixel, in [0,1], in one channel: how much a person sees who flips
- * between the pictures on a screen of 67 pixels a degree. Radiance is clamped to [0,1]. Errors as for
+ * between the images on a screen of 67 pixels a degree. Radiance is clamped to [0,1]. Errors as for
  * aur_image_compare. */
 AUR_API aur_result aur_image_flip(const aur_image *reference, const aur_image *image, aur_image **map,
                                   aur_error *error) AUR_NONNULL(1, 2, 3);

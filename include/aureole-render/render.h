@@ -1,4 +1,4 @@
-/* Rendering a scene into a picture, in one call or in steps. The picture is a function of the scene, the
+/* Rendering a scene into an image, in one call or in steps. The image is a function of the scene, the
  * options, the seed and the steps: the number of threads changes no bit of it.
  *
  * Experimental: all of this header may change in any version. */
@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/* What a picture is made with: the tables of integrators, materials, shapes and so on; NULL beyond the last.
+/* What an image is made with: the tables of integrators, materials, shapes and so on; NULL beyond the last.
  * Those of sets and measures are aur_table_at's. */
 AUR_EXPERIMENTAL const aur_table *aur_render_table_at(size_t index);
 
@@ -27,7 +27,7 @@ typedef struct aur_render_statistics {
     size_t size;
     uint64_t rays;            /* traced, of all kinds: also photons, and those that find light sources */
     uint64_t samples;         /* camera samples */
-    uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the picture */
+    uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the image */
     uint64_t cut_paths; /* cut after many mirrors or null collisions in a row: the light that they would bring
                            is missing */
     /* Systems of finalgather-lab, weights=oswa-solve, without a solution. Their samples are invalid. */
@@ -54,7 +54,7 @@ typedef struct aur_render_options {
     aur_warnings warnings;
     /* For aur_render_save: the scene's files are hashed when the render is made. */
     bool resumable;
-    /* Of shard_count parts of the picture, the shard-th, from 1 on: every shard_count-th tile of 16 x 16
+    /* Of shard_count parts of the image, the shard-th, from 1 on: every shard_count-th tile of 16 x 16
      * pixels. Both 0: all of it. The others stay black until they are merged. */
     size_t shard, shard_count;
     /* Photon maps and tables of weights are taken from the user's cache folder, and left there for later
@@ -69,7 +69,7 @@ typedef struct aur_render_options {
 AUR_EXPERIMENTAL aur_result aur_render_options_init(aur_render_options *options, aur_error *error)
     AUR_NONNULL(1);
 
-/* Renders pictures of one scene and keeps between them what they share (a photon map, for one). The scene
+/* Renders images of one scene and keeps between them what they share (a photon map, for one). The scene
  * must outlive it. Not for two threads at once. */
 typedef struct aur_renderer aur_renderer;
 
@@ -85,9 +85,9 @@ AUR_EXPERIMENTAL aur_result aur_render_check_scene(const aur_scene *scene,
                                                    const aur_gather_integrator *gather, aur_error *error)
     AUR_NONNULL(1);
 
-/* A new picture of channels R, G, B and those that the integrator adds, all samples in one step. `options`
+/* A new image of channels R, G, B and those that the integrator adds, all samples in one step. `options`
  * may be NULL, `statistics` too. When the progress callback stops the work, the result is CANCELLED and
- * *image is the picture so far; with every other error it is NULL. Errors: NAME (no such integrator, sampler,
+ * *image is the image so far; with every other error it is NULL. Errors: NAME (no such integrator, sampler,
  * filter or key), ARGUMENT (a value or a crop out of range), UNSUPPORTED (keys or a scene that do not go
  * together), CANCELLED, MEMORY, and those of files that an integrator reads. */
 AUR_EXPERIMENTAL aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options,
@@ -106,7 +106,7 @@ AUR_EXPERIMENTAL void aur_render_destroy(aur_render *render); /* NULL is allowed
 
 /* Gives every pixel `count` more samples; 0 or too many: all that remain of the options' samples_per_pixel.
  * Where a tile is ahead of the others because an earlier step was cancelled, the others catch up first.
- * Integrators that decide by a pixel's samples of one step (finalgather's edges) give other pictures of the
+ * Integrators that decide by a pixel's samples of one step (finalgather's edges) give other images of the
  * same light for other steps. Errors: CANCELLED by aur_render_cancel or the progress callback, both of
  * which are also asked within long tiles: tiles that were finished keep their samples, others those that
  * their integrator adds one after the other (all but finalgather and radiosity), and the next step goes on
@@ -120,11 +120,11 @@ AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
 AUR_EXPERIMENTAL size_t aur_render_samples(const aur_render *render) AUR_NONNULL(1);
 AUR_EXPERIMENTAL size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
 
-/* Whether the picture has the same bits in whatever steps it is made: so it is with every integrator but
+/* Whether the image has the same bits in whatever steps it is made: so it is with every integrator but
  * finalgather and radiosity. */
 AUR_EXPERIMENTAL bool aur_render_steps_agree(const aur_render *render) AUR_NONNULL(1);
 
-/* The film so far, owned by the render: aur_film_develop makes the picture, aur_film_error tells its error,
+/* The film so far, owned by the render: aur_film_develop makes the image, aur_film_error tells its error,
  * also while another thread is in a step. */
 AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
 
@@ -135,7 +135,7 @@ AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_N
  * WRITE, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_render_save(const aur_render *render, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
-/* Goes on from such a file, before the first step: the picture in the end has the bits of a render that was
+/* Goes on from such a file, before the first step: the image in the end has the bits of a render that was
  * never stopped. Errors: OPEN, FORMAT (no such file, or a damaged one), ARGUMENT (of another scene, other
  * options or another version: the message names the first difference), MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_render_resume(aur_render *render, const char *path, aur_error *error)
@@ -144,7 +144,7 @@ AUR_EXPERIMENTAL aur_result aur_render_resume(aur_render *render, const char *pa
  * ARGUMENT.
  */
 AUR_EXPERIMENTAL aur_result aur_render_check_checkpoint(const char *path, aur_error *error) AUR_NONNULL(1);
-/* Puts the finished parts of one picture together, files of aur_render_save by renders with shard = 1 ..
+/* Puts the finished parts of one image together, files of aur_render_save by renders with shard = 1 ..
  * shard_count, each once, in any order: the film has the bits of one render of all. Errors: as above;
  * ARGUMENT also for a part that is missing, given twice or not finished. */
 AUR_EXPERIMENTAL aur_result aur_render_merge_parts(size_t count, const char *const *paths, aur_film **film,

@@ -1,4 +1,4 @@
-/* libaureole-render in C++17, as aureole.hpp is for libaureole: pictures, scenes and renders. */
+/* libaureole-render in C++17, as aureole.hpp is for libaureole: images, scenes and renders. */
 #ifndef AUREOLE_RENDER_HPP
 #define AUREOLE_RENDER_HPP
 
@@ -7,7 +7,7 @@
 
 namespace aureole {
 
-/* A picture (aur_image). */
+/* An image (aur_image). */
 class image {
   public:
     image(std::size_t width, std::size_t height, std::size_t channels) {
@@ -75,7 +75,7 @@ class scene {
     detail::owner<aur_scene, aur_scene_destroy> owned_;
 };
 
-/* Makes pictures of one scene and keeps between them what they share (aur_renderer). */
+/* Makes images of one scene and keeps between them what they share (aur_renderer). */
 class renderer {
   public:
     explicit renderer(const scene &of) {

@@ -136,7 +136,7 @@ AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, a
  * build with assimp reads. */
 AUR_EXPERIMENTAL bool aur_scene_is_name(const char *path) AUR_NONNULL(1);
 
-/* Reads a scene and all files that it names: includes, meshes, pictures and point sets. Relative names are
+/* Reads a scene and all files that it names: includes, meshes, images and point sets. Relative names are
  * looked for beside the file that has them, beside the scene, in the folders of <path>, and in the folder of
  * the process; only regular files are read, and none is written. `options` may be NULL. Errors carry file,
  * line and column: OPEN (a file is not there, is no regular file, or lies where `confine` does not let it),
@@ -176,7 +176,7 @@ AUR_EXPERIMENTAL aur_result aur_scene_get_description(const aur_scene *scene,
                                                       aur_scene_description *description, aur_error *error)
     AUR_NONNULL(1, 2);
 
-/* What clip planes hide of the surfaces before the camera, by rays spread evenly over its picture. `size` is
+/* What clip planes hide of the surfaces before the camera, by rays spread evenly over its image. `size` is
  * set by the caller to that of the struct. */
 typedef struct aur_clip_description {
     size_t size;

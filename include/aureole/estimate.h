@@ -1,7 +1,7 @@
 /* How sure a number is: any functional of points with weights, by independent randomisations of the points.
  *
  * A functional is what a program makes of a set of points: the mean of a function, the brightness of a
- * picture, a quantile. It is computed for every randomisation by itself; the mean over them is the estimate,
+ * image, a quantile. It is computed for every randomisation by itself; the mean over them is the estimate,
  * and their spread says how far it is from what infinitely many would give. Where the functional is linear in
  * the weights, as means are, that is the integral, without bias; else what is left is the functional's own
  * bias at the number of points of one randomisation. */

@@ -1,6 +1,6 @@
 /* Many processes, one job: the same program is started several times by mpirun (or Slurm's srun), makes the
  * same calls in each, and gets the same results in each, bit for bit those of one process. What takes long is
- * shared out: tiles of pictures, photons and particles, angles of weight tables, blocks of measures.
+ * shared out: tiles of images, photons and particles, angles of weight tables, blocks of measures.
  *
  * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_RANKS_H

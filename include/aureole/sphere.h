@@ -77,7 +77,7 @@ AUR_API double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) AUR
 AUR_API aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density,
                                     aur_error *error) AUR_NONNULL(1, 3);
 
-/* A density on the unit square from a picture, made ready: immutable. Experimental. */
+/* A density on the unit square from an image, made ready: immutable. Experimental. */
 typedef struct aur_density_image aur_density_image;
 
 /* density[width * height] with the top row first, finite and not negative, not all 0; u runs along a row and

@@ -61,7 +61,7 @@ typedef struct aur_table {
     const aur_row *common; /* the keys that every row takes besides its own; or NULL */
 } aur_table;
 
-/* The tables of point sets and of measures, one after the other; NULL beyond the last. Those of what pictures
+/* The tables of point sets and of measures, one after the other; NULL beyond the last. Those of what images
  * are made with are aur_render_table_at's. */
 AUR_API const aur_table *aur_table_at(size_t index);
 

@@ -98,7 +98,7 @@ class _Call(Call):
 
 
 def render_tables() -> dict[str, dict[str, Row]]:
-    """Every table of what pictures are made with by its kind: integrators, materials, shapes, lights, ..."""
+    """Every table of what images are made with by its kind: integrators, materials, shapes, lights, ..."""
     library = _library()
     return read_tables(library, library.lib.aur_render_table_at)
 
@@ -137,7 +137,7 @@ class SceneDescription(NamedTuple):
 
 
 class Scene(Rebuilt):
-    """A scene: Mitsuba 3's XML, Radiance's .rad, or a model (.glb, .obj, ...); loaded once, for any number of pictures.
+    """A scene: Mitsuba 3's XML, Radiance's .rad, or a model (.glb, .obj, ...); loaded once, for any number of images.
 
     `definitions`: values for the scene's <default>s. `confine`: no file outside of the scene's folder is read. `text`: the
     scene itself; `path` is then its name in messages, and where its files are looked for. `model_light`: whether a
@@ -192,7 +192,7 @@ def render(
     error: Optional[float] = None, error_measure: str = "relative", channels: Optional[Sequence[str]] = None,
     clamp: float = 0.0, definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
 ) -> Picture:  # fmt: skip
-    """A picture of a scene, (height, width, channels) of float32: linear radiance, Rec. 709 primaries, the top row first.
+    """An image of a scene, (height, width, channels) of float32: linear radiance, Rec. 709 primaries, the top row first.
 
     Parameters
     ----------
@@ -234,7 +234,7 @@ def render(
 
 
 def _picture(image: Any) -> tuple[Picture, list[str]]:
-    """The library's picture as it lies there, and the names of its channels."""
+    """The library's image as it lies there, and the names of its channels."""
     library = _library()
     lib = library.lib
     shape = lib.aur_image_height(image), lib.aur_image_width(image), lib.aur_image_channel_count(image)
@@ -254,7 +254,7 @@ def _select(array: Picture, names: list[str], wanted: Sequence[str]) -> Picture:
 
 
 def read_image(path: Path) -> tuple[Picture, list[str]]:
-    """A picture (height, width, channels) of float32 and the names of its channels: EXR, PFM, HDR, PNG or JPEG.
+    """An image (height, width, channels) of float32 and the names of its channels: EXR, PFM, HDR, PNG or JPEG.
 
     PNG and JPEG are decoded from sRGB to linear.
     """
@@ -283,7 +283,7 @@ def write_image(
     path: Path, picture: ArrayLike, *, channels: Optional[Sequence[str]] = None, exposure: float = 0.0,
     tone: str = "srgb", half: bool = False,
 ) -> None:  # fmt: skip
-    """Writes a picture (height, width, channels), by the end of the file's name: .exr, .pfm, .hdr or .png.
+    """Writes an image (height, width, channels), by the end of the file's name: .exr, .pfm, .hdr or .png.
 
     `channels`: their names, for EXR; None: Y; Y, A; R, G, B; R, G, B, A. `exposure` in stops and `tone` ("srgb", "filmic")
     are for PNG; `half`: 16-bit floats in EXR.
@@ -297,7 +297,7 @@ def write_image(
 
 
 def compare(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path], metric: str = "rmse") -> float:
-    """A figure of the difference of two pictures of one size, over R, G and B: arrays (height, width, 3) or files.
+    """A figure of the difference of two images of one size, over R, G and B: arrays (height, width, 3) or files.
 
     `metric`: "rmse", "mse", "mae", "relmse", "mrse", "relative-rmse" or "flip" (Andersson et al. 2020).
     """

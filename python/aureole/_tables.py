@@ -1,4 +1,4 @@
-"""The tables of the library as data: sets, measures, and what pictures are made with."""
+"""The tables of the library as data: sets, measures, and what images are made with."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def read_tables(bridge: Bridge, table_at: Any) -> dict[str, dict[str, Row]]:
 
 
 def tables() -> dict[str, dict[str, Row]]:
-    """Every table of the core by its kind: "set" and "measure". Those of pictures are `render_tables`'.
+    """Every table of the core by its kind: "set" and "measure". Those of images are `render_tables`'.
 
     >>> sorted(tables())
     ['measure', 'set']

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Points, a measure, weights and a picture by the build for arm64, under qemu-user: the numbers have the bits of this build,
-# and the picture differs by roundings of rays. scripts/arm64.sh makes that build and asks more; without it this is skipped.
+# Points, a measure, weights and an image by the build for arm64, under qemu-user: the numbers have the bits of this build,
+# and the image differs by roundings of rays. scripts/arm64.sh makes that build and asks more; without it this is skipped.
 set -u
 aureole=$1 source=$2 root=$2/build/arm64-root
 [ -x "$source/build/arm64/aureole" ] || { echo "skipped: no build for arm64 (scripts/arm64.sh makes it)"; exit 77; }
@@ -22,4 +22,4 @@ picture=(render "$source/scenes/cornell-box/glossy.xml" -q --width 16 --height 1
 qemu-aarch64 -L "$root" "$source/build/arm64/aureole" "${picture[@]}" -t 1 -o there.exr || exit 1
 "$aureole" compare here.exr there.exr --format csv --tolerance inf |
   awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "relative_rmse") at = i } NR == 2 { exit !($at < 1e-5) }' ||
-  { echo "the picture differs on arm64"; exit 1; }
+  { echo "the image differs on arm64"; exit 1; }

@@ -44,7 +44,7 @@ async function look() {
     frame.remove();
   }
   const frame = await open('docs/glossary.html'), inner = frame.contentDocument, box = inner.getElementById('search');
-  box.value = 'keys integrators rendering';
+  box.value = 'which integrator renders';
   box.dispatchEvent(new Event('input'));
   for (let i = 0; i < 200 && !inner.querySelector('#found a'); ++i) await new Promise(then => setTimeout(then, 20));
   show('found ' + inner.querySelector('#found a')?.getAttribute('href'));
@@ -58,7 +58,7 @@ JS
     --virtual-time-budget=60000 --dump-dom "file://$PWD/look.html" >dom.html 2>chromium.txt
   grep -q '<title>looked' dom.html || fail "chromium did not end: $(tail -2 chromium.txt)"
   ! grep -o '<p>[^<]*pixels wide' dom.html || fail "pages are wider than a phone"
-  grep -q '<p>found \.\./docs/rendering.html#keys-of-the-integrators' dom.html || fail "the search says $(grep -o '<p>found[^<]*' dom.html)"
+  grep -q '<p>found \.\./docs/target-error.html#which-integrator-renders' dom.html || fail "the search says $(grep -o '<p>found[^<]*' dom.html)"
   rm -rf chromium
 fi
 exit $status

@@ -22,7 +22,7 @@ printf '0 0 .01 0 0 1\n' >up.pts
 printf '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world"><scale value="1000"/></transform>
 <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>' >plane.xml
 
-# A plane under nothing but the sky: the factor is 100 %, and each overcast hour what the file says, by any patches.
+# A plane under only the sky: the factor is 100 %, and each overcast hour what the file says, by any patches.
 for patches in tregenza reinhart:2; do
   "$aureole" irradiance -q plane.xml --sensors up.pts --weather overcast.epw --up 0,0,1 --efficacy 179 --patches $patches \
     --series hours.csv -o plane.csv || fail "a plane"

@@ -6,7 +6,7 @@ near() { # WHAT VALUE EXPECTED TOLERANCE
   awk -v a="$2" -v b="$3" -v t="$4" 'BEGIN { d = a - b; exit !(a != "" && d <= t && -d <= t) }' || fail "$1: $2, not $3"
 }
 
-# --- a cube whose floor (1) sees nothing but the rest (2): F12 = 1, A1 / A2 = 1 / 5
+# --- a cube whose floor (1) sees only the rest (2): F12 = 1, A1 / A2 = 1 / 5
 {
   printf 'v %s\n' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '0 0 1' '1 0 1' '0 1 1' '1 1 1'
   printf 'g floor\nf 1 2 4 3\ng rest of it\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n'

@@ -238,7 +238,7 @@ printf '0 0 1 0 0 -1\n' >down.pts
 "$aureole" irradiance -q floor.xml --sensors down.pts -n 16384 -o floor.csv || fail "a floor below a pane"
 near 4 "$(awk 'BEGIN { print .5 * 100 * .8 * .5 ^ (1 / .8) }')" floor.csv
 
-# A scene without a camera is no picture.
+# A scene without a camera is no image.
 "$aureole" render room.xml -o room.exr 2>&1 | grep -q 'room.xml:1:.*the scene has no <sensor>' || fail "rendered without a camera"
 
 finish

@@ -116,7 +116,7 @@ for ball in "0 0 -1000" "600 0 -800" "-480 600 -640"; do
     "<shape type=\"sphere\"><point name=\"center\" x=\"$x\" y=\"$y\" z=\"$z\"/><float name=\"radius\" value=\"1000\"/></shape>"
 done
 # Below a rug nothing arrives, from 3e-7 above a floor 2 wide on, tilted and at map coordinates (below, it is in the floor's plane): two sensors on the floor and one
-# on the rug's underside read 0; below a light pi times its radiance, and below nothing but air (null) the sky, as beside the rug and on it.
+# on the rug's underside read 0; below a light pi times its radiance, and below only air (null) the sky, as beside the rug and on it.
 rugs() { # rugs GAP ANGLE X Y RUG EXPECTED
   local map="<rotate x=\"1\" y=\"2\" z=\"-1\" angle=\"$2\"/><translate x=\"$3\" y=\"$4\"/>"
   cat >rug.xml <<XML

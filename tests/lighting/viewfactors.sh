@@ -131,7 +131,7 @@ awk -F, '$1 == 0 && $2 == 1 { found = $4 == 0 } END { exit !found }' room.csv ||
 awk -F, '$1 == 0 && $2 == -1 { off = ($3 - .80017510430161) / $4; width = $4 } END { exit !(width > 1e-4 && width < .01 && off < 3 && off > -3) }' rays.csv ||
   fail "half widths: $(cat rays.csv)"
 
-# Two rays a facet of a tetrahedron: by some seeds three facets see nothing but the fourth, which has less area than
+# Two rays per facet of a tetrahedron: by some seeds three facets see only the fourth, which has less area than
 # they have together, so that no symmetric exchanges add up. The warning counts the rows that do not.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n' >tetrahedron.obj
 warned=0

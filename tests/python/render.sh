@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Pictures, view factors and irradiance from Python: the bits that the program writes.
+# Images, view factors and irradiance from Python: the bits that the program writes.
 set -u
 . "$2/tests/python/python.sh.inc"
 library=$build/libaureole-lighting.so
@@ -19,7 +19,7 @@ else:
     raise SystemExit("no error")
 PYTHON
 
-# By the renderer alone there are pictures, and the error names the library that light needs.
+# By the renderer alone there are images, and the error names the library that light needs.
 AUREOLE_RENDER_LIBRARY=$build/libaureole-render.so "${python[@]}" - "$source_tree" <<'PYTHON' || exit 1
 import sys
 import aureole

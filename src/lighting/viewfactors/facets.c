@@ -207,6 +207,7 @@ static aur_result load_scene(const char *path, aur_overlap_rule rule, const aur_
                              bool mesh, const aur_vs3 *surfaces, aur_scene **made, aur_error *error) {
     aur_scene_options scene = {.size = sizeof scene};
     aur_scene_options_init(&scene, NULL);
+    scene.model_light = AUR_MODEL_LIGHT_NONE; /* and so no studio, whose ground would be a facet */
     scene.warnings = options->warnings;
     scene.definition_count = options->definition_count;
     scene.confine = options->confine;

@@ -1,4 +1,4 @@
-/* Radiosities of facets, by the matrix or by rays that are traced anew for each reflection. */
+/* Radiosities of facets, by the matrix or by rays that are traced again for each reflection. */
 #include <aureole/statistics.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * its struct. A row of keys is written with the macros below:
  *
  *     static const aur_key keys[] = {
- *         {AUR_KEY_OF_INTEGER(options, "samples", samples, 1, 65536, "64", "directions a point")},
+ *         {AUR_KEY_OF_INTEGER(options, "samples", samples, 1, 65536, "64", "directions per point")},
  *         {AUR_KEY_OF_REAL(options, "smoothness", smoothness, 1, 2, "1.5", "s of the Sobolev space"),
  *          .minimum_open = true, .maximum_open = true},
  *         {AUR_KEY_OF_CHOICE(options, "weights", weights, "ratio", "how samples are weighed", "ratio",

@@ -33,7 +33,7 @@ bool aur_points_are_above(const aur_points_view *points);
 /* Warns where a pattern is the first `used` of a file's points, and not all. */
 void aur_points_warn_of_prefix(const aur_points_view *points, uint64_t used, const char *path,
                                const aur_warnings *warnings);
-/* Warns where nothing but the numbers said what domain the points of a file are of. */
+/* Warns where only the numbers said what domain the points of a file are of. */
 void aur_points_warn_of_guess(const aur_points_view *points, const char *path, const aur_warnings *warnings);
 
 /* The sets of the user: file:PATH, a file for each size (file:NAME-%d.csv, file:FOLDER), callback:NAME. */

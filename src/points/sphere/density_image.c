@@ -91,7 +91,7 @@ static aur_result fill_tables(aur_density_image *image, const float *density, au
     const size_t height = image->height;
     double *const rows = image->cumulative + height * (width + 1);
     for (size_t row = 0; row < height; ++row) {
-        /* pictures have the top row first, and v points up */
+        /* images have the top row first, and v points up */
         const float *const from = density + (height - 1 - row) * width;
         double *const cumulative = image->cumulative + row * (width + 1);
         for (size_t x = 0; x < width; ++x) {

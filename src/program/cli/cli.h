@@ -1,4 +1,4 @@
-/* What the verbs share: errors, exit statuses, progress, tables of results. */
+/* What the commands share: errors, exit statuses, progress, tables of results. */
 #pragma once
 
 #include <aureole/core.h>

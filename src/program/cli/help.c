@@ -1,4 +1,4 @@
-/* aureole help: the verbs, one verb's options, the kinds of things to choose from, and the keys of each
+/* aureole help: the commands, one command's options, the kinds of things to choose from, and the keys of each
  * thing. */
 #include <aureole/text.h>
 #include <math.h>
@@ -102,7 +102,7 @@ static int print_kind(const aur_table *kind, report_format format) {
     return cli_finish_listing(table, format);
 }
 
-/* The options of a verb as a table, for programs. */
+/* The options of a command as a table, for programs. */
 static int print_options(const cli_command *command, report_format format) {
     report_table *const table = report_create(KEY_COLUMNS, key_columns);
     const cli_option *option;
@@ -142,7 +142,7 @@ static int print_overview(const cli_command *const *commands) {
     return CLI_SUCCESS;
 }
 
-/* What may stand after a word of `aureole help`: verbs and kinds, or the rows of a kind. */
+/* What may stand after a word of `aureole help`: commands and kinds, or the rows of a kind. */
 typedef struct name_list {
     size_t count;
     const char *names[CLI_NAME_LIMIT];
@@ -209,7 +209,7 @@ static int run(const cli_call *call) {
         return cli_bad_usage("help: %s: 'aureole help' lists them", call->command->too_many);
     if (name != NULL)
         return help_on_row(kind, name, format);
-    /* A kind may be called as a verb is: then formats for programs are of the kind. */
+    /* A kind may be called as a command is: then formats for programs are of the kind. */
     bool command_too = false;
     for (size_t i = 0; call->commands[i] != NULL; ++i)
         command_too = command_too || strcmp(call->commands[i]->name, topic) == 0;

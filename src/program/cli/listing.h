@@ -28,7 +28,7 @@ int cli_finish_listing(report_table *table, report_format format);
 /* What may stand at a place of the command line, for the shells. */
 
 /* Prints what the last of `count` words may become, one a line with a tab and its help after it; ":file" and
- * ":folder" stand for names of files and folders. The first word is the verb. */
+ * ":folder" stand for names of files and folders. The first word is the command. */
 void cli_complete(const cli_command *const *commands, size_t count, char **words);
 
 /* The tables of what there is to choose from, for help and completion. */
@@ -51,7 +51,7 @@ int cli_print_command_help(const cli_command *command);
 
 /* The program as one of several processes that do one job. */
 
-/* Runs the verb as `run` does, together with the other processes that a launcher has started, if there are
+/* Runs the command as `run` does, together with the other processes that a launcher has started, if there are
  * any: rank 0 speaks and writes for all. Returns the exit status. */
 int cli_run_ranks(const cli_command *command, int argc, char **argv,
                   int (*run)(const cli_command *command, int argc, char **argv));

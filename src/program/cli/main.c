@@ -1,4 +1,4 @@
-/* aureole: finds the verb, reads its options and runs it. Adding a verb is one file, which defines
+/* aureole: finds the command, reads its options and runs it. Adding a command is one file, which defines
  * cli_command_<name>, and one line here. */
 #include <aureole/text.h>
 #include <signal.h>
@@ -63,7 +63,7 @@ static int finish(int status) {
     return status;
 }
 
-/* argv[0] is the verb. */
+/* argv[0] is the command. */
 static int run(const cli_command *command, int argc, char **argv) {
     if (command->absent != NULL)
         return cli_bad_usage("%s: needs %s, which this program was built without", command->name,

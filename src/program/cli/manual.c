@@ -1,5 +1,5 @@
 /* aureole manual: the manual pages, in the language of man (troff). They are made of the same rows as
- * `aureole help`: one page for the program, one a verb, one of what scenes are made of, one of sets and
+ * `aureole help`: one page for the program, one a command, one of what scenes are made of, one of sets and
  * measures. */
 #include <aureole/text.h>
 #include <limits.h>
@@ -231,7 +231,7 @@ static void put_names(FILE *page, const cli_command *const *commands) {
     put_line(page, "aureole(1), aureole-points(1), aureole-measure(1), aureole-scene(5)");
 }
 
-/* The pages that are no verb's. */
+/* The pages that are no command's. */
 typedef struct manual_page {
     const char *name; /* of `aureole manual NAME` */
     const char *file; /* below the folder of all pages */

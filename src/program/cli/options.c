@@ -1,4 +1,4 @@
-/* Reading the command line by a verb's rows, with messages that say what would be right. */
+/* Reading the command line by a command's rows, with messages that say what would be right. */
 #include "program/cli/options.h"
 
 #include <aureole/ranks.h>
@@ -72,7 +72,7 @@ const cli_option *cli_option_at(const cli_command *command, size_t index, size_t
             return option;
         }
     }
-    /* Every verb has these, whose values are in no struct. */
+    /* Every command has these, whose values are in no struct. */
     for (const cli_option *option = cli_limits_option; option->key.name != NULL; ++option)
         if (index-- == 0) {
             if (offset != NULL)

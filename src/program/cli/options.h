@@ -10,7 +10,7 @@
 
 #include "program/cli/cli.h"
 
-enum { CLI_OPTION_LIMIT = 96, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
+enum { CLI_OPTION_LIMIT = 96, CLI_NAME_LIMIT = 256 }; /* options of a command, names of a choice or table */
 
 /* One option. The key has its long name without the dashes (one letter alone stands for an option that has
  * no long name), type, range, default and line of help. */
@@ -22,12 +22,12 @@ typedef struct cli_option {
     bool value_is_optional; /* --name[=VALUE]: without one the text is "" */
     /* The names of an enum from 0 on, NULL beyond the last, where they are not the key's words. */
     const char *(*name)(unsigned value);
-    /* Reads what is none of the types of keys, or does what a flag says; the text outlives the verb. */
+    /* Reads what is none of the types of keys, or does what a flag says; the text outlives the command. */
     aur_result (*parse)(const char *text, void *field, aur_error *error);
     /* What is completed: "file", "folder", a kind of `aureole help`, or "file or KIND"; or NULL. */
     const char *content;
-    bool
-        writes; /* the value is a file that the verb writes: no input, and no other output, may be the same */
+    bool writes; /* the value is a file that the command writes: no input, and no other output, may be the
+                    same */
 } cli_option;
 
 /* Rows of options: the struct and the field that the value goes to, the name, the value's word, the range of
@@ -55,20 +55,20 @@ typedef struct cli_operand {
     const char *help;
     bool optional, repeated;             /* only the last operands may be either */
     const char *(*name)(unsigned value); /* as for options */
-    /* As for options; "topic": verbs and kinds, "row": one of the kind that the operand before names. */
+    /* As for options; "topic": commands and kinds, "row": one of the kind that the operand before names. */
     const char *content;
     bool writes; /* as for options */
 } cli_operand;
 
-/* Options that stand together in a verb's struct; several verbs may share one. */
+/* Options that stand together in a command's struct; several commands may share one. */
 typedef struct cli_group {
     const cli_option *options; /* ends with a row without a name */
-    size_t offset;             /* of the struct that the options write to, in the verb's own */
+    size_t offset;             /* of the struct that the options write to, in the command's own */
 } cli_group;
 
 typedef struct cli_call cli_call;
 
-/* One verb: its file defines `const cli_command cli_command_<name>`, and main.c has the table. */
+/* One command: its file defines `const cli_command cli_command_<name>`, and main.c has the table. */
 typedef struct cli_command {
     const char *name;
     const char *summary;              /* one line for the list */
@@ -86,14 +86,14 @@ typedef struct cli_command {
 struct cli_call {
     const cli_command *const *commands; /* all of them; NULL at the end */
     const cli_command *command;
-    void *options; /* the verb's struct: zero but for defaults and what was given */
+    void *options; /* the command's struct: zero but for defaults and what was given */
     size_t operand_count;
     char **operands;
     const char *texts[CLI_OPTION_LIMIT]; /* what was given, by the option's index; NULL: nothing */
 };
 
-/* Option `index` of a verb, group after group, NULL beyond the last; *offset (unless NULL) is the place of
- * its field in the verb's struct. */
+/* Option `index` of a command, group after group, NULL beyond the last; *offset (unless NULL) is the place of
+ * its field in the command's struct. */
 const cli_option *cli_option_at(const cli_command *command, size_t index, size_t *offset);
 
 /* Reads argv[1..argc-1] into a call whose `options` point to zeros. Prints what is wrong and returns false.
@@ -121,7 +121,7 @@ typedef struct cli_list {
 cli_list cli_split(char *text);
 const char *cli_list_at(const cli_list *list, size_t index);
 
-/* --- options that verbs share: each a group of one row */
+/* --- options that commands share: each a group of one row */
 
 typedef struct cli_common {
     report_format format; /* of a table of results; --json is --format json */
@@ -132,7 +132,7 @@ typedef struct cli_common {
 extern const cli_option cli_format_option[], cli_threads_option[], cli_quiet_option[]; /* of a cli_common */
 extern const cli_option cli_cache_option[];                                            /* the same */
 extern const cli_option
-    cli_limits_option[]; /* of every verb, and of no struct: they hold once they are read */
+    cli_limits_option[]; /* of every command, and of no struct: they hold once they are read */
 
 enum { CLI_DEFINITION_LIMIT = 64 };
 

@@ -55,7 +55,7 @@ double json_number(const json_value *value, double otherwise);
 const char *json_text(const json_value *value);
 size_t json_size(const json_value *value, size_t otherwise);
 
-/* Pictures of materials as <texture>s. */
+/* Images of materials as <texture>s. */
 
 /* A material's texture, by assimp's kind and number. */
 typedef struct slot {
@@ -63,7 +63,7 @@ typedef struct slot {
     unsigned index;
 } slot;
 
-/* How a texture's picture becomes a <texture>. */
+/* How a texture's image becomes a <texture>. */
 typedef struct picture_use {
     slot from;
     const char *name, *channel;

@@ -196,7 +196,7 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
 
 /* --- cameras */
 
-/* Across the picture, in degrees. Up to 5.2 assimp takes glTF's angle, that of the height, times the ratio.
+/* Across the image, in degrees. Up to 5.2 assimp takes glTF's angle, that of the height, times the ratio.
  */
 static double angle_across(const writer *self, const struct aiCamera *camera) {
     const double given = (double)camera->mHorizontalFOV, ratio = (double)camera->mAspect;

@@ -7,7 +7,7 @@
 
 #include "program/import/writer.h"
 
-/* A picture that the model holds, as a file: packed as it is, or texels behind the header of a TGA. */
+/* An image that the model holds, as a file: packed as it is, or texels behind the header of a TGA. */
 static unsigned file_of_image(writer *self, unsigned index) {
     const struct aiTexture *const texture = self->scene->mTextures[index];
     if (self->image_file[index] != 0)
@@ -33,7 +33,7 @@ static unsigned file_of_image(writer *self, unsigned index) {
     return file;
 }
 
-/* Which of the pictures that the model holds a path means: "*i", or its name; their number: none. */
+/* Which of the images that the model holds a path means: "*i", or its name; their number: none. */
 static unsigned find_image(const writer *self, const char *path) {
     const struct aiScene *const scene = self->scene;
     if (path[0] == '*') {
@@ -46,7 +46,7 @@ static unsigned find_image(const writer *self, const char *path) {
     return index;
 }
 
-/* The name of a picture beside the model, as the model has it, as a path. */
+/* The name of an image beside the model, as the model has it, as a path. */
 static void path_of(const writer *self, const char *text, char path[MAXLEN]) {
     snprintf(path, MAXLEN, "%s", text);
     if (self->is_gltf)
@@ -63,7 +63,7 @@ typedef struct writer_picture {
     struct writer_picture *next;
 } writer_picture;
 
-/* The name under which a picture beside the model can be read, or NULL. */
+/* The name under which an image beside the model can be read, or NULL. */
 static const char *find_picture(writer *self, const char *text) {
     char path[MAXLEN];
     path_of(self, text, path);

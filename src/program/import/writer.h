@@ -32,7 +32,7 @@ typedef struct writer {
     unsigned *mesh_file; /* of each mesh: its file, or NO_FILE where there is no triangle */
     unsigned *mesh_uses; /* how many nodes have it */
     unsigned
-        *image_file; /* of each picture that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
+        *image_file; /* of each image that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
     struct json_value *gltf; /* the JSON of a glTF file, or NULL */
     const char *gltf_binary; /* of a .glb: the chunk behind the JSON, or NULL */
     size_t gltf_binary_size;
@@ -55,7 +55,7 @@ void writer_property(writer *self, const char *tag, const char *name, const char
 void writer_note(const char *format, ...) AUR_PRINTF(1, 2);
 /* Adds a mesh's file; its number. */
 unsigned writer_add_mesh_file(writer *self, size_t size, const void *data);
-/* The same of a picture; NO_FILE for one that cannot be read. */
+/* The same of an image; NO_FILE for one that cannot be read. */
 unsigned writer_add_picture_file(writer *self, size_t size, const void *data);
 
 /* Puts nodes, morph targets and skins of the first animation where they are at that time; without `moving`,

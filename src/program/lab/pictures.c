@@ -13,7 +13,7 @@ double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image 
     return sum / (double)count;
 }
 
-/* The row of a picture; one that was made before an interruption has it already. */
+/* The row of an image; one that was made before an interruption has it already. */
 static void list_picture(lab_run *run, const lab_image_position *place, const char *path) {
     const char *const file = strrchr(path, '/') + 1;
     for (size_t i = 0; i < report_rows(run->pictures); ++i)

@@ -21,7 +21,7 @@ aur_result lab_figure(const lab_points *points, const char *metric, size_t threa
 /* Colours of drawn points, linear R, G, B: blue, red, green, orange and black, the first again after the
  * last. */
 const float *lab_colour(size_t index);
-/* A white picture. */
+/* A white image. */
 aur_result lab_canvas(size_t width, size_t height, aur_image **image, aur_error *error);
 /* A disk about x, y in pixels from the upper left corner, its edge smooth. */
 void lab_dot(aur_image *image, double x, double y, double radius, const float colour[3]);

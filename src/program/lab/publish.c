@@ -6,7 +6,7 @@
 
 #include "program/report/page/page.h"
 
-/* A small page halves pictures of more pixels than SMALL_PIXELS, where they stay as wide as SMALL_WIDTH,
+/* A small page halves images of more pixels than SMALL_PIXELS, where they stay as wide as SMALL_WIDTH,
  * shows of each experiment one view that is as wide, and the first rows of long tables. */
 enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160, SMALL_ROWS = 25, SMALL_WIDTH = 128 };
 
@@ -73,7 +73,7 @@ static aur_result put_summary(const publication *p, aur_error *error) {
     return result;
 }
 
-/* The picture, or means of its blocks where a small page is wanted and it is large. */
+/* The image, or means of its blocks where a small page is wanted and it is large. */
 static aur_result read_picture(const publication *p, const char *path, aur_image **image, bool *reduced,
                                aur_error *error) {
     aur_image *whole = NULL;
@@ -88,7 +88,7 @@ static aur_result read_picture(const publication *p, const char *path, aur_image
     return made;
 }
 
-/* The pictures of one view, from row `first` of their table on. */
+/* The images of one view, from row `first` of their table on. */
 static aur_result put_view(const publication *p, const lab_experiment *of, const report_table *list,
                            size_t first, bool *shown, aur_error *error) {
     enum { VIEW, NAME, PLACE, ROLE, EXPOSURE };

@@ -12,7 +12,7 @@
 
 typedef struct lab_store lab_store;
 
-/* Takes up the file of a run of the same `identity` (a line), or begins it anew. Errors: WRITE, MEMORY. */
+/* Takes up the file of a run of the same `identity` (a line), or begins it again. Errors: WRITE, MEMORY. */
 aur_result lab_store_open(const char *path, const char *identity, lab_store **store, aur_error *error);
 void lab_store_close(lab_store *store); /* NULL is allowed */
 

@@ -1,5 +1,5 @@
 /* The server of `--serve` by GNU libmicrohttpd, in a module of its own: the library brings ten others along,
- * which take as long to load as a small picture takes to render. */
+ * which take as long to load as a small image takes to render. */
 #include <math.h>
 #include <microhttpd.h>
 #include <pthread.h>

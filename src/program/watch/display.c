@@ -12,7 +12,7 @@
 
 #include "program/watch/server.h"
 
-/* Pixels a side of the parts in which a picture is sent, as tev's own client does. */
+/* Pixels a side of the parts in which an image is sent, as tev's own client does. */
 enum { TILE = 128, DEFAULT_PORT = 14158 };
 
 struct watch_display {
@@ -144,7 +144,7 @@ static bool has_changed(const aur_image *before, const aur_image *image, const i
     return false;
 }
 
-/* The first picture makes the viewer's; of all others the parts that have changed are sent. */
+/* The first image makes the viewer's; of all others the parts that have changed are sent. */
 static bool send_picture(const watch_display *display, const aur_image *image) {
     bool good = display->sent != NULL || (send_packet(display, CLOSE_IMAGE, NULL, NULL) &&
                                           send_packet(display, CREATE_IMAGE, image, NULL));

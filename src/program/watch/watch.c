@@ -14,14 +14,14 @@
 
 enum { TOKEN_BYTES = 16, TOKEN_LENGTH = 2 * TOKEN_BYTES, TEXT_CAPACITY = 256, MOST_PAGES = 16 };
 
-/* Seconds between two words on the progress, the part of the time that developing pictures may take, and how
+/* Seconds between two words on the progress, the part of the time that developing images may take, and how
  * long a page that says nothing more is waited for in the end, and one that does. */
 static const double PAUSE = 0.2, DEVELOPING_PART = 0.05, SILENCE = 3.0, GOODBYE = 60.0;
 
 /* A page that somebody has open. */
 typedef struct open_page {
     uint64_t id;
-    bool has_all; /* the picture that the render has ended with */
+    bool has_all; /* the image that the render has ended with */
 } open_page;
 
 struct watch_session {
@@ -32,7 +32,7 @@ struct watch_session {
     atomic_bool stop;
     /* Of the thread that reports progress: */
     watch_source source;
-    char pending[TEXT_CAPACITY];  /* what is known of the picture, until it is told with all else */
+    char pending[TEXT_CAPACITY];  /* what is known of the image, until it is told with all else */
     double told, developed, cost; /* when it was last told and developed, and the seconds that this took */
     pthread_mutex_t lock;         /* guards what follows */
     uint64_t serial;              /* of the state */
@@ -41,7 +41,7 @@ struct watch_session {
     bool turns, has_turned; /* pages may turn the camera; one has */
     bool turned;            /* `turn` is to be taken */
     watch_turn turn;
-    bool wanted;           /* a page asks for a newer picture */
+    bool wanted;           /* a page asks for a newer image */
     aur_image *fresh;      /* which the server's thread takes over */
     const aur_image *last; /* what the render has ended with; its owner's */
     double asked;          /* the time of the last request */
@@ -339,7 +339,7 @@ void watch_tell(watch_session *watch, const char *text) {
     aur_format(watch->pending, sizeof watch->pending, "%s", text);
 }
 
-/* Pictures for the pages, which is returned, and the display server, if they want any and the last ones have
+/* Images for the pages, which is returned, and the display server, if they want any and the last ones have
  * not cost too much for others. */
 static aur_image *develop(watch_session *watch) {
     pthread_mutex_lock(&watch->lock);
@@ -422,7 +422,7 @@ bool watch_progress(watch_session *watch, const char *what, double share) {
     if (watch->source.describe != NULL)
         watch->source.describe(watch->source.user, sizeof watch->pending, watch->pending);
     aur_image *const fresh = develop(watch);
-    pthread_mutex_lock(&watch->lock); /* words, share and picture are of this moment */
+    pthread_mutex_lock(&watch->lock); /* words, share and image are of this moment */
     aur_format(watch->what, sizeof watch->what, "%s", what != NULL ? what : "working");
     memcpy(watch->known, watch->pending, sizeof watch->known);
     if (fresh != NULL) {
@@ -457,7 +457,7 @@ bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text) {
     return true;
 }
 
-/* The whole picture as it is written. */
+/* The whole image as it is written. */
 static void send_last(watch_session *watch, const aur_image *image) {
     aur_image *copy = NULL;
     if (copy_of(image, &copy, NULL) == AUR_OK)

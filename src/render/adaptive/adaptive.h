@@ -58,5 +58,5 @@ double aur_adaptive_corrections_left(const aur_adaptive *adaptive);
 void aur_adaptive_bound_bias(aur_adaptive *adaptive);
 /* To be called after each round; `last`: the noise has come to its target. Renders corrections, bounds the
  * bias, and takes the next candidate where it is, or may be, too large: then `again` is true, and rounds
- * begin anew. */
+ * begin again. */
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error);

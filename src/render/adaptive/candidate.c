@@ -165,8 +165,8 @@ double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal
     return factor;
 }
 
-/* The first samples may make the error fall faster than it does later: by the rate of six samples a pixel the
- * statue to 4 % seemed to need a fifth of the samples that it takes. */
+/* The first samples may make the error fall faster than it does later: by the rate of six samples per pixel
+ * the statue to 4 % seemed to need a fifth of the samples that it takes. */
 double aur_candidate_growth(const aur_candidate *candidate, double error) {
     const double most =
         1.25; /* of path tracing by Sobol' points in the bundled scenes (bench/adaptive_speed.c) */

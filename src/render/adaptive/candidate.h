@@ -1,4 +1,4 @@
-/* One way to render a picture, tried out or gone through with: replicas by one integrator, and what their
+/* One way to render an image, tried out or gone through with: replicas by one integrator, and what their
  * samples say so far. */
 #pragma once
 
@@ -96,9 +96,9 @@ void aur_candidate_look_ahead(aur_candidate *candidate, const aur_goal *goal);
 /* No sample has met light, and none that the camera sees is known of. */
 bool aur_candidate_is_black(const aur_candidate *candidate);
 
-/* Plans the samples of a round; the first is one sample a pixel. Where more than one is needed to the factor,
- * all grow alike, so that the last one is not a small one that sees nearly what the one before has seen.
- * False when all pixels have all that they can have. */
+/* Plans the samples of a round; the first is one sample per pixel. Where more than one is needed to the
+ * factor, all grow alike, so that the last one is not a small one that sees nearly what the one before has
+ * seen. False when all pixels have all that they can have. */
 bool aur_candidate_plan(aur_candidate *candidate, double factor);
 /* Plans so many samples in all for every pixel, which none has more than yet. */
 void aur_candidate_plan_evenly(aur_candidate *candidate, uint32_t samples);
@@ -106,7 +106,7 @@ void aur_candidate_plan_evenly(aur_candidate *candidate, uint32_t samples);
 aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
                                 aur_error *error);
 
-/* How many samples each pixel of a picture is to have next. */
+/* How many samples each pixel of an image is to have next. */
 
 enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
 

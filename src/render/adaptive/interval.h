@@ -1,12 +1,12 @@
-/* How far the mean of independent, equally distributed pictures is from the truth, told from how far the
- * pictures are from each other. */
+/* How far the mean of independent, equally distributed images is from the truth, told from how far the
+ * images are from each other. */
 #pragma once
 
 #include <stddef.h>
 
 enum { AUR_REPLICAS_MAX = 16 };
 
-/* Products of the deviations of `count` pictures from their mean, summed over the values of a block of pixels
+/* Products of the deviations of `count` images from their mean, summed over the values of a block of pixels
  * and channels: the Gram matrix of the block. */
 typedef struct aur_gram {
     size_t count;
@@ -14,7 +14,7 @@ typedef struct aur_gram {
     double alike; /* an estimate of tr C^2 from values beside each other (aur_deviations) */
 } aur_gram;
 
-/* What the Gram matrices of all blocks of a picture say together. With C the covariance of one replica's
+/* What the Gram matrices of all blocks of an image say together. With C the covariance of one replica's
  * values, whose blocks are taken to be independent of each other. Start with zero. */
 typedef struct aur_deviations {
     double trace;          /* the sum of tr W; expectation (count - 1) tr C */
@@ -29,7 +29,7 @@ typedef struct aur_deviations {
  * different replicas tell it: ((X_1 - X_2).(X_3 - X_4))^2 / 4 has it as its expectation, whatever the
  * distribution (Chen, Zhang and Zhong 2010), and the mean over all such fours is taken of each block. The
  * Gram matrix of normal values tells it with more degrees (Wishart), and those of rare large values several
- * times too high. Three replicas have nothing but that: (tr W^2 - (tr W)^2 / n) / ((n - 1)(n + 2)) with n =
+ * times too high. Three replicas have only that: (tr W^2 - (tr W)^2 / n) / ((n - 1)(n + 2)) with n =
  * count - 1. */
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block);
 
@@ -49,11 +49,11 @@ void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
                          const aur_pixel_spread *pixels);
 
 typedef struct aur_error_interval {
-    double estimate, low, high; /* of the root mean square error, in the picture's units */
+    double estimate, low, high; /* of the root mean square error, in the image's units */
     double degrees;             /* independent values of equal size that would make such an error */
 } aur_error_interval;
 
-/* The error of the mean of `count` >= 3 pictures of `values` values, and the interval that holds it with
+/* The error of the mean of `count` >= 3 images of `values` values, and the interval that holds it with
  * probability `confidence` in (0,1). It is the error of this mean, not its expectation over other seeds: the
  * two vary independently, which makes the interval wider by a factor 1 + 1/(count - 1) in variance. The
  * larger of `spread` and `alike` is taken for tr C^2: the first has few degrees, and is low by chance where

@@ -81,7 +81,7 @@ void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const
 /* Correlation between pixels is seen within blocks of so many pixels a side. */
 enum { BLOCK = 8 };
 
-/* The pixels of a film that lie in a cell of a grid over the whole picture. */
+/* The pixels of a film that lie in a cell of a grid over the whole image. */
 typedef struct pixel_range {
     size_t x0, x1, y0, y1; /* from the film's corner on */
 } pixel_range;

@@ -1,4 +1,4 @@
-/* Independent renderings of one picture: the same everything but the seed. Their mean is the picture, and
+/* Independent renderings of one image: the same everything but the seed. Their mean is the image, and
  * their differences say how good it is. */
 #pragma once
 

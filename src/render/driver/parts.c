@@ -1,4 +1,4 @@
-/* Parts of a picture, put together. */
+/* Parts of an image, put together. */
 #include <stdlib.h>
 
 #include "points/base/error.h"

@@ -239,7 +239,7 @@ const aur_integrator *aur_render_integrator(const aur_render *render) {
 
 /* --- steps */
 
-/* Whether the tile is of the render's part of the picture. */
+/* Whether the tile is of the render's part of the image. */
 static bool is_own(const aur_render *render, size_t tile) {
     const aur_render_options *const s = &render->settings;
     return s->shard_count == 0 || tile % s->shard_count == s->shard - 1;

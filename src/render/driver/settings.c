@@ -34,7 +34,7 @@ static aur_result complete_crop(const aur_film_settings *film, aur_render_option
         s->crop_x0, s->crop_x1, s->crop_y0, s->crop_y1, s->width, s->height);
 }
 
-/* A side that is left out follows from the other one: the picture keeps the shape that the scene gives it. */
+/* A side that is left out follows from the other one: the image keeps the shape that the scene gives it. */
 static void complete_size(const aur_film_settings *film, aur_render_options *options) {
     const double aspect = (double)film->width / (double)film->height;
     if (options->width == 0)

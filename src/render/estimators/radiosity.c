@@ -1,5 +1,5 @@
 /* Quasi-Monte Carlo radiosity (Keller 1994): a particle walk makes a mean radiance for every triangle, and
- * the picture gathers it once more at every point that the eye sees, with direct light apart. */
+ * the image gathers it once more at every point that the eye sees, with direct light apart. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ typedef struct radiosity_data {
     double epsilon, ply_exposure;
     const char *sequence, *save, *load, *ply; /* NULL: not given */
     enum { WALK_POWER, WALK_PAPER } walk;
-    /* the picture */
+    /* the image */
     uint64_t gather_samples;
     const char *pattern;
     enum { LIGHTS_PERMUTED, LIGHTS_ALL } light_sampling;
@@ -168,7 +168,7 @@ static void destroy_solution(void *radiosity) {
     aur_radiosity_destroy(radiosity);
 }
 
-/* The solution, shared by all pictures that ask for the same one. */
+/* The solution, shared by all images that ask for the same one. */
 static aur_result solve(const radiosity_data *p, const aur_integrator_context *context,
                         aur_radiosity_image *image, aur_error *error) {
     char key[1024];
@@ -199,7 +199,7 @@ static aur_result solve(const radiosity_data *p, const aur_integrator_context *c
     return write_files(p, radiosity, error);
 }
 
-/* --- the picture */
+/* --- the image */
 
 static aur_result prepare_gather(const radiosity_data *p, const aur_integrator_context *context,
                                  aur_radiosity_image *image, aur_error *error) {

@@ -27,7 +27,7 @@ typedef struct aur_film_channel {
 
 /* The first three channels are R, G, B. */
 typedef struct aur_film_layout {
-    /* Of the whole picture. */
+    /* Of the whole image. */
     size_t width, height;
     /* The film's pixels: x0 <= x < x1, y0 <= y < y1. */
     size_t x0, x1, y0, y1;
@@ -53,7 +53,7 @@ static inline aur_film_area aur_film_area_of(const aur_film_layout *layout) {
 struct aur_film {
     aur_film_layout layout;
     aur_film_channel *channels;
-    /* The first tile on the grid over the whole picture, and how many tiles there are: those of all pixels
+    /* The first tile on the grid over the whole image, and how many tiles there are: those of all pixels
      * whose samples count. */
     size_t column0, row0, columns, tile_count;
     /* For each pixel, row by row: samples that it was given, sums of each channel, and the number of samples
@@ -77,7 +77,7 @@ static inline size_t aur_film_pixel_count(const aur_film *film) {
     return (film->layout.x1 - film->layout.x0) * (film->layout.y1 - film->layout.y0);
 }
 
-/* Whether the film has pixel (x, y) of the picture, and where. */
+/* Whether the film has pixel (x, y) of the image, and where. */
 static inline bool aur_film_has(const aur_film *film, size_t x, size_t y, size_t *at) {
     const aur_film_layout *const layout = &film->layout;
     if (x < layout->x0 || x >= layout->x1 || y < layout->y0 || y >= layout->y1)
@@ -86,7 +86,7 @@ static inline bool aur_film_has(const aur_film *film, size_t x, size_t y, size_t
     return true;
 }
 
-/* The tile of pixel (x, y) of the picture. */
+/* The tile of pixel (x, y) of the image. */
 static inline size_t aur_film_tile_at(const aur_film *film, size_t x, size_t y) {
     return (y / AUR_TILE_SIZE - film->row0) * film->columns + x / AUR_TILE_SIZE - film->column0;
 }
@@ -196,8 +196,8 @@ aur_result aur_identity_compare(const char *path, const char *kept, const char *
 /* The value of a key's line, or NULL; *length is its length. */
 const char *aur_identity_find(const char *identity, const char *key, size_t *length);
 
-/* Adds the samples of `part`, whose picture has the same size and channels and whose pixels are the film's
- * own or whole tiles of them (16 x 16 pixels on a grid over the whole picture). Pixels that have samples from
+/* Adds the samples of `part`, whose image has the same size and channels and whose pixels are the film's
+ * own or whole tiles of them (16 x 16 pixels on a grid over the whole image). Pixels that have samples from
  * only one of the two keep every bit; where both have some, the sums are added in double precision. Where
  * pixels share samples the part has the film's own pixels. The parts' samples must be different ones: nothing
  * can tell. Errors: ARGUMENT for another size, filter or channels, or pixels that do not fit. */

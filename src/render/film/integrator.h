@@ -50,7 +50,7 @@ typedef struct aur_integrator_descriptor {
      * keys are the caller's and are gone afterwards. */
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error);
-    /* Prepares what hangs on the picture's size and on the camera's rays, too; NULL: nothing. */
+    /* Prepares what hangs on the image's size and on the camera's rays, too; NULL: nothing. */
     aur_result (*look)(const aur_view *view, const aur_integrator_context *context,
                        aur_integrator *integrator, aur_error *error);
     /* Frees what integrator->data points to further, if it was prepared; NULL: nothing. */
@@ -72,7 +72,7 @@ typedef struct aur_integrator_descriptor {
     /* Of `tile`: it adds a pixel's samples one after the other, so that any cut of them into calls gives the
      * same bits. Else it asks aur_tile_stops on the way, and returns AUR_ERROR_CANCELLED. */
     bool cuts;
-    /* The camera's rays meet lamps, so that their outlines are part of the picture's error. */
+    /* The camera's rays meet lamps, so that their outlines are part of the image's error. */
     bool shows_lamps;
 } aur_integrator_descriptor;
 
@@ -91,10 +91,9 @@ struct aur_integrator {
     bool whole_tiles;           /* all pixels of a tile have as many samples */
     bool refines_lamp_edges;    /* where neighbours see the edge of a lamp a pixel has more rays */
     uint32_t samples_a_pattern; /* samples of a pixel that form one pattern; 0: no patterns */
-    const uint16_t
-        *lamp_looks;    /* of each pixel of the picture: rays of a sample for lamps alone; NULL: none */
-    size_t extra_count; /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
-    const char *const *extra_names; /* as in the picture's file */
+    const uint16_t *lamp_looks; /* of each pixel of the image: rays of a sample for lamps alone; NULL: none */
+    size_t extra_count;         /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
+    const char *const *extra_names; /* as in the image's file */
     /* What they show; NULL: means. */
     const aur_channel_kind *extra_kinds;
 };

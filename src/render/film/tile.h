@@ -1,4 +1,4 @@
-/* What an integrator sees of the film: a part of the picture, the camera samples of its pixels, and their
+/* What an integrator sees of the film: a part of the image, the camera samples of its pixels, and their
  * sums. */
 #pragma once
 
@@ -38,14 +38,14 @@ typedef struct aur_camera_sample {
 /* Dimension pairs that the camera uses; an integrator's own begin after them. */
 enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
 
-/* Where camera samples come from; immutable while a picture is made. */
+/* Where camera samples come from; immutable while an image is made. */
 typedef struct aur_view {
     const aur_scene *scene;
     float factor; /* of radiance (aur_camera_factor); 0: 1 */
     const aur_sampler *sampler;
     const aur_filter *filter; /* that samples are drawn by: box where pixels share samples */
     size_t reach;             /* pixels around one whose samples count in it */
-    size_t width, height;     /* of the whole picture */
+    size_t width, height;     /* of the whole image */
     uint64_t seed;
     bool pixel_centre; /* every camera ray goes through the centre of its pixel */
     bool has_lens;     /* the camera's rays depend on a point of its lens */
@@ -78,7 +78,7 @@ typedef struct aur_tile_slots {
     bool failed; /* out of memory */
 } aur_tile_slots;
 
-/* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole picture, so that a crop changes no neighbours.
+/* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole image, so that a crop changes no neighbours.
  */
 typedef struct aur_tile {
     const aur_view *view;
@@ -88,7 +88,7 @@ typedef struct aur_tile {
     /* Of each pixel, like `counts`: of those samples it wants from begins up to ends - 1. NULL: all. */
     const uint32_t *begins, *ends;
     size_t channel_count;
-    /* Of pixel (x0, y0), channel_count values a pixel; where pixels share samples, of its cells. */
+    /* Of pixel (x0, y0), channel_count values per pixel; where pixels share samples, of its cells. */
     double *sums;
     const struct aur_spread *spread; /* NULL: pixels share no samples */
     aur_tile_slots slots;

@@ -33,7 +33,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_poin
                             surface_points->bounces, lobe));
     uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
                               surface_points->bounces, lobe);
-    /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
+    /* Where the samples of a pixel do not split a pattern, each has it rotated again. */
     if (plan->rules.method != NULL)
         tile = aur_hash2(tile, surface_points->index);
     if (rule->nested) {

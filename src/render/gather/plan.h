@@ -1,4 +1,4 @@
-/* What final gathering compiles once a picture, and nothing changes while the picture is rendered.
+/* What final gathering compiles once an image, and nothing changes while the image is rendered.
  *
  *     rules.c                   what gathers each kind of lobe, of rule.c and rule_*.c
  *     plan.c                    these rules, maps of photons, and what the keys ask for
@@ -47,9 +47,8 @@ typedef struct aur_gather_plan {
     /* Whether gather rays count the lights that they meet in full. Under next-event estimation they count
      * them by multiple importance sampling. */
     bool counts_emitters;
-    bool gathers; /* whether gather rays can bring any light */
-    const uint16_t
-        *lamp_edges; /* of the picture's pixels: not 0 where the edge of a small lamp is; or NULL */
+    bool gathers;               /* whether gather rays can bring any light */
+    const uint16_t *lamp_edges; /* of the image's pixels: not 0 where the edge of a small lamp is; or NULL */
     aur_continuation continuation; /* in place of the map, where it is too coarse or is corrected */
 } aur_gather_plan;
 

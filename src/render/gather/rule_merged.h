@@ -3,7 +3,7 @@
  *
  * Both patterns are fixed relative to the normal and the plane of reflection, in one of K prepared rotations
  * and its mirror image, so what a sample weighs depends on the angle of reflection only: a look-up in a
- * table, made once a picture. The directions of a pattern are split among the samples of a pixel: subset s of
+ * table, made once an image. The directions of a pattern are split among the samples of a pixel: subset s of
  * S has every S-th. */
 #pragma once
 

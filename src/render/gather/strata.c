@@ -150,7 +150,7 @@ static bool is_beside_samples(const surroundings *self, size_t surface_point) {
 
 /* What pixels see that lie beside those with samples. The tile's own samples tell it where all of its pixels
  * have `alike` many; else what a pixel finds would depend on which of its neighbours have samples, and one
- * ray each tells it, as around the tile. What lies beyond the picture sees nothing and makes no edge. */
+ * ray each tells it, as around the tile. What lies beyond the image sees nothing and makes no edge. */
 static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike,
                         surroundings *self) {
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;

@@ -17,8 +17,8 @@ typedef struct spread_cell {
 /* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
 typedef struct gather_tile {
     const aur_view *view;
-    size_t x, y;                                            /* of the tile's corner in the picture */
-    size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the picture */
+    size_t x, y;                                            /* of the tile's corner in the image */
+    size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the image */
     bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
     aur_gather_points surface_points;
     aur_gather_sums sums;
@@ -285,7 +285,7 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     return AUR_OK;
 }
 
-/* Packets are those of the whole tile within the picture, whatever its crop: else pixels would differ in the
+/* Packets are those of the whole tile within the image, whatever its crop: else pixels would differ in the
  * last bits. */
 static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     const aur_view *const view = work->view;

@@ -4,7 +4,7 @@
 #include "render/image/format.h"
 
 /* One metric: the mean over pixels of a term, then what is made of the mean. Without a term it is the mean of
- * a map of the whole picture. */
+ * a map of the whole image. */
 typedef struct color_metric {
     const char *name;
     /* Adds to sum and weight the term of value a and reference r. */
@@ -76,7 +76,7 @@ const char *aur_image_metric_name(aur_image_metric which) {
     return (size_t)which < AUR_IMAGE_METRIC_COUNT ? metrics[which].name : NULL;
 }
 
-/* Sums a row before it is added to the whole, so that rounding stays small in large pictures. */
+/* Sums a row before it is added to the whole, so that rounding stays small in large images. */
 static void mean_of_channel(const aur_image *image, size_t channel, double *mean) {
     double sum = 0.0;
     for (size_t y = 0; y < image->height; ++y) {

@@ -31,7 +31,7 @@ static double luminance_of(const double value[3]) {
     return luminance[0] * value[0] + luminance[1] * value[1] + luminance[2] * value[2];
 }
 
-/* The root three makes the mean over three values a pixel that over pixels. */
+/* The root three makes the mean over three values per pixel that over pixels. */
 static void weigh_relative(const double value[3], const error_scale *scale, double weight[3]) {
     const double least = 0.01 * scale->bright;
     for (size_t c = 0; c < 3; ++c)

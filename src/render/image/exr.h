@@ -15,7 +15,7 @@ typedef struct aur_exr_stream {
     size_t capacity;
 } aur_exr_stream;
 
-/* Rows of a picture whose strides OpenEXR can count. */
+/* Rows of an image whose strides OpenEXR can count. */
 static inline bool aur_exr_rows_fit(size_t width, size_t channel_count) {
     return width <= INT32_MAX / sizeof(float) / channel_count;
 }

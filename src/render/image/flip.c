@@ -153,7 +153,7 @@ static flip_kernel balanced(flip_kernel kernel) {
     return kernel;
 }
 
-/* Planes of one picture, width x height each, and room for a convolution. */
+/* Planes of one image, width x height each, and room for a convolution. */
 typedef struct flip_planes {
     size_t width, height;
     float *opponent[3];

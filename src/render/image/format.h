@@ -9,7 +9,7 @@
 #include "points/base/error.h"
 #include "points/base/keys.h"
 
-/* The inside of a picture. */
+/* The inside of an image. */
 
 enum { AUR_NOTES_CAPACITY = 512 };
 
@@ -22,7 +22,7 @@ struct aur_image {
     char notes[AUR_NOTES_CAPACITY];
 };
 
-/* Values (pixels times channels) that a picture may have: 4 GiB of floats. A file that claims more lies. */
+/* Values (pixels times channels) that an image may have: 4 GiB of floats. A file that claims more lies. */
 #define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
 
 /* A file in memory. */
@@ -44,7 +44,7 @@ typedef struct aur_image_format {
     const char *name;   /* what aur_image_format_of returns */
     bool every_channel; /* all channels are written, not a colour */
     bool (*recognize)(const aur_image_source *source);
-    /* Both leave the file's name in errors, and a picture that has only been begun, to their caller. */
+    /* Both leave the file's name in errors, and an image that has only been begun, to their caller. */
     aur_result (*read)(const aur_image_source *source, aur_image **image, aur_error *error);
     /* Errors of the stream are left to whoever commits the file. NULL: read only. */
     aur_result (*write)(const aur_image_target *target, const aur_image *image, aur_error *error);
@@ -74,7 +74,7 @@ unsigned char *aur_image_display(const aur_image_target *target, const aur_image
 enum { AUR_DISPLAY_KEY_COUNT = 2 };
 extern const aur_key aur_display_keys[AUR_DISPLAY_KEY_COUNT];
 
-/* FORMAT when a file claims a size that no picture may have. */
+/* FORMAT when a file claims a size that no image may have. */
 aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error);
 
 /* FORMAT when no file of this length can hold so many pixels: decoders allocate before they read. */
@@ -122,7 +122,7 @@ size_t aur_image_find_role(const aur_image *image, const char *layer, aur_channe
 
 /* What the measures of difference share. */
 
-/* The places of red, green and blue in two pictures that can be compared. */
+/* The places of red, green and blue in two images that can be compared. */
 typedef struct aur_color_pair {
     size_t reference[3], image[3];
 } aur_color_pair;

@@ -1,4 +1,4 @@
-/* Radiance's RGBE pictures (Ward 1991, "Real Pixels"; the format of Radiance 3). Written by stb, read here:
+/* Radiance's RGBE images (Ward 1991, "Real Pixels"; the format of Radiance 3). Written by stb, read here:
  * stb's reader never ends on files that are cut short. */
 #include <math.h>
 #include <stb_image_write.h>
@@ -252,7 +252,7 @@ static float hdr_value(float radiance) {
     return radiance > 0.0f ? fminf(radiance, largest) : 0.0f;
 }
 
-/* The encoder cuts mantissas off, which would darken the picture: round them before. */
+/* The encoder cuts mantissas off, which would darken the image: round them before. */
 static void round_to_rgbe(float rgb[3]) {
     const float brightest = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2]));
     if (brightest < 1e-32f)

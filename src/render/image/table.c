@@ -1,4 +1,4 @@
-/* Every format of pictures: by content when reading, by name when writing. */
+/* Every format of images: by content when reading, by name when writing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

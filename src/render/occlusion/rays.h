@@ -12,7 +12,7 @@ enum { AUR_OCCLUSION_POINTS = AUR_TILE_PIXELS };
 typedef struct aur_occlusion {
     size_t samples_per_pattern; /* among which its directions are shared out */
     size_t part_stride;         /* of those, where they renew */
-    bool renews;                /* samples after those have it turned anew, else there are none */
+    bool renews;                /* samples after those have it turned again, else there are none */
     uint64_t seed;
     /* What is farther, in scene units, does not occlude. */
     float max_distance;

@@ -17,7 +17,7 @@ typedef struct aur_path {
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
     float clamp;         /* most light after the first surface in a sample; 0: no limit */
-    double lamp_rays;    /* rays for lamps alone that a sample has more, in the picture's mean */
+    double lamp_rays;    /* rays for lamps alone that a sample has more, in the image's mean */
     const aur_vertex_kernels *kernels;
     aur_shape_class *classes;      /* one a shape */
     const aur_edge_probes *probes; /* NULL: the camera's own rays tell what lamps they meet */

@@ -1,5 +1,5 @@
 /* Irradiance on texels, from photons: what a gather ray meets has its radiance by one array read, and no
- * density estimate is made while a picture is rendered (after Christensen 1999). */
+ * density estimate is made while an image is rendered (after Christensen 1999). */
 #pragma once
 
 #include "points/base/error.h"

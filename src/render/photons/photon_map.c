@@ -28,7 +28,7 @@ typedef struct batch {
     const aur_elements *elements;
     const aur_photon_options *options;
     const aur_sampler *sampler;
-    uint64_t paths_a_set; /* beyond them the set begins anew with another randomisation */
+    uint64_t paths_a_set; /* beyond them the set starts again with another randomisation */
     uint64_t first_path;
     uint64_t paths_a_chunk;
     photon_chunk chunks[CHUNKS_A_BATCH];

@@ -1,4 +1,4 @@
-/* Pictures of a radiosity solution (Keller 1994, section 4): hit points that the eye sees, each with direct
+/* Images of a radiosity solution (Keller 1994, section 4): hit points that the eye sees, each with direct
  * light from triangles by solid angle (eq. 6; Arvo 1995), and with indirect light by a hemisphere of gather
  * rays (eq. 9). */
 #pragma once

@@ -1,4 +1,4 @@
-/* Light at a place of a picture: direct light by solid angle, and gathered light. */
+/* Light at a place of an image: direct light by solid angle, and gathered light. */
 #include <stdlib.h>
 
 #include "points/base/random.h"

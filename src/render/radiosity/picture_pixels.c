@@ -31,7 +31,7 @@ typedef struct workspace {
     double (*halton)[HALTON_DIMENSIONS]; /* of its hit points, before they are shifted */
 } workspace;
 
-/* A point of Halton's sequence, shifted for each pixel, so that no pattern repeats over the picture. */
+/* A point of Halton's sequence, shifted for each pixel, so that no pattern repeats over the image. */
 static void shift_point(const double point[HALTON_DIMENSIONS], uint64_t pixel, float u[HALTON_DIMENSIONS]) {
     for (uint32_t d = 0; d < HALTON_DIMENSIONS; ++d) {
         const double sum = point[d] + aur_unit_double(aur_hash3(pixel, 0x68616c, d));
@@ -160,7 +160,7 @@ static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first
     }
 }
 
-/* The pixels that are made: those of the tile, and one more around them within the picture when pixels share.
+/* The pixels that are made: those of the tile, and one more around them within the image when pixels share.
  */
 typedef struct area {
     size_t x0, y0, columns, rows;

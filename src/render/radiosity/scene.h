@@ -10,7 +10,7 @@
 
 enum {
     AUR_RADIOSITY_TEXTURED = 1, /* the albedo varies over the triangle */
-    AUR_RADIOSITY_MIRROR = 2,   /* nothing but Dirac directions: particles go on without being counted */
+    AUR_RADIOSITY_MIRROR = 2,   /* only Dirac directions: particles go on without being counted */
     AUR_RADIOSITY_GLOWS = 4,    /* a light, on the side of the normal */
     AUR_RADIOSITY_TEXTURED_LIGHT = 8
 };

@@ -1,5 +1,5 @@
 /* A radiosity solution: the scene as its walk sees it, and the sums of all paths so far, apart for each
- * randomisation. It is not changed by pictures and files; one call at a time may trace it further. */
+ * randomisation. It is not changed by images and files; one call at a time may trace it further. */
 #pragma once
 
 #include "points/base/error.h"

@@ -1,5 +1,5 @@
 /* A quadrature rule of the hemisphere: one pattern of directions for lobes cos^m about +z, and how it is
- * randomised. Pattern and weights are compiled once a picture; at a shading point the pattern is only
+ * randomised. Pattern and weights are compiled once an image; at a shading point the pattern is only
  * rotated, or, for nets, its digits are scrambled. */
 #pragma once
 
@@ -110,7 +110,7 @@ enum {
 };
 
 /* The number of the shift of the pixel at (x, y): two bits a level, those of the 2 x 2 block highest. Which
- * pixel has which is drawn anew for each block of 4 x 4, and which block of 4 x 4 has which eighths for each
+ * pixel has which is drawn again for each block of 4 x 4, and which block of 4 x 4 has which eighths for each
  * of 8 x 8: else pixels 4 apart would have nearly the same pattern, and those 8 apart the very same, and both
  * would be wrong alike. Blocks stay complete. */
 static inline size_t aur_nested_number(uint64_t seed, size_t x, size_t y) {

@@ -97,7 +97,7 @@ static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
 /* Of a table. */
 static void table_words(const aur_stream *stream, uint64_t hash, uint32_t words[2]) {
     const aur_sampler *const sampler = stream->sampler;
-    /* Beyond its end a table begins anew with another randomisation. */
+    /* Beyond its end a table starts again with another randomisation. */
     if (stream->index >= sampler->size)
         hash = aur_hash2(hash, stream->index / sampler->size);
     const uint32_t shuffle = (uint32_t)aur_mix64(hash + 1);

@@ -30,7 +30,7 @@ typedef struct aur_sampler {
     uint32_t (*points)[2]; /* words: x / 2^32 */
 } aur_sampler;
 
-/* `set` in SET syntax; `count` samples a pixel. */
+/* `set` in SET syntax; `count` samples per pixel. */
 AUR_INTERNAL aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings,
                                            aur_sampler **sampler, aur_error *error);
 AUR_INTERNAL void aur_sampler_destroy(aur_sampler *sampler);

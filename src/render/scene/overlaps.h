@@ -69,7 +69,7 @@ enum {
     AUR_PLANE_UNLIKE, /* much larger or narrower than most: may overlap any */
 };
 
-/* Marks the triangles by hashing their planes; the marks depend on nothing but the triangles. Returns the
+/* Marks the triangles by hashing their planes; the marks depend on only the triangles. Returns the
  * number of those that are UNLIKE, or SIZE_MAX: no memory. */
 size_t aur_planes_mark(const aur_triangle_source *triangles, uint8_t *marks);
 

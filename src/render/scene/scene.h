@@ -223,14 +223,14 @@ void aur_scene_warn_of_media(const aur_scene *scene, const char *what, const aur
 /* A scene needs no camera unless it is rendered: a FORMAT error, with the place, where there is none. */
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error);
 
-/* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the picture; width and
- * height are those of the picture being rendered. lens[2] in [0,1) for cameras that have one. */
+/* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the image; width and
+ * height are those of the image being rendered. lens[2] in [0,1) for cameras that have one. */
 void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                     const float lens[2], aur_ray *ray);
 
 /* Of cameras all whose rays begin at one point: that point, and where a direction from there is seen. */
 typedef struct aur_film_point {
-    float x, y;        /* in pixels, within the picture or not */
+    float x, y;        /* in pixels, within the image or not */
     float solid_angle; /* of a pixel there */
 } aur_film_point;
 bool aur_camera_is_pinhole(const aur_scene *scene);
@@ -287,7 +287,7 @@ bool aur_filter_shares_samples(const aur_filter *filter);
  * that u in [0,1) stands for where samples are drawn by the filter. */
 float aur_filter_sample(const aur_filter *filter, float u);
 
-/* What a scene says of its picture. */
+/* What a scene says of its image. */
 typedef struct aur_film_settings {
     size_t width, height;
     size_t crop_x0, crop_x1, crop_y0, crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole */
@@ -301,7 +301,7 @@ const aur_film_settings *aur_scene_film(const aur_scene *scene);
  * sorted, and "define NAME=VALUE". The text is allocated with malloc. Errors: OPEN when a file is gone,
  * MEMORY. */
 aur_result aur_scene_contents(const aur_scene *scene, char **lines, aur_error *error);
-/* What traces the rays, in words: pictures made with other words differ in the last bits. */
+/* What traces the rays, in words: images made with other words differ in the last bits. */
 enum { AUR_SCENE_TRACER_CAPACITY = 96 };
 void aur_scene_describe_tracer(const aur_scene *scene, size_t capacity, char *text);
 size_t aur_scene_samples_per_pixel(const aur_scene *scene);

@@ -63,7 +63,7 @@ float aur_sensor_half_width(const aur_sensor *sensor, float aspect);
 /* The direction with z = 1 through the film point, by half the film's width. */
 static inline aur_vector aur_sensor_direction(const aur_sensor *sensor, float half, float aspect, float x,
                                               float y) {
-    /* +x is the left of the picture. */
+    /* +x is the left of the image. */
     return (aur_vector){(1.0f - 2.0f * (x + sensor->offset_x)) * half,
                         (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
 }

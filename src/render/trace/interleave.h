@@ -38,7 +38,7 @@ static inline size_t aur_group_pixel(uint64_t hash, uint32_t group, size_t lane)
     return y * AUR_TILE_SIZE + x;
 }
 
-/* Columns and rows in the picture of a group's pixels, whose tile begins at (x0, y0). */
+/* Columns and rows in the image of a group's pixels, whose tile begins at (x0, y0). */
 static inline void aur_group_pixels(uint64_t hash, uint32_t group, size_t x0, size_t y0,
                                     size_t x[AUR_PACKET_SIZE], size_t y[AUR_PACKET_SIZE]) {
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
@@ -58,7 +58,7 @@ static inline void aur_block_pixels(uint32_t block, size_t x0, size_t y0, size_t
     }
 }
 
-/* The lanes of a group whose pixels lie in columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of the picture. */
+/* The lanes of a group whose pixels lie in columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of the image. */
 static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
                                               const size_t y[AUR_PACKET_SIZE], size_t x0, size_t x1,
                                               size_t y0, size_t y1) {

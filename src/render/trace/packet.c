@@ -12,8 +12,8 @@ void aur_packet_clear(aur_packet *packet) {
 
 /* --- packets of the processor's size
  *
- * Embree's packets are rows of 4 bytes a ray, a row a number: those of the rays, then those of their hits. A
- * part of a packet is the same rows, shorter. */
+ * Embree's packets are rows of 4 bytes per ray, a row a number: those of the rays, then those of their hits.
+ * A part of a packet is the same rows, shorter. */
 
 enum {
     NUMBER = sizeof(float),

@@ -62,7 +62,7 @@ static inline uint32_t aur_is_off_plane(aur_vector offset, aur_vector normal, fl
 typedef struct aur_shape_class {
     bool curved; /* not a mesh */
     bool emits;
-    /* A mesh with nothing but diffuse reflection, alike at all its points, and no light. */
+    /* A mesh with only diffuse reflection, alike at all its points, and no light. */
     bool plain;
     bool plain_flat; /* plain, and without normals at its vertices */
     /* The same but for a reflectance that is not alike at all points. */

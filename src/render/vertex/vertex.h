@@ -140,7 +140,7 @@ static inline bool aur_walk_passed(const aur_surface *surface, aur_vector direct
 
 /* The surface that a camera ray sees. */
 
-/* The nearest surface along *ray, which begins anew behind each light that it passes when lights are hidden;
+/* The nearest surface along *ray, which starts again behind each light that it passes when lights are hidden;
  * false when there is none. */
 static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitters, aur_ray *ray,
                                        aur_surface *surface, aur_counters *counters) {
@@ -163,7 +163,7 @@ static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitter
 /* Whether the scene has any. */
 AUR_INTERNAL bool aur_panes_exist(const aur_scene *scene);
 
-/* The rest of the ray behind a surface, to the same end: its direction is found anew, as its length is. */
+/* The rest of the ray behind a surface, to the same end: its direction is found again, as its length is. */
 aur_ray aur_ray_behind(const aur_ray *ray, const aur_surface *surface);
 
 /* What the surfaces on a ray, at most `most` of them, leave of the light that comes along it; 0 where one of

@@ -14,7 +14,7 @@ static float number(uint64_t seed, size_t point, uint64_t dimension) {
     return (float)(aur_hash3(seed, point, dimension) >> 40) * 0x1p-24f;
 }
 
-/* A point of a lamp that the camera sees, and where in the picture. */
+/* A point of a lamp that the camera sees, and where in the image. */
 typedef struct seen_point {
     aur_light_sample light;
     aur_film_point film;

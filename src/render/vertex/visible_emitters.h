@@ -16,14 +16,14 @@ typedef struct aur_visible_emitters {
 /* From so many points on all lamps together, drawn in proportion to power. To be released in every case.
  * Errors: MEMORY. */
 enum { AUR_EMITTER_POINTS = 4096 }; /* where a fiftieth of the power is to be known to a tenth */
-/* For surveys of a whole picture: so many that lamps are known pixel by pixel where they are small. */
+/* For surveys of a whole image: so many that lamps are known pixel by pixel where they are small. */
 size_t aur_emitter_points(size_t pixels);
-/* Whether a survey can find them: through the pixels of a pinhole camera, in a picture that is not so large
+/* Whether a survey can find them: through the pixels of a pinhole camera, in an image that is not so large
  * that what is found of each pixel takes gigabytes for a while. */
 bool aur_visible_emitters_can_be_found(const aur_view *view);
 aur_result aur_visible_emitters_find(const aur_scene *scene, const aur_film_layout *layout, size_t points,
                                      uint64_t seed, aur_visible_emitters *visible, aur_error *error);
-/* Where a sample of a pixel has several rays for emitters (edge_probes.c), of all pixels of the picture;
+/* Where a sample of a pixel has several rays for emitters (edge_probes.c), of all pixels of the image;
  * NULL: none. Their mean takes the place of what the sample's own ray meets: of n rays that are uniform in
  * the pixel n times as many are expected to meet a lamp, and the variance is the n-th part (at most: they are
  * a sequence's points, not random). */
@@ -42,14 +42,14 @@ double aur_visible_emitters_variance(const aur_visible_emitters *visible, size_t
  * may be nearly all of the pixel's error, and a camera ray tells it without the path that follows. So in such
  * pixels a sample has many camera rays for the lamps alone: their mean takes the place of what the sample's
  * own ray meets. The rays of all samples are one sequence of Sobol's, which the pixel's error follows. Which
- * pixels have how many is known before any sample is drawn, so that pictures stay without bias. */
+ * pixels have how many is known before any sample is drawn, so that images stay without bias. */
 
 typedef struct aur_edge_probes {
-    uint16_t *counts; /* of each pixel of the whole picture: rays a sample, powers of two; 0: none */
+    uint16_t *counts; /* of each pixel of the whole image: rays per sample, powers of two; 0: none */
     aur_sampler *sampler;
 } aur_edge_probes;
 
-/* So many rays a sample in the picture's mean at most, shared out over the pixels in proportion to the
+/* So many rays per sample in the image's mean at most, shared out over the pixels in proportion to the
  * standard deviation of what lamps send there, to the power 4/5: errors fall as rays^-3/2 (Owen 1997), and so
  * their sum is least. *looks belongs to the context's cache; NULL where no pixel has any, or the camera is no
  * pinhole. Errors: MEMORY, CANCELLED. */
@@ -64,7 +64,7 @@ bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, siz
  * edge of one crosses a pixel is known from points on the lamps, before any sample is drawn. Larger lamps are
  * seen by all pixels beside their edges. */
 
-/* `looks` for each pixel of the whole picture whose filter may see the edge of such a lamp, 0 for the others.
+/* `looks` for each pixel of the whole image whose filter may see the edge of such a lamp, 0 for the others.
  * Belongs to the context's cache; NULL where there are none, or the camera is no pinhole. Errors: MEMORY. */
 aur_result aur_emitter_edges_find(const aur_view *view, uint16_t probes,
                                   const aur_integrator_context *context, const uint16_t **edges,

@@ -110,7 +110,7 @@ static void cut(const char *file) {
     assert_int_equal(truncate(file, (off_t)damage_at), 0);
 }
 
-/* Each byte changed, and each cut: as if it were not there, and it can be kept anew. */
+/* Each byte changed, and each cut: as if it were not there, and it can be kept again. */
 static void damaged_files_are_not_there(void **state) {
     const folder *const f = *state;
     aur_cache_file_write("kind", "key", 9, "some data");

@@ -64,7 +64,7 @@ static void expect_run(const char *text, aur_pointset_options options, uint64_t 
 }
 
 /* Runs count on from point to point, single points jump: through carries of many digits, and through the end
- * of the stream of icg, where it begins anew at 0 and the line has its infinity. */
+ * of the stream of icg, where it starts again at 0 and the line has its infinity. */
 static void runs_are_their_points(void **state) {
     (void)state;
     static const char *const faure[] = {"faure:base=5", "faure:base=67",

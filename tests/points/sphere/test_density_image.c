@@ -36,7 +36,7 @@ static void a_ramp_warps_by_a_root(void **state) {
     aur_density_image_destroy(image);
 }
 
-/* A random picture with empty pixels, rows and columns. */
+/* A random image with empty pixels, rows and columns. */
 enum { SIDE_X = 37, SIDE_Y = 23 };
 
 static void random_picture(float density[SIDE_X * SIDE_Y]) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `aureole render` to an error: what it says, the same picture on any number of threads and again by rounds, wishes that
+# `aureole render` to an error: what it says, the same image on any number of threads and again by rounds, wishes that
 # cannot be, and what an interrupt leaves.
 set -euo pipefail
 aureole=$1
@@ -8,7 +8,7 @@ small=(--width 48 --height 32 --filter box)
 larger=(--width 96 --height 72 --filter box)
 fail() { echo "$*" >&2; exit 1; }
 
-# The error that is said is not above the one that was asked, and the last line names the picture.
+# The error that is said is not above the one that was asked, and the last line names the image.
 "$aureole" render "$scene" "${small[@]}" --error 20% --error-measure mean --error-map -o a.exr -t 1 2> said
 grep -Eq '^aureole: a.exr has an error of [0-9.]+ % of its mean \(mean\), between [0-9.]+ and [0-9.]+ \(95 %\), (of which at most [0-9.]+ % are bias, )?after.* by [a-z]+' said ||
   fail "no line about the error: $(cat said)"
@@ -16,10 +16,10 @@ high=$(sed -n 's/.* and \([0-9.]*\) (95 %).*/\1/p' said)
 awk -v high="$high" 'BEGIN { exit !(high <= 20) }' || fail "asked for 20 %, got up to $high %"
 "$aureole" info a.exr | grep -q 'error.B' || fail "the error map's channels are missing"
 "$aureole" render "$scene" "${small[@]}" --error 20% --error-measure mean --error-map -o b.exr -t 3 -q 2> quiet
-cmp a.exr b.exr || fail "threads changed the picture"
+cmp a.exr b.exr || fail "threads changed the image"
 [ ! -s quiet ] || fail "-q says something: $(cat quiet)"
 
-# Gone on with after an interrupt, the picture is the same, whichever integrator was found to be the better one.
+# Gone on with after an interrupt, the image is the same, whichever integrator was found to be the better one.
 "$aureole" render "$scene" "${larger[@]}" --error 4% --error-measure mean -o whole.exr -v 2> said
 [ "$(grep -c '^aureole: candidate [a-z0-9-]*: .* rays for [0-9]* pixels, needs .*: .' said)" = 5 ] || fail "no candidates: $(cat said)"
 [ "$(grep -c '^aureole: candidate gather-[a-z0-9-]*: .*: taken$' said)" = 1 ] || fail "which candidate was taken: $(cat said)"
@@ -31,7 +31,7 @@ for pause in .3 .6 1 2; do
   [ -e again.exr ] && break
 done
 "$aureole" render "$scene" "${larger[@]}" --error 4% --error-measure mean -o again.exr -q --checkpoint c --resume 2> stopped || fail "$(cat stopped)"
-cmp whole.exr again.exr || fail "an interrupt changed the picture"
+cmp whole.exr again.exr || fail "an interrupt changed the image"
 
 # Final gathering shares patterns among few samples, for nobody knows how many there will be; it needed gigabytes once.
 gather=finalgather:photons=5000,edges=0,debias=true
@@ -39,13 +39,13 @@ limit=4000000 # KiB; sanitizers reserve terabytes, and are not limited
 (ulimit -v $limit; "$aureole" sets) > sets 2>&1 || limit=unlimited
 (ulimit -v $limit; "$aureole" render "$scene" "${small[@]}" --integrator $gather --rays 2e6 -o g.exr -t 1 -q) || fail "$gather"
 "$aureole" render "$scene" "${small[@]}" --integrator $gather,split=8 --rays 2e6 -o h.exr -t 3 -q
-cmp g.exr h.exr || fail "threads changed the picture, or the split is another one"
+cmp g.exr h.exr || fail "threads changed the image, or the split is another one"
 
 # So does the lab's integrator.
 (ulimit -v $limit; "$aureole" render "$scene" "${small[@]}" --integrator finalgather-lab:${gather#*:} --rays 2e6 -o i.exr -t 2 -q) || fail "finalgather-lab"
-cmp g.exr i.exr || fail "the lab's integrator has another picture"
+cmp g.exr i.exr || fail "the lab's integrator has another image"
 
-# A picture that was chosen, or that a clock has ended, is made again by the command that is said.
+# An image that was chosen, or that a clock has ended, is made again by the command that is said.
 again() { # OPTION...
   "$aureole" render "$scene" "$@" -o c.exr 2> said
   local command

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The batch script of docs/cluster, a task after another as Slurm starts them, makes the picture of one render.
+# The batch script of docs/cluster, a task after another as Slurm starts them, makes the image of one render.
 set -euo pipefail
 aureole=$1 source=$2
 rm -rf cluster
@@ -14,4 +14,4 @@ for task in 1 2 3; do
 done
 aureole merge cornell-box.*-of-3.part -o parts.exr
 AUREOLE_ISA=avx2 aureole render box/cornell-box.xml -o whole.exr -q
-cmp whole.exr parts.exr || { echo "three tasks make another picture" >&2; exit 1; }
+cmp whole.exr parts.exr || { echo "three tasks make another image" >&2; exit 1; }

@@ -38,7 +38,7 @@ printf 'OFF\n3 1 0\n-1 -1 0\n1 -1 0\n0 1 .5\n3 0 1 2\n' >triangle.off
 printf '<scene version="3.0.0"><emitter type="constant"/><shape type="obj"><string name="filename" value="box.obj"/></shape></scene>' >open.xml
 bash "$source/scripts/weather.sh" 48 11 1 | awk -F, -v OFS=, 'NF > 30 && $3 != 21 { $14 = $15 = $16 = 0 } { print }' >weather.epw
 "$aureole" render "$box" -q --width 16 --spp 1 -o one.exr && "$aureole" render "$box" -q --width 16 --spp 1 --seed 1 -o two.exr ||
-  fail "two pictures"
+  fail "two images"
 
 # What each command is tried on. An option may belong to some of the rows only; it must have been tried on one.
 commands=(
@@ -85,7 +85,7 @@ sum() {
   echo "$? $(cat output $(find . -name 'result*' -maxdepth 1 | sort) | cksum)"
 }
 
-# Where nothing but a path can be written and the default is none.
+# Where only a path can be written and the default is none.
 is_place() {
   case $1 in weights\ -o* | render\ -o* | viewfactors\ -o* | view\ -o* | lab\ -o* | lab\ --scenes*) return 0 ;; esac
   return 1

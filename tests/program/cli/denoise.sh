@@ -71,9 +71,9 @@ END
 command -v python3 >/dev/null || { echo "no python3: the values are not tested"; exit $((failures > 0 ? 1 : 77)); }
 check a --spp 2
 check b --rounds 2
-# Four samples a pixel leave pixels far from all around them: the denoiser takes them away, and the limit brings none back.
+# Four samples per pixel leave pixels far from all around them: the denoiser takes them away, and the limit brings none back.
 export STUB_BLURS=1
-render -o plain.exr --width 64 --rounds 2 && AUREOLE_OIDN=$stub render -o e.exr --width 64 --rounds 2 --denoise || fail "no blurred picture"
+render -o plain.exr --width 64 --rounds 2 && AUREOLE_OIDN=$stub render -o e.exr --width 64 --rounds 2 --denoise || fail "no blurred image"
 unset STUB_BLURS
 "$aureole" convert plain.exr plain.pfm --channels R,G,B && "$aureole" convert e.exr e.pfm --channels R,G,B || fail "no channels"
 python3 - <<'END' || fail "isolated pixels"
@@ -96,7 +96,7 @@ END
 # The error of what is denoised is estimated by two halves.
 AUREOLE_OIDN=$stub "$aureole" render "$scene" --width 40 --rounds 3 -o f.exr --denoise 2>message.txt
 grep -q 'denoised half of the samples: [0-9.]* % of its surroundings (relative), at most [0-9.]* (95 %)' message.txt || fail "no error of halves: $(cat message.txt)"
-# Where the picture has such channels of its own they stay what they are.
+# Where the image has such channels of its own they stay what they are.
 AUREOLE_OIDN=$stub render -o c.exr --denoise --spp 2 --integrator aov && "$aureole" convert c.exr c.pfm --channels noisy.R,noisy.G,noisy.B &&
   [ "$("$aureole" info c.exr | grep -o 'albedo\.R' | wc -l)" -eq 1 ] || fail "a picture with an albedo"
 AUREOLE_OIDN=$stub render -o d.png --denoise --spp 2 && [ -s d.png ] && render -o plain.exr --spp 2 && cmp d.noisy.exr plain.exr || fail "a PNG and what stands beside it"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sending a picture to a display server by tev's protocol: the packets, read by a small server, make the picture that is written.
+# Sending an image to a display server by tev's protocol: the packets, read by a small server, make the image that is written.
 set -u
 aureole=$1
 source=$2
@@ -19,12 +19,12 @@ receive() { # receive NAME OPTION...: a render into NAME.exr and what is receive
 }
 receive a --spp 2
 "$aureole" render "$scene" --width 150 -q -o plain.exr --spp 2
-cmp a.exr plain.exr || fail "a picture that is sent has other bits"
-"$aureole" compare a.pfm a.exr >compared.txt || fail "the picture that was received: $(cat compared.txt)"
+cmp a.exr plain.exr || fail "an image that is sent has other bits"
+"$aureole" compare a.pfm a.exr >compared.txt || fail "the image that was received: $(cat compared.txt)"
 [ "$(sed -n 1p a.txt)" = "close a.exr" ] && [ "$(sed -n 2p a.txt)" = "create 1 a.exr 150 150 R,G,B" ] || fail "$(cat a.txt)"
 [ "$(sed -n 's/^updates //p' a.txt)" -ge 4 ] || fail "150 pixels are four parts: $(cat a.txt)"
 receive b --rounds 2
-"$aureole" compare b.pfm b.exr >compared.txt || fail "the picture of rounds that was received: $(cat compared.txt)"
+"$aureole" compare b.pfm b.exr >compared.txt || fail "the image of rounds that was received: $(cat compared.txt)"
 "$aureole" render "$scene" -q -o none.exr --display-server "127.0.0.1:$(cat port.txt)" 2>message.txt
 [ $? -eq 2 ] && grep -q -- "--display-server: cannot connect to 127.0.0.1:$(cat port.txt): Connection refused" message.txt || fail "nobody there: $(cat message.txt)"
 "$aureole" render "$scene" -q -o none.exr --display-server host:x 2>message.txt

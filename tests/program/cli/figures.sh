@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Figures that a render reports of its picture are those of the files that it writes.
+# Figures that a render reports of its image are those of the files that it writes.
 set -u
 aureole=$1
 box=$2/scenes/cornell-box/cornell-box.xml
@@ -25,7 +25,7 @@ for spp in 1 2 4 8; do
   read -r rays said said_relative <<<"$(grep "^$spp," errors.csv | cut -d, -f3,5,6 --output-delimiter=' ')"
   near "$said" "$rmse" 1e-6 && near "$said_relative" "$relative" 1e-6 || fail "$spp samples: $said and $said_relative, not $rmse and $relative"
   near "$(awk "BEGIN { print $rmse / $relative }")" "$(mean reference.pfm)" 1e-5 || fail "an error is relative to the mean of the reference"
-  # Rays of a picture that is done in steps are at least those of one that is done at once, and each sample has one or more.
+  # Rays of an image that is done in steps are at least those of one that is done at once, and each sample has one or more.
   awk -v r="$rays" -v s=$((64 * spp)) 'BEGIN { exit !(r >= s) }' || fail "$spp samples: $rays rays"
 done
 
@@ -34,10 +34,10 @@ done
 grep -q "^aureole: $(value stats.json samples) samples, $(value stats.json rays) rays, .*, $(value stats.json invalid_samples) invalid samples$" stats.txt ||
   fail "$(cat stats.txt) is not $(cat stats.json)"
 
-# A picture to an error: on both streams, and of the file.
+# An image to an error: on both streams, and of the file.
 "$aureole" render "$box" --width 8 --error 20% --integrator path -o asked.pfm --json >asked.json 2>asked.txt || fail "--error"
 near "$(value asked.json mean)" "$(mean asked.pfm)" 1e-6 || fail "the mean is $(mean asked.pfm): $(cat asked.json)"
-near "$(value asked.json samples_per_pixel)" "$(awk "BEGIN { print $(value asked.json samples) / 64 }")" 1e-4 || fail "samples a pixel: $(cat asked.json)"
+near "$(value asked.json samples_per_pixel)" "$(awk "BEGIN { print $(value asked.json samples) / 64 }")" 1e-4 || fail "samples per pixel: $(cat asked.json)"
 awk -v e="$(value asked.json error)" -v l="$(value asked.json error_low)" -v h="$(value asked.json error_high)" -v s="$(value asked.json samples_per_pixel)" \
   -v r="$(value asked.json rays)" 'BEGIN { printf "an error of %.3g %% of its surroundings (relative), between %.3g and %.3g (95 %%), after %.4g samples per pixel, %.3g rays", 100 * e, 100 * l, 100 * h, s, r
     exit !(0 < l && l < e && e < h && h < .2) }' >expected || fail "an interval without its value: $(cat asked.json)"

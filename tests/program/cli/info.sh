@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# aureole info tells scenes, pictures and points apart by their content, and describes each.
+# aureole info tells scenes, images and points apart by their content, and describes each.
 set -u
 aureole=$1
 status=0

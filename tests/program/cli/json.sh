@@ -85,7 +85,7 @@ for row in "integrator path" "bsdf diffuse" "shape sphere"; do same "help of a r
 for kind in integrators bsdfs sets; do same "help of a kind" help $kind; done
 for verb in render weights lab; do same "help of a command" help command $verb; done
 "$aureole" render scene.xml --spp 1 -q -o - >piped.exr && cmp -s <("$aureole" render scene.xml --spp 1 -q -o c.exr && cat c.exr) piped.exr || {
-  echo "FAILED: render -o - is not the picture"
+  echo "FAILED: render -o - is not the image"
   status=1
 }
 "$aureole" render scene.xml --spp 1 -q -o - --json >/dev/null 2>message

@@ -33,12 +33,12 @@ echo '<scene version="3.0.0"/>' >outside/more.xml
 refuses 'lies outside of the scene' 2 "$aureole" info --confine box/escapes.xml
 "$aureole" info --confine $scene >/dev/null || fail "a scene in its own folder is refused"
 (cd box && "$aureole" info --confine cornell-box.xml >/dev/null) || fail "a scene in the working folder is refused"
-[ ! -e no.exr ] || fail "a refused scene left a picture"
+[ ! -e no.exr ] || fail "a refused scene left an image"
 
-# Time: the program ends, with words; an earlier picture stays.
+# Time: the program ends, with words; an earlier image stays.
 echo old >p.exr
 refuses 'stopped by --time-limit' 3 "$aureole" render $scene --spp 1000000 -o p.exr -q --time-limit .5s
-[ "$(cat p.exr)" = old ] || fail "a render that was out of time replaced the picture"
+[ "$(cat p.exr)" = old ] || fail "a render that was out of time replaced the image"
 refuses 'expected a time such as' 2 "$aureole" render $scene --time-limit soon
 refuses 'expected a size in bytes' 2 "$aureole" render $scene --memory-limit much
 
@@ -127,10 +127,10 @@ if mount -t tmpfs -o size=256k none disk 2>/dev/null; then
   "$aureole" render $scene --width 32 --height 32 --spp 1 -o p2.exr --checkpoint disk/kept -q
   cp disk/kept kept
   refuses 'No space left' 3 "$aureole" render $scene --width 256 --height 256 --spp 1 -o disk/p.exr -q
-  [ "$(cat disk/p.exr)" = old ] || fail "a full disk spoilt the picture"
+  [ "$(cat disk/p.exr)" = old ] || fail "a full disk spoilt the image"
   rm p2.exr
   refuses 'no checkpoint: .*No space left' 0 "$aureole" render $scene --width 128 --height 128 --spp 1 -o p2.exr --checkpoint disk/kept -q
-  cmp disk/kept kept && [ -e p2.exr ] || fail "a full disk spoilt the checkpoint, or the picture"
+  cmp disk/kept kept && [ -e p2.exr ] || fail "a full disk spoilt the checkpoint, or the image"
   [ "$(ls -A disk | tr '\n' ' ')" = 'kept p.exr ' ] || fail "left on the full disk: $(ls -A disk)"
 fi
 

@@ -83,7 +83,7 @@ refuses 'the same file' 2 $render --spp 1 -o new.exr --checkpoint "$PWD/new.exr"
 # A name that is taken by no input may be an output again and again.
 for _ in 1 2; do "$aureole" points sobol -n 4 -o sobol; done
 
-# A checkpoint replaces nothing but a checkpoint, and is seen before the work begins.
+# A checkpoint replaces only a checkpoint, and is seen before the work begins.
 echo precious >notes
 mkfifo fifo
 mkdir folder

@@ -69,7 +69,7 @@ for work in metal rough; do
   rm -rf cache-of-one cache-of-many one.exr many.exr
   AUREOLE_CACHE=$PWD/cache-of-one "$aureole" "${options[@]}" -o one.exr 2>said || fail "$work: $(cat said)"
   AUREOLE_CACHE=$PWD/cache-of-many many 2 "$aureole" "${options[@]}" -o many.exr || fail "$work: $(cat said)"
-  cmp one.exr many.exr || fail "two ranks make another picture of $work"
+  cmp one.exr many.exr || fail "two ranks make another image of $work"
   [ -n "$(ls cache-of-one)" ] && diff -r cache-of-one cache-of-many || fail "two ranks keep other tables of $work"
 done
 
@@ -77,7 +77,7 @@ done
 "$aureole" render "$scene" --width 40 --height 36 --spp 2 -q -o one.exr
 timeout 120 mpirun -n 1 "$aureole" render "$scene" --width 40 --height 36 --spp 2 -o many.exr : \
   -n 1 -wdir "$PWD/empty" "$aureole" render ../nowhere.xml --width 40 --height 36 --spp 2 -o many.exr 2>said || fail "$(cat said)"
-cmp one.exr many.exr || fail "a rank without the files spoils the picture"
+cmp one.exr many.exr || fail "a rank without the files spoils the image"
 grep -q '2 ranks: 0 to 1 on' said || fail "the log does not name the ranks: $(cat said)"
 [ -z "$(ls empty)" ] || fail "a rank after the first one wrote $(ls empty)"
 
@@ -87,12 +87,12 @@ LD_DEBUG=files "$aureole" sets 2>&1 >/dev/null | grep -q 'libmpi' && fail "one p
 # Checkpoints, parts, and going on.
 many 2 "$aureole" render "$scene" $small --spp 2 --shard 1/2 -o 1.part || fail "$(cat said)"
 many 2 "$aureole" render "$scene" $small --spp 2 --shard 2/2 -o 2.part || fail "$(cat said)"
-"$aureole" merge 1.part 2.part -o parts.exr && cmp one.exr parts.exr || fail "parts by ranks make another picture"
+"$aureole" merge 1.part 2.part -o parts.exr && cmp one.exr parts.exr || fail "parts by ranks make another image"
 rm -f kept
 many 2 "$aureole" render "$scene" $small --spp 2 --checkpoint kept -o many.exr || fail "$(cat said)"
 rm many.exr
 many 2 "$aureole" render "$scene" $small --spp 2 --checkpoint kept --resume -o many.exr || fail "$(cat said)"
-cmp one.exr many.exr || fail "ranks that go on make another picture"
+cmp one.exr many.exr || fail "ranks that go on make another image"
 
 # What cannot be.
 refuses() { # refuses WORDS STATUS COMMAND...
@@ -128,6 +128,6 @@ grep -qi 'signal 9' said || fail "nobody tells that a rank was killed: $(cat sai
 "$aureole" $long -o whole.exr
 # shellcheck disable=SC2086
 "$aureole" $long --checkpoint kept --resume -o many.exr || fail "the checkpoint is spoilt"
-cmp whole.exr many.exr || fail "after a killed rank the picture is another one"
+cmp whole.exr many.exr || fail "after a killed rank the image is another one"
 ! ls ../sanitizer.* 2>/dev/null || fail "a sanitizer spoke"
 exit $status

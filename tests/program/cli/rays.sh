@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `rays` is the number of rays that Embree traces: of every integrator, whatever it prepares itself with, of pictures to an error,
+# `rays` is the number of rays that Embree traces: of every integrator, whatever it prepares itself with, of images to an error,
 # of view factors, resumed and by several threads. Embree's calls are counted by a library that is loaded before it.
 set -u
 program=$1
@@ -39,7 +39,7 @@ for scene in haze/haze keller/office keller/teapot-box; do # media, mirrors, oth
   picture "$source_tree/scenes/$scene.xml" --spp 4
 done
 
-# Pictures to a target, by the automatic choice and by named integrators.
+# Images to a target, by the automatic choice and by named integrators.
 picture "$box" --error 15%
 picture "$box" --error 30% --integrator finalgather:photons=3000
 picture "$box" --rays 2e5

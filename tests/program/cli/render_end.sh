@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The last line of a render that asks for no error says where the picture is and how good it is: the error is what the second half of
-# the samples changes, which is the difference between the picture and the one of the first half.
+# The last line of a render that asks for no error says where the image is and how good it is: the error is what the second half of
+# the samples changes, which is the difference between the image and the one of the first half.
 # Where pixels share samples the halves have different weights too, and this holds but nearly: so it is asked of a box filter.
 set -eu
 program=$1 source=$2
@@ -28,7 +28,7 @@ for spp in 2 8; do
     fail "$spp samples: $(cat end.txt)"
 done
 
-# One sample has no halves; pixels that final gathering treats together have no steps; a part is no picture; '-' is no name.
+# One sample has no halves; pixels that final gathering treats together have no steps; a part is no image; '-' is no name.
 "$program" render "$scene" --width 24 --spp 1 -o one.exr 2>end.txt
 grep -q "^aureole: one.exr has 1 sample per pixel; use --error 5%" end.txt || fail "one sample: $(cat end.txt)"
 "$program" render "$scene" --width 24 --spp 4 --integrator finalgather -o gathered.exr 2>end.txt

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A render that is killed and goes on, and one that is made of parts, is the picture of one render, to the bit.
+# A render that is killed and goes on, and one that is made of parts, is the image of one render, to the bit.
 set -euo pipefail
 aureole=$1 source=$2
 fail() { echo "$*" >&2; exit 1; }
@@ -65,7 +65,7 @@ refuses "needs '--checkpoint'" 2 render --spp 2 -o b.exr --resume
 refuses 'needs' 2 render --spp 2 -o b.exr --checkpoint-every 5s
 refuses "5min or 1h, not 'soon'" 2 render --spp 2 -o b.exr --checkpoint kept --checkpoint-every soon
 refuses 'folder does not exist' 3 render --spp 2 -o b.exr --checkpoint none/kept
-[ ! -e b.exr ] || fail "a refused render left a picture"
+[ ! -e b.exr ] || fail "a refused render left an image"
 "$aureole" render "$scene" --width 16 --height 16 --spp 1 -o b.exr --checkpoint new --resume 2>said
 grep -q 'checkpoint new not found' said || fail "a render that begins anew says: $(cat said)"
 
@@ -80,7 +80,7 @@ for integrator in path finalgather:photons=2000,diffuse_samples=16; do
 done
 render --spp 4 --integrator $integrator --shard 1/1 -o one.part
 "$aureole" merge one.part -o parted.exr
-cmp whole.exr parted.exr || fail "one part is another picture"
+cmp whole.exr parted.exr || fail "one part is another image"
 merge() { "$aureole" merge "$@" -o none.exr; }
 refuses 'part 2 of 3 is missing' 2 merge cornell-box.{1,3}-of-3.part
 refuses 'part 1 of 3 is given twice: also cornell-box.1-of-3.part' 2 merge cornell-box.{1,1,2}-of-3.part
@@ -97,7 +97,7 @@ refuses "such as 2/3, not '3/2'" 2 render --shard 3/2
 refuses "such as 2/3, not '0/2'" 2 render --shard 0/2
 refuses "such as 2/3, not 'half'" 2 render --shard half
 refuses 'cannot be used with' 2 render --shard 1/2 --error 1%
-[ ! -e none.exr ] || fail "refused parts left a picture"
+[ ! -e none.exr ] || fail "refused parts left an image"
 # Parts and checkpoints of rays that other instructions traced differ in the last bits.
 if grep -qw avx2 /proc/cpuinfo; then
   traced() { AUREOLE_EMBREE_ISA=$1 render "${@:2}"; }

@@ -26,15 +26,15 @@ raw() { # raw BYTES: the answer to a request, sent at once: what comes after an 
 ask() { raw "$1 $2 HTTP/1.1\r\nHost: x\r\n\r\n"; }
 status() { [ "$(head -1 <<<"$2" | cut -d' ' -f2)" = "$1" ] || fail "$3: $1 was expected, not $(head -1 <<<"$2")"; }
 
-"$aureole" render "$scene" --width 64 -q --spp 4 -o plain.exr || fail "no picture"
+"$aureole" render "$scene" --width 64 -q --spp 4 -o plain.exr || fail "no image"
 begin served --spp 4
-wait "$pid" && cmp plain.exr served.exr || fail "a picture that is served has other bits"
-"$aureole" render "$scene" --width 64 -q --rounds 3 -o plain.exr || fail "no picture"
+wait "$pid" && cmp plain.exr served.exr || fail "an image that is served has other bits"
+"$aureole" render "$scene" --width 64 -q --rounds 3 -o plain.exr || fail "no image"
 begin served --rounds 3
-wait "$pid" && cmp plain.exr served.exr || fail "a picture of rounds that is served has other bits"
+wait "$pid" && cmp plain.exr served.exr || fail "an image of rounds that is served has other bits"
 
 # What a page is told belongs together: the samples and the error of one finished round, as a render of so many rounds prints
-# them, and a share that never falls; and before the first picture it is told what is done.
+# them, and a share that never falls; and before the first image it is told what is done.
 if command -v python3 >/dev/null; then
   begin told --rounds 14
   ask GET "/$token/state/1/0" >/dev/null # so that the page is waited for while Python starts
@@ -61,7 +61,7 @@ for pair in pairs:
 shares = [state["share"] for state in states]
 assert shares == sorted(shares), shares
 PY
-  wait "$pid" || fail "a picture that a page is told of: $(cat told.txt)"
+  wait "$pid" || fail "an image that a page is told of: $(cat told.txt)"
 fi
 
 begin long --spp 1000000 --integrator aov

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# One side of a picture alone keeps the shape that the scene gives it.
+# One side of an image alone keeps the shape that the scene gives it.
 set -eu
 program=$1 source=$2
 folder=$(mktemp -d)
@@ -17,7 +17,7 @@ cat >scene.xml <<'XML'
 </scene>
 XML
 
-# Prints the size of the picture that the options give.
+# Prints the size of the image that the options give.
 size() {
   "$program" render scene.xml -q -o picture.pfm "$@"
   head -c 20 picture.pfm | sed -n 2p

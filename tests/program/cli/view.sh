@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The page of pictures is opened by xdg-open at a terminal of a desktop, and nowhere else.
+# The page of images is opened by xdg-open at a terminal of a desktop, and nowhere else.
 set -u
 aureole=$1
 . "$2/tests/terminal.sh.inc"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# aureole weights through the program: golden figures, the sum of weights, two lobes, tables, pictures, bad input.
+# aureole weights through the program: golden figures, the sum of weights, two lobes, tables, images, bad input.
 set -u
 program=$1
 rm -rf work && mkdir work && cd work || exit 1
@@ -103,7 +103,7 @@ cmp entry.csv same.csv || fail "a look-up depends on the options that were given
 awk -F, 'NR > 1 { a += $4; b += $5; n++; if ($3 < -1e-6 && ($4 != 0 || $5 != 0)) exit 1; if ($3 < 0) h++ }
   END { exit !(n == 24 && h > 0 && a > 0.999999 && a < 1.000001 && b > 0.999999 && b < 1.000001) }' entry.csv ||
   fail "weights of a look-up"
-# The samples as a file of points, solved anew: the same weights for the first lobe, whose samples all count here.
+# The samples as a file of points, solved again: the same weights for the first lobe, whose samples all count here.
 "$program" weights $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --angles 9 --rotations 1 --table whole.table || exit 1
 "$program" weights --table whole.table --lookup 22.5 >looked.csv || exit 1
 cut -d, -f1-3 looked.csv >samples.csv

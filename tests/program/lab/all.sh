@@ -52,7 +52,7 @@ sed -i '2s/0x[^ ]*/0x1p-9/' $kept # a number that no run measures shows that it 
 rmse=$(awk -F, 'NR == 2 { print $4 }' again/marques-2013-gather/marques-2013-gather.csv)
 whole=$(awk -F, 'NR == 2 { print $4 }' results/marques-2013-gather/marques-2013-gather.csv)
 [ "$rmse" != "$whole" ] || fail "what was kept was measured again"
-"$aureole" "${gather[@]}" >again.txt 2>&1 || fail "anew: $(cat again.txt)"
+"$aureole" "${gather[@]}" >again.txt 2>&1 || fail "again: $(cat again.txt)"
 "$aureole" lab run factors-coverage analytical-cases --quick -q --threads 1 -o again >again.txt 2>&1 || fail "$(cat again.txt)"
 for file in results/{marques-2013-gather,factors-coverage,analytical-cases}/*; do
   case $file in *-timings.csv) continue ;; esac

@@ -13,7 +13,7 @@ done <written.txt
 [ "$(wc -l <written.txt)" -eq 5 ] || fail "$(cat written.txt)"
 "$aureole" lab paper nowhere -o other >none.txt 2>&1 && fail "no results"
 
-# The table: the rows and the numbers of the CSV, and nothing but ampersands between them.
+# The table: the rows and the numbers of the CSV, and only ampersands between them.
 grep -q '\\begin{tabular}{lrrrrr}' paper/$name.tex && grep -q '\\bottomrule' paper/$name.tex || fail "$(head -3 paper/$name.tex)"
 grep -q '^esfg:base=16,levels=3 & 64 & ' paper/$name.tex || fail "$(cat paper/$name.tex)"
 [ "$(grep -c ' & .*\\\\$' paper/$name.tex)" -eq "$(grep -vc '^#' results/$name/$name.csv)" ] || fail "rows of the table"

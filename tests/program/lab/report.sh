@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The report and the viewer of pictures, as files, and as Chromium shows them where there is one.
+# The report and the viewer of images, as files, and as Chromium shows them where there is one.
 set -u
 aureole=$1
 source=$2
@@ -30,7 +30,7 @@ grep -q 'width="1000" height="384"' page/marques-2018-slopes-equal.svg || fail "
 grep -qE '(src|href)="?(https?:)?//' page/index.html && fail "the page looks for something elsewhere"
 [ "$(wc -c <page/index.html)" -lt 1000000 ] || fail "the page is large"
 "$aureole" lab report results -o again >/dev/null && cmp page/index.html again/index.html || fail "two reports differ"
-# A small page has no plots for print, and large pictures as means.
+# A small page has no plots for print, and large images as means.
 "$aureole" lab run marques-2019-grids --quick -q -o drawn >run.txt 2>&1 || fail "$(cat run.txt)"
 "$aureole" lab report drawn -o drawing >/dev/null && "$aureole" lab report drawn -o small --small >/dev/null || fail "a small page"
 [ "$(ls small)" = index.html ] || fail "files beside a small page: $(ls small)"
@@ -43,7 +43,7 @@ done
 "$aureole" lab report "$source/docs/report/results" --small -o kept >/dev/null || fail "the kept tables"
 [ "$(wc -c <kept/index.html)" -lt 2000000 ] || fail "the small page of the kept tables has $(wc -c <kept/index.html) bytes"
 
-# Values of pictures by the viewer: two pictures of known pixels; the first is the reference.
+# Values of images by the viewer: two images of known pixels; the first is the reference.
 awk 'BEGIN { printf "PF\n4 2\n-1.0\n" }' >a.pfm
 cp a.pfm b.pfm
 for value in '\x00\x00\x80\x3f' '\x00\x00\x00\x40'; do # 1 and 2

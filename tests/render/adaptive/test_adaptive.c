@@ -111,7 +111,7 @@ static double square_distance(const aur_adaptive *a, const aur_adaptive *b) {
     return sum;
 }
 
-/* Where nobody names an integrator, final gathering is found to be the better one in this box. Its picture is
+/* Where nobody names an integrator, final gathering is found to be the better one in this box. Its image is
  * as far from path tracing's as the two intervals allow, and who names it with its bias has the same bits. */
 static void test_choice(void **state) {
     const fixture *const f = *state;

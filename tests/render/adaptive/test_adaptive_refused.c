@@ -5,7 +5,7 @@
 
 #include <aureole-render/adaptive.h>
 
-/* A lamp that shines at nothing but the camera: no photon is stored. */
+/* A lamp that shines at only the camera: no photon is stored. */
 static const char lone_lamp[] =
     "<shape type='rectangle'><transform name='to_world'><rotate x='1' angle='180'/><rotate z='1' "
     "angle='20'/><translate z='4'/></transform><emitter type='area'><rgb name='radiance' "

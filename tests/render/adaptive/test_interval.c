@@ -1,4 +1,4 @@
-/* The interval of the error of a mean of replicas against its own promise: over many sets of random pictures
+/* The interval of the error of a mean of replicas against its own promise: over many sets of random images
  * with known covariance it holds the true error as often as it says. */
 #include "check.h"
 

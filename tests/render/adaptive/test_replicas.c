@@ -13,7 +13,7 @@ typedef struct fixture {
     double spreads[PIXELS];
 } fixture;
 
-/* Replicas of the Cornell box, with so many samples a pixel of SAMPLES rendered. */
+/* Replicas of the Cornell box, with so many samples per pixel of SAMPLES rendered. */
 static void begin(fixture *f, size_t samples) {
     assert_int_equal(
         aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);

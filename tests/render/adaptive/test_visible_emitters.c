@@ -1,4 +1,4 @@
-/* Lamps that are smaller than a pixel: what is told of them against their size in closed form, and pictures
+/* Lamps that are smaller than a pixel: what is told of them against their size in closed form, and images
  * to an error that do not end before they have met one. */
 #include "check.h"
 
@@ -14,7 +14,7 @@
 #include <aureole-render/adaptive.h>
 
 /* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
- * ninth of the pixel that it is in. Behind it a dim square fills the picture. */
+ * ninth of the pixel that it is in. Behind it a dim square fills the image. */
 static const double radius = 0.05, distance = 10.0, radiance = 1000.0;
 enum { SIDE = 32 };
 static const char body[] =
@@ -70,7 +70,7 @@ static void takes_more_rays_for_lamps(void **state) {
     aur_visible_emitters before, after;
     assert_int_equal(aur_visible_emitters_find(scene, &layout, AUR_EMITTER_POINTS, 1, &before, NULL), AUR_OK);
     assert_int_equal(aur_visible_emitters_find(scene, &layout, AUR_EMITTER_POINTS, 1, &after, NULL), AUR_OK);
-    uint16_t probes[SIDE * SIDE]; /* of the whole picture, where the film is a part of it */
+    uint16_t probes[SIDE * SIDE]; /* of the whole image, where the film is a part of it */
     for (size_t i = 0; i < SIDE * SIDE; ++i)
         probes[i] = (uint16_t)(i % 5 == 0 ? 0 : 1u << i % 5);
     aur_visible_emitters_take_probes(&layout, probes, &after);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# path and finalgather see the same Cornell boxes. Noise: both have 64 samples a pixel, and means over 48 x 48 pixels of
+# path and finalgather see the same Cornell boxes. Noise: both have 64 samples per pixel, and means over 48 x 48 pixels of
 # them are good to about 0.3 %. Bias of the photon map (50,000 photons here): at most 1 % of the mean, stated; blocks of
 # 8 x 8 pixels within 4 % RMSE, which a missing lobe (about 20 % of the light) or a light counted twice would break.
 . "$(dirname "$0")/common.sh.inc"

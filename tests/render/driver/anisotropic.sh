@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Grooves run along growing texture u however the material is wrapped: a brushed metal seen from its front is the same
-# picture, to the bit, bare, two-sided and below a mask that hides nothing.
+# image, to the bit, bare, two-sided and below a mask that hides nothing.
 . "$(dirname "$0")/common.sh.inc"
 metal='<bsdf type="roughconductor"><float name="alpha_u" value="0.02"/><float name="alpha_v" value="0.4"/></bsdf>'
 picture() { # picture NAME BSDF

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Bright texels drawn as lights, and several points on lights a sample: the same picture with less error. A lamp that shines at
+# Bright texels drawn as lights, and several points on lights a sample: the same image with less error. A lamp that shines at
 # the ceiling from close by, so that a small spot there has most of the indirect light.
 . "$(dirname "$0")/common.sh.inc"
 cat >lamp.xml <<'XML'
@@ -36,7 +36,7 @@ judge -v other="$(figure relative_rmse reference.exr other.exr)" -v mean="$(figu
       other, mean, reference, plain, bright
     exit !(other < 0.03 && mean > 0.997 * reference && mean < 1.003 * reference && bright < 0.5 * plain) }' ||
   fail "bright texels count otherwise, or gain nothing"
-# Direct light alone, of a lamp that is seen: as exact by 16 points a sample as by many samples.
+# Direct light alone, of a lamp that is seen: as exact by 16 points per sample as by many samples.
 sed -e 's/angle="-90"/angle="90"/' -e 's/y="0.85"/y="0.9"/' -i lamp.xml
 render truth max_depth=2 --spp "$(either 16 1024)"
 render one max_depth=2 --spp 4

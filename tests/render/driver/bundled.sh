@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The bundled scenes with both kinds of materials, each by an integrator: no sample is NaN, infinite or negative, and the picture
+# The bundled scenes with both kinds of materials, each by an integrator: no sample is NaN, infinite or negative, and the image
 # is not black. Scenes whose meshes are made at first use are rendered where they have been made (scripts/scenes.sh), and
 # plates always, from a mesh made here.
 . "$(dirname "$0")/common.sh.inc"

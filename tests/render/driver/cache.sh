@@ -48,7 +48,7 @@ for integrator in $photons $weights; do
   [ "$(entries)" = "$count" ] || fail "$integrator: three runs at once leave $(entries) entries, not $count"
 done
 
-# What entries depend on: others are kept beside them, and pictures are those of runs without a cache.
+# What entries depend on: others are kept beside them, and images are those of runs without a cache.
 rm -rf cache
 make $photons whole.exr
 count=$(entries)

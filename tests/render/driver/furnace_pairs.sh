@@ -2,7 +2,7 @@
 # Furnaces with a closed form (furnace_faces.xml, furnace.xml): every material with every integrator and every sampler with
 # both, as far as the three can meet; with a third argument `full` every combination of all three, and more samplers.
 #
-# Every pixel has the same exact radiance and randomisations of its own, so the 256 pixels of one picture are independent
+# Every pixel has the same exact radiance and randomisations of its own, so the 256 pixels of one image are independent
 # estimates: t of their mean must stay below 4.6, the quantile at 1 - (1 - 0.001)^(1/181) for the 181 cases of the pairwise
 # cover, so a program that is right fails once in 1000 (5.5 in the full product: once in 10,000 for 3000 cases). Beside it
 # a part in a million for rounding, and the bias that is stated: what single scattering on rough facets loses, and the

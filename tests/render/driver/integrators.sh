@@ -77,10 +77,10 @@ near "the veil" "$m" 0.7 0.15
 "$aureole" render "$box" -q --width 32 --height 32 --spp 16 --integrator path:hide_emitters=true -o hidden.exr || fail "hidden"
 awk -v m="$(channel R maximum hidden.exr)" 'BEGIN { exit !(m < 2 && m > 0) }' || fail "the light is not hidden"
 
-# Errors against a reference: a row at 1, 2, 4, 8 and 13 samples a pixel, the last that of `compare`; waves change no bit.
+# Errors against a reference: a row at 1, 2, 4, 8 and 13 samples per pixel, the last that of `compare`; waves change no bit.
 "$aureole" render "$box" $small --spp 64 --seed 7 -o reference.exr || fail "reference"
 "$aureole" render "$box" $small --spp 13 --reference reference.exr --errors errors.csv -o waves.exr || fail "waves"
-"$aureole" render "$box" $small --spp 13 -o whole.exr && cmp whole.exr waves.exr || fail "waves change the picture"
+"$aureole" render "$box" $small --spp 13 -o whole.exr && cmp whole.exr waves.exr || fail "waves change the image"
 [ "$(cut -d, -f1 errors.csv | tr '\n' ' ')" = "spp 1 2 4 8 13 " ] || fail "$(cat errors.csv)"
 near "the last row" "$(tail -1 errors.csv | cut -d, -f5)" "$(figure rmse reference.exr whole.exr)" 1e-12
 awk -F, 'NR > 1 { if ($2 != 256 * $1 || $3 <= rays || $4 < seconds) bad = 1; rays = $3; seconds = $4 } END { exit bad }' errors.csv ||

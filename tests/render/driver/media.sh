@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Scenes with media by the program: the bundled haze, one picture in shards and by an error that is asked for, and what says
+# Scenes with media by the program: the bundled haze, one image in shards and by an error that is asked for, and what says
 # that it leaves media out or takes none.
 . "$(dirname "$0")/common.sh.inc"
 scene=$source/bench/peers/plugins/medium-grid.xml
@@ -15,7 +15,7 @@ render -t 3 -o threads.exr
 cmp whole.exr threads.exr || fail "volpath depends on threads"
 for k in 1 2; do render --shard $k/2 -o shard-$k.part; done
 "$aureole" merge shard-1.part shard-2.part -o merged.exr 2>messages.txt || fail "merging shards"
-"$aureole" compare whole.exr merged.exr --tolerance 0 >compared || fail "shards of volpath are another picture: $(cat compared)"
+"$aureole" compare whole.exr merged.exr --tolerance 0 >compared || fail "shards of volpath are another image: $(cat compared)"
 
 # --error takes volpath where media are, and comes as near as it says: .1 is asked, and 512 samples have half of that.
 "$aureole" render "$scene" -q --error 10% -o asked.exr || fail "--error"

@@ -28,7 +28,7 @@ unset AUREOLE_ISA
 # Paths of sixteen pixels in lockstep are single paths of the same numbers. Where no surface is plain, both are shaded by
 # the same code and are equal to the bit. Plain surfaces are shaded by vector code, whose operations stand in another order:
 # some 50 a bounce, each rounded by at most 2^-24 of its value. Hardly a path has more than 16 bounces, and 800 * 2^-24 is
-# 5e-5. Such a rounding may also make a path keep another candidate, about once in a million choices: none of these pictures
+# 5e-5. Such a rounding may also make a path keep another candidate, about once in a million choices: none of these images
 # has one, and their bits are those of any processor. Embree's kernels are held to one instruction set, so that no processor's
 # own hits send a path past an edge.
 export AUREOLE_EMBREE_ISA=avx2

@@ -2,7 +2,7 @@
 # A scene renders alike wherever it stands. White furnaces, whose radiance is 1 everywhere: with 8 independent seeds the mean must
 # be above .999 (.99 for grounds, which have more noise), and within t standard errors of 1, t = 7.89 the quantile of Student's t with
 # 7 degrees of freedom for 1e-4.
-# `--error` holds there: of 12 pictures to 4 % with 95 % confidence no more than 3 have a larger error (a chance of .002).
+# `--error` holds there: of 12 images to 4 % with 95 % confidence no more than 3 have a larger error (a chance of .002).
 # Rooms: the means of two places differ by less than 5 standard errors (chance 6e-7 each).
 . "$(dirname "$0")/common.sh.inc"
 

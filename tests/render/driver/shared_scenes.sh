@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Public scenes of ../shared/scenes, which are not in the tree, against pictures by another renderer: shared_*.sh.inc.
+# Public scenes of ../shared/scenes, which are not in the tree, against images by another renderer: shared_*.sh.inc.
 set -u
 status=0
 for test in "$(dirname "$0")"/shared_*.sh.inc; do

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# SIGINT and SIGTERM stop a render also within a tile, soon, leave a finished picture alone and no other file behind.
+# SIGINT and SIGTERM stop a render also within a tile, soon, leave a finished image alone and no other file behind.
 set -euo pipefail
 aureole=$1 scene=$2/scenes/cornell-box/cornell-box.xml
 fail() { echo "$*" >&2; exit 1; }

@@ -41,7 +41,7 @@ printf '\354\170\255\140' >>hot.vol
 head -c 28 /dev/zero >>hot.vol
 scene_of "<integrator type='volpath'/>" "<shape type='cube'><bsdf type='null'/><medium type='heterogeneous' name='interior'><volume type='gridvolume' name='sigma_t'><string name='filename' value='hot.vol'/></volume></medium></shape>" 5 >hot.xml
 ends_soon 'a hot voxel' 3 "$aureole" render hot.xml --spp 100000 -t 1 -q -o hot.exr
-"$aureole" info hot.partial.exr >/dev/null || fail "no partial picture of a medium"
+"$aureole" info hot.partial.exr >/dev/null || fail "no partial image of a medium"
 # The same without a signal: rays end after 2^20 null collisions, which is said.
 "$aureole" render hot.xml --width 8 --height 8 --spp 1 -o hot.exr 2>said || fail "a hot voxel: $(cat said)"
 grep -q 'null collisions' said || fail "nothing said of a hot voxel: $(cat said)"

@@ -61,7 +61,7 @@ room 1e-8
 metal() { echo "<shape type='cube'><bsdf type='conductor'><rgb name='eta' value='$1'/><rgb name='k' value='$2'/></bsdf></shape>$sky"; }
 good metal "$(metal '0.2 0.9 1.1' '3.9 2.4 2.1')"
 good negative "$(metal '-0.2 0.9 -1.1' '-3.9 -2.4 2.1')"
-cmp metal.exr negative.exr || fail "negative eta and k change the picture"
+cmp metal.exr negative.exr || fail "negative eta and k change the image"
 good exponent "<shape type='sphere'><point name='center' x='1.5e-008' y='-2E-008' z='0'/></shape><emitter type='point'><rgb name='intensity' value='2.5e+002'/><point name='position' value='0 3e000 5'/></emitter>"
 
 # Textures: not there, or lying about their size.

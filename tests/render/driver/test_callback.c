@@ -78,7 +78,7 @@ static void finish(fixture *f) {
     alarm(0);
 }
 
-/* Pictures inside and outside are those of renders by themselves. */
+/* Images inside and outside are those of renders by themselves. */
 static void renders_previews(void **state) {
     (void)state;
     static const char *const integrators[] = {"path",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A picture is the same to the bit for any number of threads, and its crop is a part of it.
+# An image is the same to the bit for any number of threads, and its crop is a part of it.
 . "$(dirname "$0")/common.sh.inc"
 scene=$source/scenes/cornell-box/glossy.xml
 for integrator in path:interleaved=true path finalgather:photons=20000,diffuse_samples=16,glossy_samples=16 \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Weights in the picture: under constant light optimal and scaled weights are exact at every angle, the others close; nothing
+# Weights in the image: under constant light optimal and scaled weights are exact at every angle, the others close; nothing
 # depends on threads; what cannot be is refused.
 . "$(dirname "$0")/common.sh.inc"
 scene=$source/tests/render/driver/weights.xml

@@ -113,7 +113,7 @@ static void steps_are_one_render(void **state) {
     }
 }
 
-/* Parts whose crops are whole tiles, rendered apart, are the whole picture. */
+/* Parts whose crops are whole tiles, rendered apart, are the whole image. */
 static void parts_are_merged(void **state) {
     const fixture *const f = *state;
     aur_render_options options = small("path", 2);
@@ -215,7 +215,7 @@ static int stop_after(void *user, const char *what, uint64_t done, uint64_t tota
     return --*calls == 0;
 }
 
-/* A picture of one tile: it is stopped within the tile, keeps samples of it where the integrator adds one
+/* An image of one tile: it is stopped within the tile, keeps samples of it where the integrator adds one
  * after the other, none of it otherwise, and goes on to the same bits. */
 static void a_tile_is_stopped_within(void **state) {
     const fixture *const f = *state;

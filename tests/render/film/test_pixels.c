@@ -1,4 +1,4 @@
-/* Samples for single pixels: each has the bits of a picture in which all pixels have as many. */
+/* Samples for single pixels: each has the bits of an image in which all pixels have as many. */
 #include "check.h"
 
 #include <stdlib.h>
@@ -33,7 +33,7 @@ static aur_image *picture(const aur_render *render) {
     return image;
 }
 
-/* `even`[n] is the picture of n + 1 samples everywhere. */
+/* `even`[n] is the image of n + 1 samples everywhere. */
 static void compare(const char *integrator, aur_renderer *renderer, aur_image *const even[MOST],
                     size_t threads, bool in_two_steps) {
     aur_render *const render = start(renderer, integrator, threads);

@@ -23,7 +23,7 @@ static aur_image *render(const aur_scene *scene, const char *integrator, const s
     return image;
 }
 
-/* A crop that cuts through tiles and blocks of 4 x 4 pixels is a part of the whole picture to the bit, though
+/* A crop that cuts through tiles and blocks of 4 x 4 pixels is a part of the whole image to the bit, though
  * packets, shared patterns and the search for edges look at neighbours. */
 static void a_crop_is_a_part_of_the_picture(void **state) {
     (void)state;

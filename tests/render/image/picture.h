@@ -1,4 +1,4 @@
-/* What the tests of pictures share: pictures with known pixels, and comparing two of them value by value. */
+/* What the tests of images share: images with known pixels, and comparing two of them value by value. */
 #pragma once
 
 #include <stdio.h>

@@ -10,7 +10,7 @@ static void check_metric(const aur_image *reference, const aur_image *image, aur
         assert_near(value[i], expected[i], 1e-14);
 }
 
-/* References 0.5, 1, 0 and pictures 1, 1.5, 0.25: every term is the same in every pixel. */
+/* References 0.5, 1, 0 and images 1, 1.5, 0.25: every term is the same in every pixel. */
 static void test_flat_pictures(void **state) {
     (void)state;
     aur_image *const reference = flat_picture(7, 3, 0.5f, 1.0f, 0.0f);

@@ -259,7 +259,7 @@ static void test_shared_pictures(void **state) {
         double mean[4];
         aur_error error;
         assert_success(aur_image_mean(image, mean, &error), &error);
-        if (i == 0) { /* published figures for this picture, to their digits */
+        if (i == 0) { /* published figures for this image, to their digits */
             assert_near(mean[0], 0.1962, 1e-4);
             assert_near(mean[1], 0.1275, 1e-4);
             assert_near(mean[2], 0.0361, 1e-4);

@@ -2,7 +2,7 @@
 #include "picture.h"
 #include "render/image/format.h"
 
-/* A picture from display values in [0,1]: pattern number `pattern` at column x of row y, channel c. */
+/* An image from display values in [0,1]: pattern number `pattern` at column x of row y, channel c. */
 static aur_image *pattern_picture(size_t width, size_t height, double (*value)(size_t, size_t, size_t)) {
     aur_image *const image = random_picture(width, height, 3);
     for (size_t i = 0; i < width * height * 3; ++i)
@@ -63,7 +63,7 @@ typedef struct flip_case {
     double expected;
 } flip_case;
 
-/* Means that the authors' program (flip-evaluator 1.7, in single precision) prints for these pictures. */
+/* Means that the authors' program (flip-evaluator 1.7, in single precision) prints for these images. */
 static void test_published_program(void **state) {
     (void)state;
     static const flip_case cases[] = {{64, 48, ramps, other_ramps, 0.765666},
@@ -81,7 +81,7 @@ static void test_published_program(void **state) {
     }
 }
 
-/* Filters leave uniform pictures alone and there are no features, so that only the colour error remains.
+/* Filters leave uniform images alone and there are no features, so that only the colour error remains.
  * Green against blue is the largest, 1 by definition. Black against white has lightnesses 0 and 100 and no
  * chroma: e = 100^0.7 = 25.1189, the largest is 308.137^0.7 = 55.2 (see below), and the map to [0,1] gives
  * the rest. */
@@ -123,7 +123,7 @@ static void test_limits(void **state) {
     aur_image_destroy(one);
 }
 
-/* The map is large where the pictures differ and nothing away from there: filters reach 10 pixels. */
+/* The map is large where the images differ and nothing away from there: filters reach 10 pixels. */
 static void test_map(void **state) {
     (void)state;
     aur_image *const reference = pattern_picture(50, 40, black);

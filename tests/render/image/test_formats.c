@@ -285,7 +285,7 @@ static void test_png_of_other_colours(void **state) {
     remove(scratch(0, "x.png"));
 }
 
-/* A smooth picture with noise of four levels, as a renderer makes them: a quarter below what stb needs. Its
+/* A smooth image with noise of four levels, as a renderer makes them: a quarter below what stb needs. Its
  * noise alone is two bits a value. */
 static void test_png_is_small(void **state) {
     (void)state;

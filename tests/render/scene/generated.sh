@@ -54,7 +54,7 @@ cp one/plate.ply copy/generated/
 # A user's own environment, by a name from where the user is.
 cp -r "$source/scenes/sphere" copy/
 "$scenes" --folder copy/generated seeds.ply >/dev/null || fail "making the seeds"
-"$aureole" render view.xml -q --width 8 --height 4 --spp 1 -o mine.hdr || fail "making a picture"
+"$aureole" render view.xml -q --width 8 --height 4 --spp 1 -o mine.hdr || fail "making an image"
 "$aureole" info copy/sphere/sphere.xml -D environment=mine.hdr >/dev/null || fail "an environment of the user's"
 "$aureole" info copy/sphere/sphere.xml -D environment=none.hdr >/dev/null 2>message && fail "an environment that is not there"
 grep -q "cannot find 'none.hdr'" message || fail "$(cat message)"

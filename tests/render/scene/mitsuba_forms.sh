@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Plugins and keys of Mitsuba that say what others say too: the pictures are the same, to the byte where the same numbers are drawn.
+# Plugins and keys of Mitsuba that say what others say too: the images are the same, to the byte where the same numbers are drawn.
 set -u
 aureole=$1
 failures=0
@@ -99,7 +99,7 @@ cp "$2/bench/peers/plugins/tint.vol" .
 grid="type='gridvolume'><string name='filename' value='tint.vol'/><transform name='to_world'><translate x='-.5' y='-.5' z='-.5'/><scale value='2'/>"
 render a "$(inside "$grid</transform>")"
 render b "$(inside "$grid</transform>")" --integrator path:packets=false
-cmp -s a.pfm b.pfm || fail "a volume as a texture: packets show another picture"
+cmp -s a.pfm b.pfm || fail "a volume as a texture: packets show another image"
 # Moved with the volume by 10, the floor is the same; without it, it is not.
 far() { inside "$grid$1</transform>" | sed "s|origin='0,-4,3' target='0,0,0'|origin='10,-4,3' target='10,0,0'|; s|x='1' y='1' z='3'|x='11' y='1' z='3'|
   s|<shape type='rectangle'>|&<transform name='to_world'><translate x='10'/></transform>|"; }
@@ -126,11 +126,11 @@ refused "'weights' must be between 0 and 1 (found '-1')" "$(mixture -1 "$(grey .
 others="<integrator type='statistical'><integrator type='path'/><integrator type='volpath'/></integrator>"
 render a "$others$(floor "")" --integrator path
 render b "$(floor "")"
-cmp -s a.pfm b.pfm || fail "an integrator that is not known: not the same picture"
+cmp -s a.pfm b.pfm || fail "an integrator that is not known: not the same image"
 refused "unknown integrator 'statistical'" "$others$(floor "")"
 deep="<integrator type='OUTER'><integrator type='aov'><string name='aovs' value='d:depth'/><integrator type='path'/></integrator></integrator>"
 render a "${deep/OUTER/statistical}$(floor "")" --integrator path
-cmp -s a.pfm b.pfm || fail "an integrator around two: not the same picture"
+cmp -s a.pfm b.pfm || fail "an integrator around two: not the same image"
 for outer in moment aov; do refused "a second <integrator> inside another" "${deep/OUTER/$outer}$(floor "")"; done
 
 # Materials and textures that nothing refers to are not built, so that a file that they name need not be there.

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Models that are no XML: a glTF with pictures, lights, a camera, instances, a mask and a light of its own is the same picture,
+# Models that are no XML: a glTF with images, lights, a camera, instances, a mask and a light of its own is the same image,
 # bit by bit, as the same scene written as XML; as .gltf with a file of numbers beside it and as .glb; OBJ; what a model lacks
 # is added and said; broken ones are refused with words.
 set -u
@@ -232,7 +232,7 @@ for model in model.gltf beside.gltf model.glb; do
   "$aureole" compare xml.exr model.exr --metric relative-rmse --tolerance 1e-4 >compared ||
     fail "$model differs from its XML: $(cat compared)"
 done
-"$aureole" render model.glb $small -t 3 -o three.exr && cmp -s three.exr model.exr || fail "threads change the picture of a model"
+"$aureole" render model.glb $small -t 3 -o three.exr && cmp -s three.exr model.exr || fail "threads change the image of a model"
 
 # renders MODEL [WORDS]: as MODEL.exr, with a warning of these words.
 renders() {
@@ -277,7 +277,7 @@ grep -q 'has no light' said && fail "light is added in spite of --model-light no
 [ "$(sed -n 's/^emitters  *//p' said)" = 5 ] || fail "no light is added to lamps by --model-light always: $(cat said)"
 "$aureole" info dark.gltf >said 2>&1 && grep -q 'has no light' said || fail "the light that is added is not said: $(cat said)"
 
-# One body by its points alone: the pictures from the camera that is added are the same. 3DS counts z upwards, and assimp
+# One body by its points alone: the images from the camera that is added are the same. 3DS counts z upwards, and assimp
 # turns it.
 /usr/bin/python3 - <<'PYTHON' || fail "the other models cannot be written"
 import struct
@@ -448,4 +448,4 @@ for kind in gltf obj; do
   done
   "$aureole" compare peer.exr peer.ours.exr --metric relative-rmse --tolerance 1e-6 >said || fail "arch.$kind is not its scene: $(cat said)"
 done
-echo "models: the same pictures as XML"
+echo "models: the same images as XML"

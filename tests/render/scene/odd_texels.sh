@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Texels that are no radiance: infinite ones are the largest half, NaN and negative ones 0, in an environment, a projected picture, an emitting
+# Texels that are no radiance: infinite ones are the largest half, NaN and negative ones 0, in an environment, a projected image, an emitting
 # surface and a material, each counted in a warning that names the file; heights of a bumpmap keep their sign.
 set -u
 aureole=$1

@@ -6,7 +6,7 @@ set -u
 aureole=$1
 scenes=$2/bench/peers/plugins
 
-# 24 x 24 pixels of 64 samples: the noise of all of a picture is below 1 %, and 5 % is far beyond it.
+# 24 x 24 pixels of 64 samples: the noise of all of an image is below 1 %, and 5 % is far beyond it.
 for scene in "$scenes"/*.xml; do
   name=$(basename "$scene" .xml)
   if grep -q '<medium' "$scene"; then
@@ -15,7 +15,7 @@ for scene in "$scenes"/*.xml; do
     [ $? = 2 ] && grep -q "finalgather' takes no media" refusal || { echo "$name: finalgather takes media"; exit 1; }
     continue
   fi
-  # Short: a sample a pixel and few photons, of which nothing is said.
+  # Short: a sample per pixel and few photons, of which nothing is said.
   for integrator in path "finalgather${AUREOLE_SHORT_TESTS:+:photons=5000}"; do
     "$aureole" render "$scene" -q --integrator "$integrator" --seed 3 -o "$name-${integrator%%:*}.exr" ${AUREOLE_SHORT_TESTS:+--spp 1} ||
       { echo "$name: $integrator fails"; exit 1; }
@@ -32,7 +32,7 @@ for ending in bmp tga; do
 done
 
 # White hair in white surroundings cannot be seen: rays that leave a curve do not meet its inside. The noise
-# of 16 samples in the mean of a picture is .3 %; what 64 bounces leave out is less.
+# of 16 samples in the mean of an image is .3 %; what 64 bounces leave out is less.
 for curve in none linearcurve bsplinecurve; do
   {
     echo "<scene version='3.0.0'><emitter type='constant'/><sensor type='perspective'><float name='fov' value='20'/>"

@@ -23,7 +23,7 @@ static aur_vector direction_at(const char *sensor, size_t width, size_t height, 
     return ray.direction;
 }
 
-/* The picture's left edge is +x of the camera, its top +y; `fov` spans the named axis. */
+/* The image's left edge is +x of the camera, its top +y; `fov` spans the named axis. */
 static void frames_the_picture(void **state) {
     (void)state;
     static const struct {
@@ -48,7 +48,7 @@ static void frames_the_picture(void **state) {
         assert_near(top.y / top.z, rows[i].y * tangent, 1e-6);
         assert_near(top.x, 0.0, 1e-7);
     }
-    /* 50 mm on 36 x 24: the picture of that shape spans 36 mm. */
+    /* 50 mm on 36 x 24: the image of that shape spans 36 mm. */
     const aur_vector edge =
         direction_at("<string name='focal_length' value='50mm'/>", 360, 240, 0.0f, 120.0f);
     assert_near(edge.x / edge.z, 18.0 / 50.0, 1e-6);
@@ -151,7 +151,7 @@ static void sees_in_parallel(void **state) {
                                          "<transform name='to_world'><scale value='3'/></transform>");
     aur_ray ray;
     aur_camera_ray(scene, 200, 100, 0.0f, 0.0f, (const float[2]){0, 0}, &ray);
-    assert_near(ray.origin.x, 3.0, 1e-6); /* +x is the left of the picture */
+    assert_near(ray.origin.x, 3.0, 1e-6); /* +x is the left of the image */
     assert_near(ray.origin.y, 1.5, 1e-6);
     assert_near(ray.direction.z, 1.0, 0.0);
     assert_near(ray.nearest, 3.0, 1e-6);

@@ -206,7 +206,7 @@ static void draws_from_a_sphere_s_own_points(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* A picture of a sky: a dim gradient with one bright texel, as PFM (the bottom row first). */
+/* An image of a sky: a dim gradient with one bright texel, as PFM (the bottom row first). */
 static void write_sky(void) {
     enum { WIDTH = 16, HEIGHT = 9 };
     char file[64 + WIDTH * HEIGHT * 12];
@@ -276,7 +276,7 @@ static void draws_environments(void **state) {
     }
 }
 
-/* The picture's middle row seen along -z is its left edge, and along +x a quarter further. */
+/* The image's middle row seen along -z is its left edge, and along +x a quarter further. */
 static void turns_environments(void **state) {
     (void)state;
     write_sky();

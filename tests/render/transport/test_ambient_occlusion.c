@@ -97,7 +97,7 @@ static void wall(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* A crop is a part of the picture to the bit, wherever its edges cut tiles and packets, and threads change
+/* A crop is a part of the image to the bit, wherever its edges cut tiles and packets, and threads change
  * nothing. */
 static void crops_and_threads(void **state) {
     (void)state;

@@ -78,7 +78,7 @@ static void candidates_are_kept_in_proportion(void **state) {
     assert_true(aur_candidate_weight((aur_vector){NAN, 1.0f, 1.0f}) == 0.0f);
 }
 
-/* --- pictures */
+/* --- images */
 
 enum { SIDE = 16, PIXELS = SIDE * SIDE, SAMPLES = 16, SEEDS = 64 };
 
@@ -179,8 +179,8 @@ static double sum_of(const float pixels[3 * PIXELS]) {
     return sum;
 }
 
-/* Whole pictures with and without candidates, in pairs of one seed: the mean of 64 differences in its
- * standard error is Student's t of 63 degrees of freedom, beyond 4 one time in 5,900. The pictures know the
+/* Whole images with and without candidates, in pairs of one seed: the mean of 64 differences in its
+ * standard error is Student's t of 63 degrees of freedom, beyond 4 one time in 5,900. The images know the
  * mean to half a percent, so that a bias of 2 % is found. */
 static void assert_same_mean(const stage *s, const char *without, const char *with) {
     double sum = 0.0, squares = 0.0, whole = 0.0;

@@ -140,7 +140,7 @@ static aur_image *render_picture(aur_renderer *renderer, const char *form, const
     return image;
 }
 
-/* The pictures have the same rays, those of short ones that go on to the map among them. What is left is the
+/* The images have the same rays, those of short ones that go on to the map among them. What is left is the
  * rounding of floats: 24 bits, less the 8 by which sums of some hundred terms and differences of larger
  * numbers make it worse. */
 static void correction_is_the_difference(void **state) {
@@ -250,7 +250,7 @@ static double variance_over_seeds(const aur_scene *scene, const char *integrator
     return sum;
 }
 
-/* With so few photons and so many directions pictures of different seeds differ by their photons, unless
+/* With so few photons and so many directions images of different seeds differ by their photons, unless
  * these have a seed of their own. Were it idle, the ratio of both variances, of 31 degrees at least, would be
  * below a quarter once in ten thousand times (F). */
 static void photons_may_have_a_seed_of_their_own(void **state) {

@@ -32,7 +32,7 @@ static aur_render_options options_of(const char *integrator, size_t seed) {
     return options;
 }
 
-/* The picture by steps of so many samples. */
+/* The image by steps of so many samples. */
 static aur_image *picture_in_steps(aur_renderer *renderer, const aur_render_options *options, size_t step) {
     aur_render *render = NULL;
     aur_image *image = NULL;

@@ -56,7 +56,7 @@ static void keeps_the_mean_of_a_small_lamp(void **state) {
 }
 
 /* A pixel that alone gets more samples finds the edge by what its neighbours see, as it did in the first
- * step. The lamp covers the picture's left and 3/8 of column 4 (of 0 to 7): four random samples of such a
+ * step. The lamp covers the image's left and 3/8 of column 4 (of 0 to 7): four random samples of such a
  * pixel have a variance of 3/8 x 5/8 / 4, and with 64 that only look it is a 17th of that. A mean of squares
  * over 256 seeds varies by a tenth: half of the first is five times that away from either. */
 static void finds_edges_where_only_some_pixels_go_on(void **state) {
@@ -112,9 +112,9 @@ static double gaussian_mass(double x) {
     return sqrt(2.0 * atan(1.0)) * erf(x / sqrt(2.0)) - exp(-8.0) * x;
 }
 
-/* A wide filter sees a little of what lies beyond the pixels next to its own. The lamp covers the picture's
+/* A wide filter sees a little of what lies beyond the pixels next to its own. The lamp covers the image's
  * columns 0 to 3, and its edge is 3 standard deviations from the centre of column 5: a sample there meets it
- * with a chance of .001, and one in column 4 with .16, so that in an eighth of the pictures no pixel next to
+ * with a chance of .001, and one in column 4 with .16, so that in an eighth of the images no pixel next to
  * those of column 5 has met it. If these looked no farther, their variance would be three times that of all
  * samples. The mean of squares varies by a 34th: twice is 34 times that away from one. */
 static void finds_edges_that_a_wide_filter_sees(void **state) {

@@ -38,7 +38,7 @@ static aur_render_options options_of(const char *integrator, const char *filter,
     return options;
 }
 
-/* The pictures' sums of R have the lamp's radiance times its share as their mean, and the variance of as many
+/* The images' sums of R have the lamp's radiance times its share as their mean, and the variance of as many
  * random samples as there are rays; by four alone it would be 17 times that. A wide filter spreads the share
  * over pixels with small chances, whose variances come to no more. Over 512 seeds a variance varies by a
  * 16th: twice is 16 of these. */

@@ -1,5 +1,5 @@
 /* Pixels that gather along the same directions, or trace paths by the same numbers, have errors alike: these
- * must make no pattern in the picture, nor add up over its parts. */
+ * must make no pattern in the image, nor add up over its parts. */
 #include "check.h"
 
 #include <aureole-render/render.h>

@@ -100,7 +100,7 @@ static void surfaces_stay_apart(void **state) {
     free(strata);
 }
 
-/* A plane behind the other one, at the same place of the picture. */
+/* A plane behind the other one, at the same place of the image. */
 static void depths_stay_apart(void **state) {
     (void)state;
     aur_pixel_strata *const strata = create();

@@ -1,5 +1,5 @@
 /* GGX lobes of the gather: directions and weights are those of the table, sums are the lobe's mass, materials
- * say which of their lobes are GGX, and pictures have path tracing's mean whatever the threads. */
+ * say which of their lobes are GGX, and images have path tracing's mean whatever the threads. */
 #include <aureole-render/render.h>
 #include <stdio.h>
 #include <string.h>

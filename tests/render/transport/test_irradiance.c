@@ -203,7 +203,7 @@ static void does_not_depend_on_threads(void **state) {
     aur_scene_destroy(scene);
 }
 
-/* Any set of the square serves the particles, and short tables begin anew. */
+/* Any set of the square serves the particles, and short tables begin again. */
 static void photons_come_from_any_set(void **state) {
     (void)state;
     static const char *const sets[] = {"random", "halton", "r2", "niederreiter"};

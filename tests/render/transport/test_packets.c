@@ -18,7 +18,7 @@ static void groups_part_the_tile(uint64_t hash) {
             assert_int_equal(x[lane], 32 + pixel % AUR_TILE_SIZE);
             assert_int_equal(y[lane], 48 + pixel / AUR_TILE_SIZE);
         }
-        /* Of a picture that ends two blocks into the tile, the left or upper half of the lanes is left. */
+        /* Of an image that ends two blocks into the tile, the left or upper half of the lanes is left. */
         assert_int_equal(aur_group_lanes_within(x, y, 0, 40, 0, 64), 0x3333);
         assert_int_equal(aur_group_lanes_within(x, y, 0, 48, 0, 56), 0x00ff);
         assert_int_equal(aur_group_lanes_within(x, y, 40, 48, 56, 64), 0xcc00);

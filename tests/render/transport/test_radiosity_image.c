@@ -94,7 +94,7 @@ static void directions_are_uniform_in_the_solid_angle(void **state) {
     assert_true(aur_spherical_triangle(edge_on, from, 0.5, 0.5, direction) == 0.0);
 }
 
-/* --- pictures */
+/* --- images */
 
 enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT };
 
@@ -132,7 +132,7 @@ static void mean_of(const aur_image *image, double *mean, double *error) {
     *error = sqrt((squares / PIXELS - *mean * *mean) / PIXELS);
 }
 
-/* Three standard errors: one false alarm in 370 for a seed drawn anew, none for this one. What the solution
+/* Three standard errors: one false alarm in 370 for a seed drawn again, none for this one. What the solution
  * itself is off, the same in all pixels, is below 5e-4. */
 static void expect_mean(const aur_scene *scene, const char *integrator, size_t samples, double expected) {
     aur_image *const image = render(scene, integrator, samples, 2, NULL);
@@ -180,7 +180,7 @@ static void mirrors_show_the_same(void **state) {
     "<bsdf type='diffuse'/></shape>"
 
 /* In a closed box whose walls all shine, direct light is 1/2 everywhere. 16 times the samples leave a
- * sixteenth of the square deviation; an eighth is asked, for it is known from one picture each. */
+ * sixteenth of the square deviation; an eighth is asked, for it is known from one image each. */
 static void more_samples_see_more_of_the_lights(void **state) {
     (void)state;
     aur_scene *const scene =

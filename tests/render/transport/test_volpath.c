@@ -42,7 +42,7 @@ static aur_scene *load(const char *text) {
     return scene;
 }
 
-/* The mean over the picture of channel k, and its standard error, from SEEDS pictures. */
+/* The mean over the image of channel k, and its standard error, from SEEDS images. */
 static double mean_of(const aur_scene *scene, const char *integrator, size_t samples, size_t channel,
                       double *deviation) {
     static float pixels[PIXELS][3];

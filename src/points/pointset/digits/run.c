@@ -67,7 +67,7 @@ static void next_radical(aur_run *run, size_t count, double *out) {
         const uint64_t lower = r->index % r->span;
         const size_t within = (size_t)(lower % r->width);
         uint64_t unit = r->denominator / r->span;
-        /* Where the table is too short for the lowest digit it begins anew. */
+        /* Where the table is too short for the lowest digit it starts again. */
         uint64_t shared = (lower - within) * unit;
         for (uint64_t rest = r->index / r->span; rest > 0; rest /= r->base) {
             unit /= r->base;

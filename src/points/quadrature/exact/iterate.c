@@ -11,7 +11,7 @@
 /* From so many points and degrees on the steps are taken by fast transforms. */
 enum { FAST_POINTS = 2048, FAST_DEGREE = 24 };
 
-/* How often the steps begin anew with what is missing in truth; and that they are within rounding where what
+/* How often the steps begin again with what is missing in truth; and that they are within rounding where what
  * is missing is small and so many of them do not halve it. */
 enum { PASSES = 3, PATIENCE = 20 };
 static const double small = 1e-12;

@@ -13,7 +13,7 @@ typedef void aur_weight_blend(size_t count, const float *below, const float *abo
 AUR_KERNELS(aur_weight_blend, aur_weight_blend);
 
 /* A row holds the weights of all lobes at one angle. Each rotation has rows of its own, at each roughness
- * anew: a *slot* is one of these pairs, numbered roughness by roughness. Where samples can be hidden, the
+ * again: a *slot* is one of these pairs, numbered roughness by roughness. Where samples can be hidden, the
  * intervals between angles are cut into pieces where a sample crosses the horizon, so that within a piece the
  * same samples take part and the weights are smooth; the two ends of a piece then have rows of their own.
  * Otherwise neighbouring intervals share one. */

@@ -1,4 +1,4 @@
-/* The parts of the verb viewfactors. */
+/* The parts of the command viewfactors. */
 #pragma once
 
 #include <aureole-lighting/view_factors.h>

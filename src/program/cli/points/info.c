@@ -1,4 +1,4 @@
-/* aureole info: what is in a scene, a picture, a file of points or a table of weights. */
+/* aureole info: what is in a scene, an image, a file of points or a table of weights. */
 #include <aureole/quadrature.h>
 #include <errno.h>
 #include <math.h>

@@ -56,7 +56,7 @@ aur_result cli_measure_figures(const cli_measure_arguments *arguments, const cha
                                cli_measure_row *row, aur_error *error);
 
 /* Figures against N on log-log axes with fitted slopes, a panel a metric; slopes go to standard error as
- * well. And tables: the second column against the first, a periodogram as a picture. Both return the exit
+ * well. And tables: the second column against the first, a periodogram as an image. Both return the exit
  * status. */
 int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_rows *rows);
 int cli_measure_plot_series(const cli_measure_arguments *arguments, const cli_measure_rows *rows);

@@ -164,7 +164,7 @@ int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_r
     return status;
 }
 
-/* One table: lines or points of the second column over the first, or a picture of the third. */
+/* One table: lines or points of the second column over the first, or an image of the third. */
 static void plot_table(const cli_measure_row *row, size_t index, report_series *series, char *label,
                        report_point *points) {
     const aur_series *const table = row->series;

@@ -1,4 +1,4 @@
-/* Where a verb's points come from: a set that is named, or a file. */
+/* Where a command's points come from: a set that is named, or a file. */
 #pragma once
 
 #include <aureole/pointset.h>
@@ -9,7 +9,7 @@
 
 /* What the options say about points that a set makes. */
 typedef struct cli_points {
-    aur_directions_options options; /* of any domain; size, count and warnings are the verb's to fill */
+    aur_directions_options options; /* of any domain; size, count and warnings are the command's to fill */
     size_t dimension;               /* 0: not given */
     bool domain_given;              /* else a file's own */
     bool natural_domain;            /* a set's own, whatever the options' is */
@@ -24,7 +24,7 @@ bool cli_is_sized_file(const char *text);
 /* Whether it is a file or file:PATH, whose points need no number. */
 bool cli_has_size(const char *text);
 
-/* Warns where nothing but the numbers says what domain the points of a file are of. */
+/* Warns where only the numbers says what domain the points of a file are of. */
 void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warnings warnings);
 
 /* The points of a set, `count` of them, on the options' domain; of a file all of them (`count` is that number
@@ -33,7 +33,7 @@ void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warn
 aur_result cli_load_points(const char *text, const cli_points *from, size_t count, aur_points **points,
                            aur_points_view *view, aur_error *error);
 
-/* What --symmetry names: of directions a point group, of rotations the crystal's group and the sample's. */
+/* What --symmetry names: of directions per point group, of rotations the crystal's group and the sample's. */
 typedef struct cli_symmetry {
     bool given;
     aur_point_group group;
@@ -43,7 +43,7 @@ typedef struct cli_symmetry {
 /* `text` NULL: none. Errors: NAME; UNSUPPORTED for a domain without symmetries. */
 aur_result cli_parse_symmetry(const char *text, aur_domain domain, cli_symmetry *symmetry, aur_error *error);
 
-/* Pictures of points: the square, the disk, and the sphere from the side and from the pole. */
+/* Images of points: the square, the disk, and the sphere from the side and from the pole. */
 
 /* Draws points in a format of report/figure.h to `path` ("-": standard output), whole or not at all. A
  * point's area goes with its weight. The square has v upwards; a point set on the cube shows its first two
@@ -52,7 +52,7 @@ aur_result cli_parse_symmetry(const char *text, aur_domain domain, cli_symmetry 
 aur_result cli_draw_points(const char *path, const char *format, const aur_points_view *points,
                            aur_error *error);
 
-/* The density that a picture's brightness (Rec. 709 luminance) makes; returns the exit status. */
+/* The density that an image's brightness (Rec. 709 luminance) makes; returns the exit status. */
 int cli_read_density(const char *path, aur_density_image **density);
 
 /* What `aureole info` describes by each library. */

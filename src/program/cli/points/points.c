@@ -12,7 +12,7 @@ enum { FIRST_PICTURE = AUR_POINTS_PLY + 1 }; /* those of figures come after the 
 
 typedef struct points_command {
     const char *path;
-    const char *warp; /* a picture's path */
+    const char *warp; /* an image's path */
     unsigned format;
     const char *symmetry;
     bool matrices; /* of rotations */

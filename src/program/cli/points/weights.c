@@ -223,7 +223,7 @@ static int weigh(const cli_weights_arguments *arguments) {
         status = print_report(arguments, &result);
     if (status == CLI_SUCCESS && arguments->plot != NULL)
         status = cli_weights_plot(arguments, &result);
-    /* Figures or a picture were asked for: the samples only where -o says. */
+    /* Figures or an image were asked for: the samples only where -o says. */
     const bool asked = arguments->path != NULL || (!arguments->report && arguments->plot == NULL);
     if (status == CLI_SUCCESS && asked)
         status = write_points(arguments, &result);

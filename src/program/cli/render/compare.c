@@ -1,4 +1,4 @@
-/* aureole compare: figures of the difference between a reference and pictures. */
+/* aureole compare: figures of the difference between a reference and images. */
 #include <aureole-render/image.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +38,7 @@ static aur_image_metric metric_at(const compare_options *options, size_t index) 
     return metric;
 }
 
-/* Says which picture an error without a file is about. */
+/* Says which image an error without a file is about. */
 static int fail_about(const char *path, aur_error *error) {
     snprintf(error->file, sizeof error->file, "%s", path);
     return cli_fail(error);

@@ -1,4 +1,4 @@
-/* aureole convert: from one picture format to another. */
+/* aureole convert: from one image format to another. */
 #include <string.h>
 
 #include "program/cli/render/luminance.h"

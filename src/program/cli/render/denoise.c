@@ -50,7 +50,7 @@ static aur_result add_channels(aur_image *to, size_t *count, const aur_image *fr
     return result;
 }
 
-/* The picture's own channels, then those beside. */
+/* The image's own channels, then those beside. */
 static aur_result put_together(const aur_image *image, const aur_image *features, aur_image **whole,
                                aur_error *error) {
     const size_t own = aur_image_channel_count(image), all = aur_image_channel_count(features);

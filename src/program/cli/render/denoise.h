@@ -27,11 +27,11 @@ aur_result cli_denoise_picture(const cli_denoise *denoise, aur_renderer *rendere
                                const aur_render_options *options, const aur_adaptive *adaptive,
                                aur_image **image, aur_error_figures *figures, aur_error *error);
 
-/* A format that has R, G and B alone leaves the noisy picture out: it goes beside, as OUT.noisy.exr. */
+/* A format that has R, G and B alone leaves the noisy image out: it goes beside, as OUT.noisy.exr. */
 aur_result cli_denoise_keep(const cli_denoise *denoise, const char *output, const aur_image *image,
                             aur_error *error);
 
-/* What is known of a picture better than by any denoiser: light that the camera sees directly, and how far
+/* What is known of an image better than by any denoiser: light that the camera sees directly, and how far
  * the values of pixels may be from the truth. */
 
 /* The first three channels of `image` less bright light that is seen directly, of which the first three

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Light is bright from so many times the picture's mean on. Chosen: reflected light is rarely brighter, and
+/* Light is bright from so many times the image's mean on. Chosen: reflected light is rarely brighter, and
  * what is less bright denoisers keep well. */
 static const double BRIGHT = 4.0;
 static const double STANDARD_ERRORS = 2.0;

@@ -1,4 +1,4 @@
-/* aureole merge: the parts of a picture, rendered one by one, to the picture. */
+/* aureole merge: the parts of an image, rendered one by one, to the image. */
 #include <aureole-render/render.h>
 #include <string.h>
 

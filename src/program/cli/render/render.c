@@ -1,4 +1,4 @@
-/* aureole render: a scene to a picture. */
+/* aureole render: a scene to an image. */
 #include <aureole-render/render.h>
 #include <aureole/ranks.h>
 #include <aureole/text.h>
@@ -138,7 +138,7 @@ static void default_output(const char *scene, const aur_render_options *part, si
 }
 
 /* The samples of the next step: all that remain, or where somebody looks on, until every pixel has 1, 2, 4,
- * ... Elsewhere two halves, where that changes no bit: their difference says how good the picture is. */
+ * ... Elsewhere two halves, where that changes no bit: their difference says how good the image is. */
 static size_t next_step(const aur_render *render, bool looked_at) {
     const size_t done = aur_render_samples(render);
     if (looked_at)
@@ -245,7 +245,7 @@ static void say_end(render_command *command, const aur_image *image) {
         aur_print(stderr, "aureole: --clamp removed %.2g %% of the light (an estimate of the bias)\n",
                   100.0 * clamped);
     if (command->denoise.wanted)
-        command->end.error = 0.0; /* it is that of the noisy picture */
+        command->end.error = 0.0; /* it is that of the noisy image */
     if (command->options.shard_count > 0)
         aur_print(stderr, "aureole: wrote the part %s; 'aureole merge' merges all parts\n", command->output);
     else

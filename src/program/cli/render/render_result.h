@@ -30,19 +30,19 @@ typedef struct cli_render_summary {
 /* On standard output, for programs. */
 aur_result cli_print_json(const cli_render_summary *summary, aur_error *error);
 
-/* What an interrupted render has goes beside the picture, as OUT.partial.exr, or render.partial.exr where the
- * picture was to go to standard output. */
+/* What an interrupted render has goes beside the image, as OUT.partial.exr, or render.partial.exr where the
+ * image was to go to standard output. */
 void cli_write_partial(const char *wanted, const aur_image *image);
-/* The standard error that the film's steps tell (aur_film_error), relative to the mean of its picture; 0
- * where they are too few, or the picture is black. */
+/* The standard error that the film's steps tell (aur_film_error), relative to the mean of its image; 0
+ * where they are too few, or the image is black. */
 double cli_relative_error(const aur_film *film);
 
 /* Of an image with channels clamped.R, .G, .B: the part of all light that a limit took away; else 0. */
 double cli_clamped_part(const aur_image *image);
-/* The last line: where the picture is and how good it is. Warns before it of a black picture, which nobody
+/* The last line: where the image is and how good it is. Warns before it of a black image, which nobody
  * wants. */
 void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end);
-/* Reports on a black picture what clip planes have cut off. */
+/* Reports on a black image what clip planes have cut off. */
 void cli_explain_black(const aur_scene *scene, const aur_image *image);
 
 /* What `aureole render` keeps of a long render: checkpoints to go on from. */
@@ -78,7 +78,7 @@ aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, 
  * before the render is destroyed. */
 void cli_checkpoint_end(cli_checkpoint *checkpoint, bool good);
 
-/* What `aureole render` shows of a picture while it is rendered. */
+/* What `aureole render` shows of an image while it is rendered. */
 
 typedef struct cli_watch {
     const char *serve;    /* "", PORT or HOST:PORT; NULL: there is no page */
@@ -90,7 +90,7 @@ typedef struct cli_watch {
 
 extern const cli_option cli_watch_options[]; /* cli_watch */
 
-/* Whether the render goes in steps, so that the whole picture is seen soon. */
+/* Whether the render goes in steps, so that the whole image is seen soon. */
 static inline bool cli_watch_is_asked(const cli_watch *watch) {
     return watch->serve != NULL || watch->display != NULL;
 }
@@ -107,10 +107,10 @@ aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *erro
  */
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress);
 
-/* From now on there is a picture to see, until cli_watch_hide; one of `render` and `ask` is NULL. */
+/* From now on there is an image to see, until cli_watch_hide; one of `render` and `ask` is NULL. */
 void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adaptive *adaptive);
 void cli_watch_hide(cli_watch *watch);
-/* Renders so many samples more, or for 0 all that remain, and tells what they make of the picture. */
+/* Renders so many samples more, or for 0 all that remain, and tells what they make of the image. */
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error);
 
 /* All has ended as `result` and `error` say, with `image` or NULL. */
@@ -138,7 +138,7 @@ typedef struct cli_surroundings {
     bool quiet, json, verbose;
 } cli_surroundings;
 
-/* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
+/* Renders what was asked for. *image is the image; CANCELLED by an interrupt leaves what there is of it, or
  * NULL; *made is to be destroyed in every case. The last line, unless `quiet`, says how good it is; where
  * `json` is asked for, standard output does so for programs. */
 /* The error of an image of half of the samples, denoised. */
@@ -148,14 +148,14 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
                              const cli_target *target, const cli_surroundings *beside, aur_adaptive **made,
                              aur_image **image, aur_error *error);
 
-/* The error of a picture against a reference while it is rendered. */
+/* The error of an image against a reference while it is rendered. */
 
 typedef struct cli_errors cli_errors;
 
 /* Reads the reference. Prints what is wrong and returns NULL. */
 cli_errors *cli_errors_create(const char *reference);
 void cli_errors_destroy(cli_errors *errors); /* NULL is allowed */
-/* Notes the error of what there is of the picture. */
+/* Notes the error of what there is of the image. */
 aur_result cli_errors_note(cli_errors *errors, const aur_render *render, aur_error *error);
-/* Writes samples a pixel, samples, rays, CPU seconds, RMSE and relative RMSE of what was noted as CSV. */
+/* Writes samples per pixel, samples, rays, CPU seconds, RMSE and relative RMSE of what was noted as CSV. */
 aur_result cli_errors_write(const cli_errors *errors, const char *path, aur_error *error);

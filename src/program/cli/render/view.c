@@ -1,4 +1,4 @@
-/* aureole view: pictures in a page that a browser opens. */
+/* aureole view: images in a page that a browser opens. */
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>

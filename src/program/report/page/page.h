@@ -25,7 +25,7 @@ aur_result report_page_end(FILE *page, aur_error *error);
 aur_result report_page_table(FILE *page, const report_table *table, const char *name, size_t most,
                              aur_error *error);
 
-/* A picture of a viewer. */
+/* An image of a viewer. */
 typedef struct report_picture {
     const char *name;
     const aur_image *image; /* all of one viewer have one size */
@@ -34,10 +34,10 @@ typedef struct report_picture {
     bool quick;            /* soon written, in more space */
 } report_picture;
 
-/* Writes a picture as JSON that `unpack` of pictures.js takes. Errors: ARGUMENT without colour, MEMORY. */
+/* Writes an image as JSON that `unpack` of pictures.js takes. Errors: ARGUMENT without colour, MEMORY. */
 aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error);
 
-/* A viewer of pictures of one scene. `exposure` (stops) is what they are seen with first. Errors: ARGUMENT
- * for sizes that differ or a picture without colour, MEMORY. */
+/* A viewer of images of one scene. `exposure` (stops) is what they are seen with first. Errors: ARGUMENT
+ * for sizes that differ or an image without colour, MEMORY. */
 aur_result report_page_viewer(FILE *page, const char *title, double exposure, size_t count,
                               const report_picture *pictures, aur_error *error);

@@ -1,4 +1,4 @@
-/* Pictures in a page: half floats, deflated, as text. */
+/* Images in a page: half floats, deflated, as text. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>
@@ -60,7 +60,7 @@ static void lay_out(const report_picture *picture, const size_t *channels, size_
         bytes[i] = (unsigned char)(bytes[i] - bytes[i - 1]);
 }
 
-/* A picture whose three channels are equal is kept as one. */
+/* An image whose three channels are equal is kept as one. */
 static bool is_grey(const aur_image *image, const size_t channels[3]) {
     const size_t pixels = aur_image_width(image) * aur_image_height(image);
     const size_t stride = aur_image_channel_count(image);

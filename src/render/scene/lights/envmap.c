@@ -1,4 +1,4 @@
-/* Light from beyond the scene, from a picture. */
+/* Light from beyond the scene, from an image. */
 #include "render/scene/lights/envmap.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Light from a picture around the scene: the tables that directions are drawn and radiance is looked up by.
+/* Light from an image around the scene: the tables that directions are drawn and radiance is looked up by.
  */
 #pragma once
 
@@ -13,14 +13,14 @@ typedef float aur_texel __attribute__((vector_size(16)));
 
 typedef struct aur_envmap_kernels aur_envmap_kernels;
 
-/* A latitude-longitude picture, +y up. Its values stand at azimuths (i + 1/2) / width and, from pole to pole,
+/* A latitude-longitude image, +y up. Its values stand at azimuths (i + 1/2) / width and, from pole to pole,
  * at polar angles j / rows, and are interpolated between: each patch lies between four of them. */
 typedef struct aur_envmap {
     size_t width, rows;
     aur_texel *texels; /* [rows + 1][width + 1]: the first column stands at the end once more */
     float *heights;    /* [rows + 1], the cosines of the rows' polar angles */
     float density;     /* of directions, a steradian, over the luminance that they are drawn by */
-    aur_frame frame;   /* the world's directions of the picture's axes */
+    aur_frame frame;   /* the world's directions of the image's axes */
     aur_patches patches;
     const aur_envmap_kernels *kernels;
 } aur_envmap;
@@ -38,7 +38,7 @@ typedef struct aur_envmap_places {
 } aur_envmap_places;
 
 /* The arithmetic of sixteen directions, for each instruction set; the bits are the same for each, and those
- * of one direction alone. Lanes of no meaning must have a place in the picture, too. */
+ * of one direction alone. Lanes of no meaning must have a place in the image, too. */
 struct aur_envmap_kernels {
     /* Moves s and w, uniform in the patch whose corners have these luminances, to what is drawn there; sets
      * t, and the world's direction. */

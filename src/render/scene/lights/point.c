@@ -127,7 +127,7 @@ static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, 
     return AUR_OK;
 }
 
-/* The factor of a spot's picture in a direction from it. */
+/* The factor of a spot's image in a direction from it. */
 static aur_vector picture_at(const point_light *self, aur_vector direction) {
     if (self->picture.texture == NULL)
         return (aur_vector){1.0f, 1.0f, 1.0f};

@@ -1,4 +1,4 @@
-/* A picture thrown into the scene from a point, through the lens of a pinhole camera. */
+/* An image thrown into the scene from a point, through the lens of a pinhole camera. */
 #include <stdlib.h>
 
 #include "render/scene/emitter.h"
@@ -7,9 +7,9 @@
 
 typedef struct projector {
     aur_transform to_world, to_local; /* of coordinates that count from the scene's origin, when prepared */
-    aur_frame frame;                  /* the camera's axes, unit: x is the left of the picture */
+    aur_frame frame;                  /* the camera's axes, unit: x is the left of the image */
     aur_vector position;
-    float half_width, half_height; /* of the picture at z = 1 */
+    float half_width, half_height; /* of the image at z = 1 */
     float scale;
 } projector;
 
@@ -79,7 +79,7 @@ static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bound
     aur_vector_to_doubles(self->frame.z, bounds->axis);
 }
 
-/* radiance / pdf is what falls on a surface that faces the projector: the picture's over the square of the
+/* radiance / pdf is what falls on a surface that faces the projector: the image's over the square of the
  * depth and the cosine to the axis, by which a plane across the axis is lit evenly. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const projector *const self = emitter->data;

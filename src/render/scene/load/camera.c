@@ -62,7 +62,7 @@ static const aur_row *const film_rows[] = {&hdrfilm, &ldrfilm};
 
 const aur_table aur_film_table = {.kind = "film", .summary = "image sizes", AUR_TABLE_ROWS(film_rows)};
 
-/* The part of the picture that is to be rendered. */
+/* The part of the image that is to be rendered. */
 static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
                            aur_error *error) {
     const int64_t wide = p->crop_width < 0 ? p->width : p->crop_width;
@@ -214,7 +214,7 @@ static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, 
                                        "its sensors must stand in one medium, not in several");
         if (i > 0 && scene->parts[i]->descriptor->factor != scene->parts[0]->descriptor->factor)
             return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
-                                       "irradiance meters cannot stand beside other sensors");
+                                       "irradiance meters cannot be combined with other sensors");
         scene->sensor.medium = here;
     }
     return AUR_OK;

@@ -24,7 +24,7 @@ aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **o
     return AUR_OK;
 }
 
-/* Replaces a picture's `filename` by the path under which it can be read, unless a model has it in memory. */
+/* Replaces an image's `filename` by the path under which it can be read, unless a model has it in memory. */
 static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters) {
     for (size_t i = 0; i < parameters->count; ++i) {
         aur_parameter *const item = &parameters->items[i];
@@ -43,7 +43,7 @@ static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters)
     return AUR_OK;
 }
 
-/* Says what the reader of a picture noted, and which values are changed. */
+/* Says what the reader of an image noted, and which values are changed. */
 static void warn_of_image(const aur_loader *self, const aur_image *image, const char *name) {
     size_t channels[3], found[3] = {0, 0, 0};
     const aur_location where = {.file = name};
@@ -61,7 +61,7 @@ static void warn_of_image(const aur_loader *self, const aur_image *image, const 
                     "%zu negative values are read as 0, but as heights of a bumpmap as they are", found[2]);
 }
 
-/* The picture goes to its texture as an object. The last one is kept: textures beside each other often take
+/* The image goes to its texture as an object. The last one is kept: textures beside each other often take
  * channels of one, as those of glTF do. */
 static aur_result add_image(aur_loader *self, aur_parameters *parameters) {
     const aur_parameter *const name = aur_parameters_find(parameters, "filename");

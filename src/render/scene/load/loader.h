@@ -28,7 +28,7 @@ struct aur_loader {
     const aur_xml_node *top;      /* the child of <scene> that is being built */
     const aur_xml_node *node;     /* the node, that one or one inside it, whose builder runs */
     bool said_unpolarized;        /* that light is, which is said once */
-    aur_image *image;             /* the last picture of a texture, or NULL */
+    aur_image *image;             /* the last image of a texture, or NULL */
     char *image_name;
     aur_location deep_integrator; /* of one inside another that holds one itself; file NULL: none */
     size_t depth;                 /* objects that are being built, each inside the one before */
@@ -51,7 +51,7 @@ aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const
 aur_result aur_loader_medium(aur_loader *self, aur_parameters *parameters, const char *name, void **medium);
 /* Whether a <shape> of this type is made of others: a group or an instance. */
 bool aur_is_shape_of_shapes(const char *plugin);
-/* Forgets the last picture. */
+/* Forgets the last image. */
 void aur_loader_drop_image(aur_loader *self);
 /* Makes room for one more pointer in one of the scene's arrays, `array` being its address. */
 aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_t *capacity);

@@ -79,7 +79,7 @@ typedef struct aur_bsdf_lobe {
     bool transmits;    /* light may come from the other side than the view's */
     unsigned sides;    /* that it may be seen from */
     float exponent;
-    /* Of a sampled lobe that is nothing but mirroring facets of the GGX distribution, equally rough
+    /* Of a sampled lobe that is only mirroring facets of the GGX distribution, equally rough
      * everywhere and both ways: its alpha; else 0. It is drawn by u[1] and u[2] alone. */
     float ggx_alpha;
     /* NULL, or what the power lacks of the lobe, of |light.z|: directions are drawn by the power and weighed
@@ -140,7 +140,7 @@ struct aur_bsdf {
     bool textured;             /* something varies over the surface, here or in a nested BSDF */
     bool bumpy;                /* asks for a point's tangents, here or in a nested BSDF */
     aur_attributes attributes; /* of meshes, that it reads, here or in a nested BSDF */
-    bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
+    bool plain_diffuse;        /* only diffuse reflection, the same at every point of a surface */
     bool passes;               /* may let light straight through */
 };
 

@@ -11,7 +11,7 @@ typedef struct mixture {
     size_t number[2][AUR_BSDF_LOBE_CAPACITY]; /* that the parts' lobes have in the mixture */
 } mixture;
 
-/* --- lobes: those of the parts that differ in nothing but coefficient and side become one */
+/* --- lobes: those of the parts that differ in only coefficient and side become one */
 
 static bool are_alike(const aur_bsdf_lobe *a, const aur_bsdf_lobe *b) {
     if (a->shape == AUR_LOBE_SHAPE_SPECULAR && a->way == AUR_LOBE_WAY_SEPARATE)

@@ -1,4 +1,4 @@
-/* Materials whose normal is another than the surface's: from a picture of normals, or of heights. The nested
+/* Materials whose normal is another than the surface's: from an image of normals, or of heights. The nested
  * material is asked in the frame about the perturbed normal, by the same formulas as Mitsuba 3. */
 #include "render/scene/materials/texture.h"
 

@@ -23,7 +23,7 @@ struct aur_texture {
     void *data;
     aur_vector mean;           /* over the unit square */
     float maximum;             /* of any channel anywhere; 0: not known */
-    float aspect;              /* width over height of a picture; 0: not one */
+    float aspect;              /* width over height of an image; 0: not one */
     aur_attributes attributes; /* of meshes, that it reads, here or in a nested texture */
 };
 
@@ -60,7 +60,7 @@ static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, fl
                             .v = map->m[3] * u + map->m[4] * v + map->m[5]};
 }
 
-/* A picture's red, green and blue, or grey three times, the top row first; *rgb is malloc'ed. Infinite values
+/* An image's red, green and blue, or grey three times, the top row first; *rgb is malloc'ed. Infinite values
  * become the largest half, 65504; NaN and negative ones 0. Errors: ARGUMENT for channels that are no colour,
  * MEMORY. */
 struct aur_image;

@@ -1,4 +1,4 @@
-/* A picture; (0, 0) is its top left corner and (1, 1) its bottom right one. */
+/* An image; (0, 0) is its top left corner and (1, 1) its bottom right one. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -23,7 +23,7 @@ typedef struct bitmap {
     aur_uv_keys uv;
 } bitmap;
 
-/* What sRGB stores for a linear value: undoes the reader's decoding for `raw` pictures of 8 bits. */
+/* What sRGB stores for a linear value: undoes the reader's decoding for `raw` images of 8 bits. */
 static float encode(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
 }
@@ -89,7 +89,7 @@ static aur_result choose_channels(const bitmap *self, const aur_image *image, si
     return result;
 }
 
-/* What the keys make of the picture. Colours are not negative, heights may be. */
+/* What the keys make of the image. Colours are not negative, heights may be. */
 static aur_result take_texels(bitmap *self, const aur_image *image, aur_error *error) {
     size_t channel[3];
     self->width = image->width;
@@ -150,7 +150,7 @@ static const aur_key keys[] = {
 
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
     bitmap *const self = texture->data;
-    /* A model's picture, which is in memory. */
+    /* A model's image, which is in memory. */
     const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
     aur_image *image = NULL;
     if (held != NULL && (held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0))

@@ -1,4 +1,4 @@
-/* Several cameras, whose pictures stand side by side on one film. */
+/* Several cameras, whose images stand side by side on one film. */
 #include <string.h>
 
 #include "render/scene/sensor.h"

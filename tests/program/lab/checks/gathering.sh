@@ -1,4 +1,4 @@
-# Patterns in pictures: final gathering and ambient occlusion.
+# Patterns in images: final gathering and ambient occlusion.
 gather=$results/marques-2013-gather/marques-2013-gather
 # A row a component and pattern, each interval about its value, and Sobol's error above spherical Fibonacci's.
 awk -F, '!/^#/ && NR > 1 { ++rows; if (!($5 <= $4 && $4 <= $6 && $4 > 0)) bad = 1; rmse[$1 "/" $2] = $4 }
@@ -7,7 +7,7 @@ awk -F, '!/^#/ && NR > 1 { ++rows; if (!($5 <= $4 && $4 <= $6 && $4 > 0)) bad = 
   "$gather.csv" || fail "the table"
 grep -q '^# bias of finalgather against path' "$gather.csv" || fail "the bias"
 for picture in diffuse-reference glossy-sobol whole_light-finalgather whole_light-path; do
-  [ -s "$gather-$picture.png" ] || fail "no picture $picture"
+  [ -s "$gather-$picture.png" ] || fail "no image $picture"
 done
 
 # Table 1: 2 components x 2 maps x 2 rivals of spherical Fibonacci, each interval about its ratio; no rival is better than
@@ -31,4 +31,4 @@ awk -F, '/^#/ || $1 == "pattern" { next }
            if ($2 == 64 && $1 != "random" && !($7 < 0.6)) bad = 1
            if ($3 == "pixel" ? !($8 > 0.7 && $8 < 1.3) : !($8 > 1.2)) bad = 1 }
          END { exit !(rows == 20 && !bad) }' "$results/schretter-2012-fig5/schretter-2012-fig5.csv" || fail "the table of fig. 5"
-[ -s "$results/schretter-2012-fig5/schretter-2012-fig5-16_samples,_randomised_for_each_pixel-golden-set.exr" ] || fail "no picture of fig. 5"
+[ -s "$results/schretter-2012-fig5/schretter-2012-fig5-16_samples,_randomised_for_each_pixel-golden-set.exr" ] || fail "no image of fig. 5"

@@ -43,7 +43,7 @@ awk -F, '!/^#/ && NR > 1 { ++rows; key = $1 $2 $4
                            else { ratio = plain[key] / $5; if ($1 == "cube" ? (ratio * ratio / 12 - 1) ^ 2 > 1e-18 : $2 == "halton" && ratio < 4) bad = 1 } }
          END { exit !(rows == 48 && !bad) }' "$results/keller-1994-boxes/keller-1994-boxes.csv" || fail "Keller, the boxes"
 awk -F, '!/^#/ && NR > 1 { ++rows; if ($10 != 1 || $7 > 15 || $7 < -15) bad = 1 } END { exit !(rows == 3 && !bad) }' \
-  "$results/keller-1994-figure1/keller-1994-figure1.csv" || fail "Keller, the pictures"
+  "$results/keller-1994-figure1/keller-1994-figure1.csv" || fail "Keller, the images"
 # Permuted lights take fewer rays, sharing takes few more, adaptive oversampling fewer for .03; and a mirror changes nothing.
 awk -F, '!/^#/ && NR > 1 { rays[$1 $3] = $5; ++rows }
      END { exit !(rows == 13 && rays["permuted lightspermuted"] < 0.3 * rays["permuted lightsall lights"] &&

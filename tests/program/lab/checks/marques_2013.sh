@@ -28,11 +28,11 @@ awk -F, '/^#/ || /^scene/ { next } { ++rows; if (!($6 > 0 && $7 <= $6 && $6 <= $
     if ($5 == 16) first[$1] = $6; if ($5 == 64 && !($6 < first[$1])) bad = 1 }
   END { exit bad || rows != 42 }' fig4.txt || fail "fig. 4"
 slopes fig4.txt slopes.txt 1 || fail "slopes of fig. 4"
-# Figs 5 to 7: 7 patterns in 2 windows, each with its picture, and a sheet a window.
+# Figs 5 to 7: 7 patterns in 2 windows, each with its image, and a sheet a window.
 awk -F, '/^#/ || $1 == "scene" { next } { ++rows; if (!($6 > 0 && $8 >= $6)) bad = 1 } END { exit bad || rows != 14 }' \
   "$(of closeups)" || fail "close-ups"
 for picture in sheet,_cornell-box,_block cornell-box,_hare-sobol_concentric cornell-box,_hare-reference cornell-box; do
-  [ -s "$results/marques-2013-closeups/marques-2013-closeups-$picture.png" ] || fail "no picture $picture"
+  [ -s "$results/marques-2013-closeups/marques-2013-closeups-$picture.png" ] || fail "no image $picture"
 done
 # Fig. 1: two quantities at three counts.
 awk -F, '/^#/ || $1 == "pattern" { next } { ++rows; if (!($4 > 0 && $5 > 0 && $6 > 0 && $7 <= $6 && $6 <= $8)) bad = 1 }

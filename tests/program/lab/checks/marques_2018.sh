@@ -24,10 +24,10 @@ awk -F, '$2 == "smooth" && $8 != "nan" { worst[$4 "/" $5] = $8; rows++ }
         exit bad || rows < 10 }' "$weights-ggx/marques-2018-ggx.csv" || fail "GGX lobes"
 awk -F, '$1 == "indirect" { rows++; if (!($4 > 0 && $6 <= $5 && $5 <= $7 && $8 < 5 && $8 > -5)) bad = 1 }
   END { exit bad || rows != 2 }' "$weights-metal/marques-2018-metal.csv" || fail "rough metals"
-# Weights in pictures, few pixels and scramblings: every row is there, and weights help random samples.
+# Weights in images, few pixels and scramblings: every row is there, and weights help random samples.
 awk -F, '$1 == "Cornell box" && $2 == "random" { rows++; if (!($5 > 0)) bad = 1; rmse[$4] = $5 }
   END { exit bad || rows != 6 || !(rmse["OSWA"] < rmse["equal"] && rmse["OSW"] < rmse["equal"]) }' \
-  "$weights-table1/marques-2018-table1.csv" || fail "weights in pictures"
+  "$weights-table1/marques-2018-table1.csv" || fail "weights in images"
 # Figures 2 to 5: errors are below their bounds, and what the paper says of five samples holds.
 awk -F, '!/^#/ && NR > 1 { rows++; if (!($3 <= $4 && $5 <= $6 && $6 < $4)) bad = 1 } END { exit bad || rows != 12 }' \
   "$weights-functions/marques-2018-functions.csv" || fail "functions of norm 1"
@@ -47,7 +47,7 @@ awk -F, '!/^#/ && NR > 1 { over[$4 " " $3] = $6 }
                over["20 45 degrees: clipped"] > -0.1 && over["20 128 angles"] < 0.1 * over["20 32 angles"] &&
                over["20 32 angles"] < 0.1 && over["20 32 angles clipped"] < 0.1) }' \
   "$weights-beyond/marques-2018-beyond.csv" || fail "beyond the paper"
-# Pictures against N: every method falls, and optimal weights leave less of Sobol samples' error.
+# Images against N: every method falls, and optimal weights leave less of Sobol samples' error.
 for figure in 7:9 8:2; do
   awk -F, -v want="${figure#*:}" 'NR > 1 && !/^#/ { rmse[$1 $2 "," $3] = $4; if ($3 > most) most = $3; name[$1 $2]
                        if (!($5 <= $4 && $4 <= $6)) bad = 1 }

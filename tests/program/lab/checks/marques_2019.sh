@@ -17,8 +17,8 @@ awk -F, '/^#/ || $1 == "item" { next } { ++rows; if ($(NF - 1) != 0) wrong = wro
 grep -q '^# eq. 23 is not the shortest at N = 5 34 233 1597 10946$' "$grids-lattice/marques-2019-lattice.csv" || fail "the errata of eq. 23"
 awk -F, '/^#/ || $1 == "figure" { next } { ++rows; if ($1 == "1c" && $(NF - 5) != 256) bad = 1 } END { exit bad || rows != 5 }' \
   "$grids-grids/marques-2019-grids.csv" || fail "grids that keep their points"
-[ -s "$grids-grids/marques-2019-grids-sphere-E-SFG,_256_points.png" ] || fail "no picture of a grid"
-# Three sizes, two lobes and five sets, and the picture of both lobes; the error of Faure's sequence in base 3 is above
+[ -s "$grids-grids/marques-2019-grids-sphere-E-SFG,_256_points.png" ] || fail "no image of a grid"
+# Three sizes, two lobes and five sets, and the image of both lobes; the error of Faure's sequence in base 3 is above
 # spherical Fibonacci's over all sizes of the diffuse lobe, by two thirds in full; base 2 has the published row.
 awk -F, '/^#/ || $1 == "figure" { next }
          { ++rows; n = NF - 8; if (!($(n + 1) <= $n && $n <= $(n + 2) && $n > 0)) bad = 1

@@ -40,7 +40,7 @@ static inline void aur_scan_blanks(aur_scanner *scanner) {
 void aur_scan_line_end(aur_scanner *scanner);
 /* Skips the rest of the line and its end. */
 void aur_scan_next_line(aur_scanner *scanner);
-/* Whether nothing but a comment is left in the line. */
+/* Whether only a comment is left in the line. */
 static inline bool aur_scan_line_done(aur_scanner *scanner) {
     aur_scan_blanks(scanner);
     return aur_is_line_end(*scanner->at) || *scanner->at == '\0' || *scanner->at == '#';

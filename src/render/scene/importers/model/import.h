@@ -30,9 +30,9 @@ aur_result aur_named_read(aur_named_files *self, const char *name, char **used, 
 /* The same of one that the model can do without. */
 aur_result aur_named_read_part(aur_named_files *self, const char *name, char **used, size_t *size,
                                char **data, aur_error *error);
-/* The name under which a picture can be read, NULL for none. */
+/* The name under which an image can be read, NULL for none. */
 aur_result aur_named_find_picture(aur_named_files *self, const char *name, char **used, aur_error *error);
-/* Whether the bytes are a picture of a known format; if not, it is reported under this name. */
+/* Whether the bytes are an image of a known format; if not, it is reported under this name. */
 bool aur_named_is_picture(aur_named_files *self, const char *name, size_t size, const char *data);
 void aur_named_warn(const aur_named_files *self);
 
@@ -60,7 +60,7 @@ aur_result aur_model_surround(const aur_model_source *source, const aur_import_c
 
 /* Materials of meshes as <bsdf>s. */
 
-/* Replaces the names of a material's pictures by those under which they can be read, and removes the others.
+/* Replaces the names of a material's images by those under which they can be read, and removes the others.
  */
 aur_result aur_mesh_material_find(aur_mtl_material *material, aur_named_files *named, aur_error *error);
 /* What the file does not say is grey, 0.6, without highlights, or the colours of vertices. */

@@ -31,7 +31,7 @@ static bool has(const aur_mtl_material *material, aur_mtl_map map) {
     return material->pictures[map].name != NULL;
 }
 
-/* How a picture becomes a <texture>. */
+/* How an image becomes a <texture>. */
 typedef struct use {
     aur_mtl_map map;
     const char *name, *channel;
@@ -52,7 +52,7 @@ static void add_texture(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_ma
                       how->factor[2]);
 }
 
-/* A colour: by its picture, times a factor, or alone. */
+/* A colour: by its image, times a factor, or alone. */
 static void add_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
                       const use *how) {
     if (has(material, how->map))
@@ -62,7 +62,7 @@ static void add_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_mate
                           how->factor[2]);
 }
 
-/* A share of the light: by its picture, times a factor, or a number. */
+/* A share of the light: by its image, times a factor, or a number. */
 static void add_share(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
                       const use *how) {
     if (has(material, how->map))

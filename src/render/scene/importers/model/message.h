@@ -12,9 +12,9 @@ typedef enum aur_import_kind {
     AUR_IMPORT_ANSWER,    /* to OPEN, FIND and PICTURE; value: whether it is there; bytes: what it is */
     /* From the program. */
     AUR_IMPORT_OPEN,    /* a name: asks for the bytes of a file that the model names, or of its own */
-    AUR_IMPORT_FIND,    /* a name: asks under which name a picture can be read */
+    AUR_IMPORT_FIND,    /* a name: asks under which name an image can be read */
     AUR_IMPORT_MESH,    /* a part: a PLY file. Parts are numbered as they come */
-    AUR_IMPORT_PICTURE, /* a part: a picture file; asks whether it can be read: if not, it is no part */
+    AUR_IMPORT_PICTURE, /* a part: an image file; asks whether it can be read: if not, it is no part */
     AUR_IMPORT_NOTE,    /* a warning */
     AUR_IMPORT_FAIL,    /* value: -result; a text for a person */
     AUR_IMPORT_SCENE    /* an aur_import_camera, and records of the scene's elements; the last message */

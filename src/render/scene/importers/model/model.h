@@ -1,5 +1,5 @@
 /* Models: scenes in other formats than XML. They become elements of a tree and files in memory: meshes as PLY
- * and the pictures that a model holds. OBJ, PLY, STL and OFF are read here (mesh_model.c), others by the
+ * and the images that a model holds. OBJ, PLY, STL and OFF are read here (mesh_model.c), others by the
  * library assimp in a program (src/program/import) that is started for each. */
 #pragma once
 

@@ -7,7 +7,7 @@
 
 #include "points/base/error.h"
 
-/* Pictures of a material. */
+/* Images of a material. */
 typedef enum aur_mtl_map {
     AUR_MTL_DIFFUSE,   /* map_Kd */
     AUR_MTL_EMISSION,  /* map_Ke */

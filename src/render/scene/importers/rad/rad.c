@@ -40,7 +40,7 @@ static const aur_rad_row *find_row(aur_rad_word type) {
 }
 
 bool aur_rad_is_text(size_t size, const char *data) {
-    static const char compiled[] = "#?RADIANCE"; /* octrees, meshes, pictures */
+    static const char compiled[] = "#?RADIANCE"; /* octrees, meshes, images */
     if (size >= sizeof compiled - 1 && memcmp(data, compiled, sizeof compiled - 1) == 0)
         return false;
     aur_rad self = {.at = data, .end = data + size, .line = 1};
