@@ -29,7 +29,7 @@ typedef struct study {
     size_t side, seeds, reference_directions, photons;
     aur_image *reference; /* NULL: not made yet */
     double mean;          /* of the reference */
-    double *room;         /* two images of one channel */
+    double *room;         /* two pictures of one channel */
     size_t compared, less, same;
 } study;
 
@@ -93,7 +93,7 @@ static aur_result need_reference(study *s, aur_error *error) {
     return result;
 }
 
-/* Mean square errors after each blur over the reference's mean, one a seed; the first image is written. */
+/* Mean square errors after each blur over the reference's mean, one a seed; the first picture is written. */
 static aur_result measure(study *s, const char *set, size_t directions, const char *form,
                           double values[BLURS * MOST_SEEDS], aur_error *error) {
     char key[160], view[120], keys[48];

@@ -1,7 +1,7 @@
-/* What Keller 1994 adds to its algorithm in section 4, each with a number and an image: one light a hit
+/* What Keller 1994 adds to its algorithm in section 4, each with a number and a picture: one light a hit
  * point by permutations, samples shared by neighbouring pixels, fixed and adaptive oversampling.
  *
- * Settings are compared on the same solution by the RMSE of their images against two independent references
+ * Settings are compared on the same solution by the RMSE of their pictures against two independent references
  * of very many samples, over seeds, and by rays: `saved_rays` is how many times the rays the feature's first
  * setting needs for the same error, if squares of errors fall as rays are added. */
 #include <math.h>
@@ -27,7 +27,7 @@ typedef struct feature {
     const char *keys;      /* of all its settings */
     const char *reference; /* and of the references alone */
     size_t reference_samples, quick_reference_samples;
-    size_t finer; /* pixels a pixel of the other images, along either axis */
+    size_t finer; /* pixels a pixel of the other pictures, along either axis */
     setting settings[MOST_SETTINGS];
 } feature;
 
@@ -40,7 +40,7 @@ static const feature features[] = {
      8,
      1,
      {{"all lights", "light_sampling=all", 16}, {"permuted", "light_sampling=permuted", 16}}},
-    {"sharing in a coarse image",
+    {"sharing in a coarse picture",
      2,
      "component=indirect",
      "share_neighbours=false,gather_samples=64",
@@ -141,7 +141,7 @@ static aur_result need_references(feature_study *s, aur_error *error) {
     return result;
 }
 
-/* Mean square errors, one a seed, then rays and samples per pixel. */
+/* Mean square errors, one a seed, then rays and samples a pixel. */
 static aur_result measure(feature_study *s, const setting *of, double values[MOST_SEEDS + 2],
                           aur_error *error) {
     char key[120];

@@ -1,4 +1,4 @@
-/* The three images of Keller 1994 (figure 1): living room, office and teapot as the paper renders them, by
+/* The three pictures of Keller 1994 (figure 1): living room, office and teapot as the paper renders them, by
  * adaptive termination, Halton points of a pixel and permuted lights, beside path tracing of the same scenes,
  * which is no radiosity and knows no triangles. What is published of them is how many triangles they have. */
 #include <math.h>
@@ -16,7 +16,7 @@ static const char *const columns[] = {"scene",        "triangles", "published", 
 /* In the order of the scenes. */
 static const double triangles[KELLER_SCENES] = {12, 3604, 276, 1572};
 
-/* What the image is made from: as many paths as epsilon takes. */
+/* What the picture is made from: as many paths as epsilon takes. */
 static aur_result solve(const lab_run *run, const aur_scene *scene, double epsilon,
                         aur_radiosity_description *found, aur_error *error) {
     aur_radiosity *radiosity = NULL;
@@ -111,7 +111,7 @@ static aur_result run(lab_run *run, aur_error *error) {
             result = render_scene(run, s, &stage, error);
         lab_stage_close(&stage);
     }
-    lab_note(run, "rmse_percent: of the image's pixels, from two independent path traced images, whose "
+    lab_note(run, "rmse_percent: of the picture's pixels, from two independent path traced pictures, whose "
                   "own noise drops out");
     return result;
 }
@@ -124,7 +124,7 @@ const lab_experiment lab_keller_1994_figure1 = {
     .measured = "triangles",
     .published = "published",
     .factor = 1.5,
-    .takes_no_set = "it makes images",
+    .takes_no_set = "it makes pictures",
     .seconds = 30,
     .quick_seconds = 1,
     .run = run,

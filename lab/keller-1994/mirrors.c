@@ -1,6 +1,6 @@
 /* Mirrors in Keller 1994 (section 4): whatever hits one is reflected without changing its radiance. In the
  * analytic setting the answer 1/2 stays when a wall of the cube becomes a mirror, and so the deviation of the
- * others can be compared with that of the closed cube; an image of a room with a mirror is compared with
+ * others can be compared with that of the closed cube; a picture of a room with a mirror is compared with
  * path tracing. */
 #include <math.h>
 #include <string.h>
@@ -148,7 +148,7 @@ static const report_plot plots[] = {
 const lab_experiment lab_keller_1994_mirrors = {
     .name = "keller-1994-mirrors",
     .reproduces = "Keller 1994, mirrors (section 4)",
-    .summary = "the analytic answer beside a mirror, and an image with one",
+    .summary = "the analytic answer beside a mirror, and a picture with one",
     .columns = columns,
     .plots = plots,
     .takes_no_set = "it compares walls",

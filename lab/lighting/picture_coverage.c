@@ -1,4 +1,4 @@
-/* How often the intervals of images' errors hold, of fixed rounds and of renders that an error asked has
+/* How often the intervals of pictures' errors hold, of fixed rounds and of renders that an error asked has
  * stopped, and those of measures of randomised sets. */
 #include <aureole-render/adaptive.h>
 #include <aureole/pointset.h>
@@ -9,7 +9,7 @@
 
 #include "coverage.h"
 
-/* Pixels of a side, and values of an image. */
+/* Pixels of a side, and values of a picture. */
 enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
 
 typedef struct picture {
@@ -53,7 +53,7 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     return result;
 }
 
-/* The image's root mean square error, relative to its mean: held when it is within the interval, and when
+/* The picture's root mean square error, relative to its mean: held when it is within the interval, and when
  * it is below the interval's end, which is what a render to an error goes by. */
 static void count_picture(const picture *made, const float *truth, lab_tally t[2]) {
     double squares = 0.0;
@@ -157,7 +157,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 const lab_experiment lab_picture_coverage = {
     .name = "picture-coverage",
     .reproduces = "docs/lighting-accuracy.md",
-    .summary = "how often intervals of images' errors and of measures of randomised sets hold",
+    .summary = "how often intervals of pictures' errors and of measures of randomised sets hold",
     .columns = lab_tally_of_samples,
     .takes_no_set = "it judges intervals of the program's own points",
     .seconds = 80,

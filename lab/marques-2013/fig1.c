@@ -1,4 +1,4 @@
-/* Four plates under seven lights by spherical Fibonacci and Larcher-Pillichshammer points: images, the
+/* Four plates under seven lights by spherical Fibonacci and Larcher-Pillichshammer points: pictures, the
  * ratio of RMSEs and of the largest errors (Marques 2013, fig. 1).
  *
  * The paper does not say how many directions there are, so that three numbers are tried. Mean square errors
@@ -49,7 +49,7 @@ static aur_result need_references(study *s, aur_error *error) {
     return result != AUR_OK ? result : lab_picture(s->run, &place, s->references[0], error);
 }
 
-/* Both quantities, one value a randomisation; the image of the first is written. */
+/* Both quantities, one value a randomisation; the picture of the first is written. */
 static aur_result measure(study *s, const char *set, size_t directions,
                           double values[QUANTITIES * MOST_SEEDS], aur_error *error) {
     char key[120];
@@ -139,7 +139,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "ratio",
-     .title = "Over spherical Fibonacci points, against directions per pixel",
+     .title = "Over spherical Fibonacci points, against directions a pixel",
      .x = "directions",
      .y = "ratio",
      .low = "low",

@@ -3,7 +3,7 @@
  *
  * Intervals are over independent randomisations; those of slopes are of the scatter about the line. A slope
  * has some hundredths to either side with four randomisations, where the paper's claims tell -3/4 from -1/2.
- * The legend of the paper's figure is an image, so that only its words can be asked. */
+ * The legend of the paper's figure is a picture, so that only its words can be asked. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -184,7 +184,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE of the indirect light against directions per pixel",
+     .title = "RMSE of the indirect light against directions a pixel",
      .x = "directions",
      .y = "rmse",
      .low = "rmse_low",

@@ -1,7 +1,7 @@
 /* Spherical Fibonacci against scrambled Sobol in final gathering of the glossy Cornell box (Marques 2013,
  * section 6).
  *
- * A pattern is judged by the RMSE of its images against the same estimator with very many directions, on
+ * A pattern is judged by the RMSE of its pictures against the same estimator with very many directions, on
  * the same photon map and the same primary hits (pixel centres), for the diffuse and the glossy component of
  * the indirect light apart. Its intervals are over independent randomisations of the patterns. */
 #include <math.h>
@@ -19,8 +19,8 @@ typedef struct gather_study {
     size_t reference_directions;
     size_t scrambles; /* independent randomisations */
     size_t count_count;
-    size_t counts[4];    /* directions per pixel */
-    size_t path_samples; /* a pixel, of the path-traced image that the bias is measured against */
+    size_t counts[4];    /* directions a pixel */
+    size_t path_samples; /* a pixel, of the path-traced picture that the bias is measured against */
     size_t set_count;
     const char *sets[SET_CAPACITY];
     aur_image *reference; /* of the component that is studied; NULL: not made yet */
@@ -68,7 +68,7 @@ static aur_result need_reference(gather_study *study, const char *component, aur
     return lab_picture(study->run, &place, study->reference, error);
 }
 
-/* Mean square errors of one pattern, one value a scramble; the image of the first is written. */
+/* Mean square errors of one pattern, one value a scramble; the picture of the first is written. */
 static aur_result measure(gather_study *study, const char *component, const char *set, size_t directions,
                           double *mse, aur_error *error) {
     char key[160];
@@ -171,7 +171,7 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
             return result;
     }
     lab_note(study->run,
-             "bias of finalgather against path (%zu samples per pixel): mean %+.2f %%, RMSE of 8x8 means "
+             "bias of finalgather against path (%zu samples a pixel): mean %+.2f %%, RMSE of 8x8 means "
              "%.2f %% of the mean",
              study->path_samples, 100.0 * (values[GATHERED] / values[TRACED] - 1.0),
              100.0 * values[RMSE] / values[TRACED]);
@@ -203,7 +203,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE of the indirect light against directions per pixel",
+     .title = "RMSE of the indirect light against directions a pixel",
      .x = "directions",
      .y = "rmse",
      .low = "rmse_low",

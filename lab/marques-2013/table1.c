@@ -1,7 +1,7 @@
 /* Sobol, BNOT and Larcher-Pillichshammer points against spherical Fibonacci at 512 directions, over three
  * scenes, two components of the indirect light and two maps of the square (Marques 2013, table 1).
  *
- * The mean square error of an image x is the mean of (x - a)(x - b), where a and b are two references by the
+ * The mean square error of a picture x is the mean of (x - a)(x - b), where a and b are two references by the
  * same estimator with very many directions, on the same photon map and primary hits, independent of each
  * other and by different sets: so the references' own errors drop out and favour no set. Intervals are over
  * independent randomisations of the patterns. */

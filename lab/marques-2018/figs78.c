@@ -1,4 +1,4 @@
-/* The RMSE of rendered images against the number of samples: eight methods with their slopes and what equal
+/* The RMSE of rendered pictures against the number of samples: eight methods with their slopes and what equal
  * weights and MIS need for the error of optimal ones (Marques 2018, fig. 7), and very many samples (fig. 8).
  *
  * N counts the samples of both lobes, two thirds of them diffuse. As published, lobes are whole and what is
@@ -244,7 +244,7 @@ static aur_result run8(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE of images against the number of samples",
+     .title = "RMSE of pictures against the number of samples",
      .table = "rmse",
      .x = "n",
      .y = "rmse",
@@ -260,7 +260,7 @@ static const report_plot plots[] = {
 const lab_experiment lab_marques_2018_fig7 = {
     .name = "marques-2018-fig7",
     .reproduces = "Marques 2018, fig. 7",
-    .summary = "RMSE of images of a sphere against N, eight methods, their slopes, and samples saved",
+    .summary = "RMSE of pictures of a sphere against N, eight methods, their slopes, and samples saved",
     .columns = columns,
     .measured = "measured",
     .low = "low",
@@ -276,7 +276,7 @@ const lab_experiment lab_marques_2018_fig7 = {
 const lab_experiment lab_marques_2018_fig8 = {
     .name = "marques-2018-fig8",
     .reproduces = "Marques 2018, fig. 8",
-    .summary = "convergence of optimal weights to ten thousand random samples per pixel",
+    .summary = "convergence of optimal weights to ten thousand random samples a pixel",
     .columns = columns,
     .measured = "measured",
     .low = "low",

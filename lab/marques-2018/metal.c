@@ -1,7 +1,7 @@
-/* Optimal weights of GGX lobes in images: balls and a floor of rough metal in a room, seen from steep to
- * grazing, gathered with 32 directions per pixel by visible normals with weights p/q and with optimal weights
+/* Optimal weights of GGX lobes in pictures: balls and a floor of rough metal in a room, seen from steep to
+ * grazing, gathered with 32 directions a pixel by visible normals with weights p/q and with optimal weights
  * from tables. Judged by the RMSE over the pixels of metal against the same estimator with very many
- * directions, on the same photon map and the same primary hits; and by the mean of the image against path
+ * directions, on the same photon map and the same primary hits; and by the mean of the picture against path
  * tracing, with the photon map's bias taken away. */
 #include <math.h>
 #include <stdio.h>
@@ -144,7 +144,7 @@ static double mean_of(const aur_image *image) {
     return sum;
 }
 
-/* The mean of the image against path tracing, as many seeds of both. */
+/* The mean of the picture against path tracing, as many seeds of both. */
 static aur_result against_path(const metal_study *study, aur_error *error) {
     static const char *const integrators[] = {
         "path", "finalgather-lab:weights=osw,debias=true,rotations=4,glossy_samples=16,diffuse_samples=16,"
@@ -199,7 +199,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_marques_2018_metal = {
     .name = "marques-2018-metal",
-    .reproduces = "Marques 2018, for GGX lobes, in images",
+    .reproduces = "Marques 2018, for GGX lobes, in pictures",
     .summary = "rough metals gathered with weights p/q and with optimal ones from tables, and against path",
     .columns = columns,
     .takes_no_set = "it compares weights, not sets",

@@ -1,7 +1,7 @@
-/* Weights in rendered images: the glossy Cornell box by final gathering with 40 + 20 directions per pixel, a
+/* Weights in rendered pictures: the glossy Cornell box by final gathering with 40 + 20 directions a pixel, a
  * figure and a sphere under the sky with 50 + 25 and 64 + 32 (Marques 2018, table 1 and figs 1, 6 and 9).
  *
- * A way to weigh is judged by the RMSE of its images against the same estimator with very many directions,
+ * A way to weigh is judged by the RMSE of its pictures against the same estimator with very many directions,
  * on the same photon map and the same primary hits, over the pixels whose surface has both a diffuse and a
  * glossy lobe: elsewhere the ways hardly differ. Intervals are over independent scramblings of the patterns.
  *
@@ -99,7 +99,7 @@ static void add_row(const picture_study *study, const char *set, way which, cons
                              one.high, sqrt(picture), known != 0.0 ? known : NAN});
 }
 
-/* One scrambling; the image of the first is written. */
+/* One scrambling; the picture of the first is written. */
 static aur_result measure_one(picture_study *study, const char *set, way w, size_t scramble, double *both,
                               double *all, aur_error *error) {
     aur_image *image = NULL;
@@ -120,7 +120,7 @@ static aur_result measure_one(picture_study *study, const char *set, way w, size
     return result;
 }
 
-/* Mean square errors over the pixels with both lobes, one a scrambling, and the mean one of the images. */
+/* Mean square errors over the pixels with both lobes, one a scrambling, and the mean one of the pictures. */
 static aur_result measure(picture_study *study, const char *set, way w, double *mse, double *picture,
                           aur_error *error) {
     double values[MOST_SCRAMBLES + 1] = {0.0};
@@ -138,7 +138,7 @@ static aur_result measure(picture_study *study, const char *set, way w, double *
             seconds += study->gather.seconds / (double)study->scrambles;
         }
         char what[240];
-        snprintf(what, sizeof what, "%s, an image", key);
+        snprintf(what, sizeof what, "%s, a picture", key);
         lab_time(study->run, what, seconds);
         if (result == AUR_OK)
             result = lab_keep(study->run, key, study->scrambles + 1, values, error);
@@ -200,7 +200,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 const lab_experiment lab_marques_2018_table1 = {
     .name = "marques-2018-table1",
     .reproduces = "Marques 2018, table 1, figs 1, 6, 9",
-    .summary = "equal weights, MIS, OSW and OSWA in rendered images at the paper's counts",
+    .summary = "equal weights, MIS, OSW and OSWA in rendered pictures at the paper's counts",
     .columns = columns,
     .measured = "over_oswa",
     .low = "set_low",

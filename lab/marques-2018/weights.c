@@ -1,4 +1,4 @@
-/* Samples and their optimal weights, as images of points (Marques 2018, figs 3 to 5): a few samples chosen
+/* Samples and their optimal weights, as pictures of points (Marques 2018, figs 3 to 5): a few samples chosen
  * by hand, Sobol samples of a diffuse and a glossy lobe, and the union of both for either lobe. What the
  * paper says of the first is judged sample by sample. */
 #include <math.h>

@@ -50,7 +50,7 @@ void adaptive_count(const adaptive_study *study, const adaptive_way *way, const 
                     adaptive_counts *counts);
 aur_result adaptive_measure(adaptive_study *study, const adaptive_way *way, adaptive_found *found,
                             aur_error *error);
-/* The image, its sampling map in the colours of the levels, and beside them the first level, the last, and
+/* The picture, its sampling map in the colours of the levels, and beside them the first level, the last, and
  * a reference. */
 aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, aur_error *error);
 /* What belongs to one lobe. */

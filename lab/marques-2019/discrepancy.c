@@ -1,5 +1,5 @@
 /* Spherical cap discrepancy against the number of points (Marques 2019, fig. 9), and what the figure is said
- * to show. The rates in its legend are in an image alone; its text says N^(-3/4). */
+ * to show. The rates in its legend are in a picture alone; its text says N^(-3/4). */
 #include <math.h>
 #include <string.h>
 

@@ -169,7 +169,7 @@ static aur_result check_cells(lab_run *run, aur_error *error) {
     return result;
 }
 
-/* The images: points of the plane with 20 of them, their basis vectors, the grid moved in x and in y, and
+/* The pictures: points of the plane with 20 of them, their basis vectors, the grid moved in x and in y, and
  * the extended one. */
 static void show(lab_run *run) {
     static const char *const of_plane[] = {"figure", "what", "x", "y", NULL};

@@ -1,11 +1,11 @@
 /* A figure in the light of a studio, by final gathering with E-SFG, spherical Fibonacci, Sobol and Faure
- * points: one image of both lobes (Marques 2019, fig. 10), and the error of each lobe against the number of
+ * points: one picture of both lobes (Marques 2019, fig. 10), and the error of each lobe against the number of
  * directions (fig. 11).
  *
  * Gather rays see the surroundings alone, as in the paper. The mean square error is that against two
  * independent references, whose own errors drop out; intervals are over independent randomisations of the
- * patterns. Every pixel has a randomisation of its own, so that one image has thousands of them, and a few
- * images make an interval of 2 %. */
+ * patterns. Every pixel has a randomisation of its own, so that one picture has thousands of them, and a few
+ * pictures make an interval of 2 %. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -92,7 +92,7 @@ static void release_truth(statue_study *study) {
     }
 }
 
-/* The first seed's image at a size to be looked at, and a reference of 512 directions. */
+/* The first seed's picture at a size to be looked at, and a reference of 512 directions. */
 static aur_result draw(const statue_study *study, const char *set, size_t diffuse, size_t glossy,
                        bool reference, aur_error *error) {
     aur_image *image = NULL;
@@ -222,7 +222,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE against directions per pixel",
+     .title = "RMSE against directions a pixel",
      .x = "directions",
      .y = "rmse",
      .low = "rmse_low",

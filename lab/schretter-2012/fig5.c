@@ -2,7 +2,7 @@
  *
  * Every pixel looks through its centre and has its set randomised for itself: sets of the square by
  * Cranley-Patterson rotation (a shift modulo 1), spherical Fibonacci by a turn about the normal. A second
- * form randomises the set once an image: then errors of neighbours are alike, which is the banding that the
+ * form randomises the set once a picture: then errors of neighbours are alike, which is the banding that the
  * paper names. Banding is told by the RMSE of means over 4 x 4 pixels, times 4 and over the RMSE of pixels: 1
  * where errors are independent, up to 4. */
 #include <math.h>
@@ -20,14 +20,14 @@ typedef struct occlusion_set {
 typedef struct occlusion_form {
     const occlusion_set *set;
     size_t samples;
-    bool each_pixel; /* randomised for each pixel, else once an image */
+    bool each_pixel; /* randomised for each pixel, else once a picture */
 } occlusion_form;
 
 typedef struct occlusion_study {
     lab_run *run;
     aur_renderer *renderer;
     size_t width, height;
-    size_t picture_width, picture_height; /* of the images that are written; 0: none */
+    size_t picture_width, picture_height; /* of the pictures that are written; 0: none */
     double max_distance;
     size_t reference_samples, repeats;
     size_t set_count;
@@ -78,7 +78,7 @@ static aur_result compare(const aur_image *reference, const aur_image *image, do
     return result;
 }
 
-/* The view of images of as many samples, with the reference. */
+/* The view of pictures of as many samples, with the reference. */
 static void name_view(const occlusion_form *form, char view[64]) {
     snprintf(view, 64, "%zu samples, randomised for each %s", form->samples,
              form->each_pixel ? "pixel" : "picture");
@@ -98,7 +98,7 @@ static aur_result draw(const occlusion_study *study, const occlusion_form *form,
     return result;
 }
 
-/* Mean square errors of pixels and of blocks, one a repeat; an image is written. */
+/* Mean square errors of pixels and of blocks, one a repeat; a picture is written. */
 static aur_result measure(occlusion_study *study, const occlusion_form *form, double *pixels, double *blocks,
                           aur_error *error) {
     double values[2 * MOST_REPEATS];
@@ -148,7 +148,7 @@ static aur_result add_row(occlusion_study *study, const occlusion_form *form, co
     return AUR_OK;
 }
 
-/* The reference once a view, at the size of the images. */
+/* The reference once a view, at the size of the pictures. */
 static aur_result draw_references(const occlusion_study *study, const size_t counts[2], aur_error *error) {
     double drawn;
     if (study->picture_width == 0 || lab_recall(study->run, "references", 1, &drawn))
@@ -229,7 +229,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE of ambient occlusion against directions per pixel",
+     .title = "RMSE of ambient occlusion against directions a pixel",
      .x = "samples",
      .y = "rmse",
      .low = "rmse_low",

@@ -32,7 +32,7 @@ static aur_result add_row(lab_run *run, const char *set, size_t size, double *st
     return AUR_OK;
 }
 
-/* The points of one panel, as rows and as an image. */
+/* The points of one panel, as rows and as a picture. */
 static aur_result show(lab_run *run, report_table *table, const char *figure, const char *set, size_t size,
                        bool polar, aur_error *error) {
     const lab_points request = {.set = set,

@@ -1,5 +1,5 @@
 /* Points that follow a density: a clamped ramp and two Gaussians, by Hammersley's set and a golden one
- * (Schretter 2012, fig. 4). The paper shows images alone. How well points follow is the largest difference,
+ * (Schretter 2012, fig. 4). The paper shows pictures alone. How well points follow is the largest difference,
  * over all boxes with a corner at the origin and the others at 64 x 64 places, between the share of the
  * points and that of the density. */
 #include <math.h>
@@ -45,7 +45,7 @@ typedef struct warp_study {
     report_table *points;
 } warp_study;
 
-/* The image, and what of it is below and left of each place: pixels and places fall together. */
+/* The picture, and what of it is below and left of each place: pixels and places fall together. */
 static aur_result prepare(warp_study *study, aur_error *error) {
     enum { BLOCK = PIXELS / BOXES };
     double sum = 0.0;

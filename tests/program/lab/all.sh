@@ -82,9 +82,9 @@ refused() {
 }
 refused "did you mean 'sobol'" run domains-prefixes --quick --set sobl
 refused "marques-2031.*lab list" run marques-2031
-refused "rows of 'marques-2013-gather' have no names" run marques-2013-gather --quick --rows '*'
+refused "cannot be used with 'marques-2013-gather'" run marques-2013-gather --quick --rows '*'
 refused "takes no names" run --all domains-axes
-refused "an experiment is missing" run
+refused "no experiment given" run
 "$aureole" lab 2>/dev/null
 [ $? -eq 2 ] || fail "lab without a word"
 exit $((failures > 0))
