@@ -176,10 +176,5 @@ static const char *const seeds[] = {
 };
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
-    if (index >= sizeof seeds / sizeof seeds[0])
-        return 0;
-    const size_t size = strlen(seeds[index]);
-    fuzz_require(size <= capacity, "a seed is too large");
-    memcpy(data, seeds[index], size);
-    return size;
+    return fuzz_text_seed(sizeof seeds / sizeof seeds[0], seeds, index, capacity, data);
 }

@@ -160,5 +160,7 @@ typedef struct cli_unit {
 /* A positive number, with one of the units' names after it or none. */
 bool cli_parse_quantity(const char *text, size_t unit_count, const cli_unit *units, double *value);
 
+/* The count of numbers with commas between; 0 if there is anything else, or more than `most`. */
+size_t cli_split_numbers(const char *text, size_t most, double *numbers);
 /* 30s, 5min or 1h; a number alone is seconds. */
 aur_result cli_parse_seconds(const char *option, const char *text, double *seconds, aur_error *error);

@@ -33,3 +33,20 @@ aur_result cli_parse_seconds(const char *option, const char *text, double *secon
     return aur_fail(error, AUR_ERROR_ARGUMENT, "--%s: expected a time such as 30s, 5min or 1h, not '%s'",
                     option, text);
 }
+
+size_t cli_split_numbers(const char *text, size_t most, double *numbers) {
+    size_t count = 0;
+    for (const char *end = text; end != NULL; text = end + 1) {
+        char piece[40] = "";
+        end = strchr(text, ',');
+        const size_t length = end != NULL ? (size_t)(end - text) : strlen(text);
+        if (count == most || length >= sizeof piece)
+            return 0;
+        memcpy(piece, text, length);
+        if (!aur_parse_double(piece, &numbers[count++]))
+            return 0;
+        if (end == NULL)
+            break;
+    }
+    return count;
+}

@@ -5,30 +5,12 @@
 
 #include "program/cli/lighting/irradiance.h"
 
-/* Numbers with commas between; 0 where there are other things, or too many. */
-static size_t split_numbers(const char *text, size_t most, double *numbers) {
-    size_t count = 0;
-    for (const char *end = text; end != NULL; text = end + 1) {
-        char piece[40] = "";
-        end = strchr(text, ',');
-        const size_t length = end != NULL ? (size_t)(end - text) : strlen(text);
-        if (count == most || length >= sizeof piece)
-            return 0;
-        memcpy(piece, text, length);
-        if (!aur_parse_double(piece, &numbers[count++]))
-            return 0;
-        if (end == NULL)
-            break;
-    }
-    return count;
-}
-
 /* FILE@X,Y,Z[,AIMX,AIMY,AIMZ[,TURN]]; the field is the count of lamps. */
 static aur_result parse_lamp(const char *text, void *field, aur_error *error) {
     cli_sky *const given = (cli_sky *)(void *)((char *)field - offsetof(cli_sky, lamp_count));
     char *const at = strrchr(text, '@');
     double n[7] = {0.0};
-    const size_t count = at != NULL && at > text ? split_numbers(at + 1, 7, n) : 0;
+    const size_t count = at != NULL && at > text ? cli_split_numbers(at + 1, 7, n) : 0;
     if (count != 3 && count != 6 && count != 7)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "must be a file and its place, aim and turn, like lamp.ies@2,1,2.8 or "

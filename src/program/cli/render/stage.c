@@ -57,23 +57,6 @@ const cli_option cli_stage_options[] = {
      .parse = parse_time},
     {.key = {0}}};
 
-size_t cli_split_numbers(const char *text, size_t most, double *numbers) {
-    size_t count = 0;
-    for (const char *end = text; end != NULL; text = end + 1) {
-        char piece[40] = "";
-        end = strchr(text, ',');
-        const size_t length = end != NULL ? (size_t)(end - text) : strlen(text);
-        if (count == most || length >= sizeof piece)
-            return 0;
-        memcpy(piece, text, length);
-        if (!aur_parse_double(piece, &numbers[count++]))
-            return 0;
-        if (end == NULL)
-            break;
-    }
-    return count;
-}
-
 /* Without opening it: to open a pipe would wait for its writer, or take what it holds from the reader. */
 static bool exists(const char *path) {
     struct stat status;

@@ -16,9 +16,6 @@ typedef struct cli_stage {
 
 extern const cli_option cli_stage_options[]; /* cli_stage */
 
-/* Numbers with commas between; 0 where there are other things, or too many. */
-size_t cli_split_numbers(const char *text, size_t most, double *numbers);
-
 /* Reads the operands FILE[@X,Y,Z[,TURN[,SCALE]]], which lose what stands behind the file. Errors: ARGUMENT.
  */
 aur_result cli_stage_read_files(cli_stage *given, const cli_call *call, aur_error *error);
