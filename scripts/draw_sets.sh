@@ -36,13 +36,13 @@ draw() { # file, then the arguments of `aureole points`
 
 {
   cat <<'HEAD'
-# The point sets, side by side
+# Point sets
 
-Made by `scripts/draw_sets.sh` from the table that `aureole sets` prints. Each set is drawn with 128 points: on the square,
-and on the sphere from the side and from the pole by Lambert's cylindrical map (sets that are native to the sphere as they
-are; points on the far side are pale; of rotations the vector part of the quaternion). What to look for is what figure 2 of
-Marques 2013 shows: clumps and holes in the square become clumps and holes on the sphere, and lines of points that are parallel to an edge become circles about the
-poles. Names, keys and domains are those of the command line, of scene files and of the API.
+`aureole sets` lists every set; `scripts/draw_sets.sh` draws this page from it, with 128 points each. On the sphere the points are shown from the side and from the pole;
+points on the far side are pale. Sets of the square are mapped by Lambert's cylindrical map. Of rotations the vector part of the quaternion is shown.
+
+Not sure which to take? On the sphere `spherical-fibonacci`, for rotations `super-fibonacci`, on the square `sobol` with `--scramble owen`
+([by job](choosing.md)).
 
 | set | square | sphere |
 |---|---|---|

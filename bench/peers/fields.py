@@ -30,7 +30,7 @@ import numpy as np
 import makers
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SIZES = 50, 194, 770
+SIZES = 194, 770
 ROTATIONS = 64
 
 

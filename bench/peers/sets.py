@@ -8,8 +8,7 @@
 
 Figures are scaled by powers of N so that sets of nearly equal sizes can be compared; those of random and scrambled sets are
 means over eight seeds. Speed is the median of several calls, in millions of points a CPU second, of at most 2^20 points and as many
-as a fifth of a second allows; `process` the CPU seconds of a whole process that starts, makes the N points of the row and writes
-them as NPY: Python's start and imports for most of the others. One thread. --check leaves out what is not installed.
+as a fifth of a second allows. One thread. --check leaves out what is not installed; what could not be measured goes to standard error.
 """
 import argparse
 import csv
@@ -42,9 +41,6 @@ DOMAINS = {
                          ("covering", 1 / 3, "covering, N^1/3")]),
 }
 HEADERS = {"square": "x,y", "sphere": "x,y,z", "rotations": "w,x,y,z"}
-# What nobody could be asked for here: the command that was tried, and what it said.
-TRIES = [("OpenQMC", "git ls-remote https://github.com/AcademySoftwareFoundation/openqmc HEAD"),
-         ("UTK", "git ls-remote https://github.com/utk-team/utk HEAD")]
 
 
 def measure(domain, sets):
@@ -77,18 +73,6 @@ def child_seconds(command):
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
-def process_seconds(maker):
-    n, file = DOMAINS[maker.domain][0], os.path.join(tempfile.gettempdir(), f"peers-{os.getpid()}.npy")
-    if maker.arguments:
-        size = makers.nearest_size(maker.sizes, n)
-        command = [makers.program, "points", *maker.arguments, "-n", str(size), "--domain", maker.domain, "-o", file]
-    else:
-        command = [sys.executable, __file__, "--make", str(makers.MAKERS.index(maker)), file]
-    seconds = statistics.median(child_seconds(command) for _ in range(3))
-    os.remove(file)
-    return seconds
-
-
 def build_clock(folder):
     build = os.path.dirname(os.path.abspath(makers.program))
     program = os.path.join(folder, "clock")
@@ -118,12 +102,12 @@ def call_seconds(maker, n, clock):
 
 
 def speed(maker, clock):
-    """Millions of points a CPU second, and of how many points."""
+    """Millions of points per CPU second."""
     n = DOMAINS[maker.domain][0]
     while True:
         seconds, size = call_seconds(maker, n, clock)
         if seconds > 0.05 or 4 * n > 1 << 20 or size < n / 2:
-            return size / seconds / 1e6, size
+            return size / seconds / 1e6
         n *= 4
 
 
@@ -131,8 +115,7 @@ def cells(domain, maker, clock):
     size, values = figures(maker)
     texts = [str(size)] + [f"{value:.3g}" for value in values]
     if clock is not None:
-        rate, many = speed(maker, clock)
-        texts += [f"{rate:.3g}", str(many), f"{process_seconds(maker):.2g}"]
+        texts.append(f"{speed(maker, clock):.3g}")
     return texts
 
 
@@ -155,13 +138,7 @@ def rows(domain, only_ours, clock):
 
 
 def columns(domain):
-    return ["set", "points"] + [name for *_, name in DOMAINS[domain][1]] + ["Mpoint/s", "of", "process"]
-
-
-def attempts():
-    for name, command in TRIES:
-        done = subprocess.run(command.split(), capture_output=True, text=True, env={**os.environ, "GIT_TERMINAL_PROMPT": "0"})
-        yield f"{name}: `{command}` says: {(done.stderr or done.stdout).strip().splitlines()[-1]}"
+    return ["set", "points"] + [name for *_, name in DOMAINS[domain][1]] + ["Mpoint/s"]
 
 
 def write(page, begin, end):
@@ -169,16 +146,13 @@ def write(page, begin, end):
     lines = []
     with tempfile.TemporaryDirectory() as folder:
         clock = build_clock(folder)
-        left_out = list(attempts())
         for domain in DOMAINS:
             lines += ["", "| " + " | ".join(columns(domain)) + " |", "|---" * len(columns(domain)) + "|"]
             for name, found in rows(domain, False, clock):
                 print(domain, name, found, file=sys.stderr)
-                if isinstance(found, str):
-                    left_out.append(found)
-                else:
+                if not isinstance(found, str):
                     lines.append("| " + " | ".join([name, *found]) + " |")
-    lines += ["", "Not measured:", ""] + [f"- {line}" for line in left_out] + [""]
+    lines.append("")
     head, tail = text.split(begin)[0], text.split(end)[1]
     open(page, "w").write(head + begin + "\n" + "\n".join(lines) + end + tail)
 
@@ -190,7 +164,7 @@ def check(page, begin, end, domains, only_ours):
     for chunk, domain in zip(table.split("| set |")[1:], DOMAINS):
         for line in chunk.splitlines():
             row = [cell.strip() for cell in line.strip("|").split("|")]
-            known[domain, row[0]] = row[1:-3]
+            known[domain, row[0]] = row[1:-1]
     for domain in domains:
         for name, found in rows(domain, only_ours, None):
             if isinstance(found, str):

@@ -18,6 +18,6 @@ one_change() { # page, what sed changes in it, what the message begins with, scr
   exit 1
 }
 docs=$2/docs
-one_change fields.md 's/| `random` | 194 | 1 /| `random` | 194 | 1.1 /' 'found | `random` | 194 |' fields.py --sizes 50,194
+one_change fields.md 's/| `random` | 194 | 1 /| `random` | 194 | 1.1 /' 'found | `random` | 194 |' fields.py --sizes 194
 one_change sets-compared.md 's/^\(| `sobol` | 1024 | \)4.4 /\14.5 /' 'square, `sobol`: ' sets.py --domains square,rotations
 exit 0
