@@ -127,15 +127,15 @@ void aur_cached_light_add(const aur_cached_light *known, aur_path_group *g, uint
         if (!(distance * distance >= REACH * REACH * found.area) || found.area == 0.0f)
             continue;
         *pending &= ~(1u << k);
-        const aur_vector throughput = aur_lane_vector(&g->lanes.throughput, k);
+        aur_vector throughput = aur_lane_vector(&g->lanes.throughput, k);
         const aur_vector light = aur_vector_multiply(throughput, found.radiance);
         const uint64_t hash = aur_hash4(g->pixels[k], UINT64_C(0x6b6e6f776e), g->index, depth);
-        const bool goes_on = aur_unit_float((uint32_t)(hash >> 32)) < SHARE;
+        const bool goes_on = aur_vertex_survives(SHARE, aur_unit_float((uint32_t)(hash >> 32)), &throughput);
         aur_lane_set(&g->lanes.sum, k,
                      aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k),
                                            goes_on ? 1.0f - 1.0f / SHARE : 1.0f, light));
         if (goes_on)
-            aur_lane_set(&g->lanes.throughput, k, aur_vector_scale(throughput, 1.0f / SHARE));
+            aur_lane_set(&g->lanes.throughput, k, throughput);
         else
             g->alive &= ~(1u << k);
     }

@@ -196,20 +196,18 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
     const aur_light_reference reference = {surface_point->position, surface_point->frame.z};
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         aur_light_sample drawn;
-        if (!aur_light_sample_direct(g->scene, &reference, (const float[3]){choice[k], u[k], v[k]}, &drawn) ||
-            !(drawn.pdf > 0.0f))
-            continue;
-        const float cosine = aur_vector_dot(surface_point->frame.z, drawn.direction);
-        if (!(cosine > 0.0f) || aur_vector_is_zero(drawn.radiance))
+        aur_shadow shadow;
+        if (!aur_light_sample_direct(g->scene, &reference, (const float[3]){choice[k], u[k], v[k]}, &drawn))
             continue;
         const float share =
             surface_point->shares != NULL ? surface_point->shares[drawn.emitter] : AUR_LIGHT_OPEN;
-        const bool alone = share >= 0.0f; /* no direction brings this light */
-        const float weight = alone ? 1.0f : aur_light_weight(&drawn, AUR_VERTEX_ONE_EACH, cosine / AUR_PI_F);
+        /* No direction brings the light that has a closed form. */
+        const aur_vertex_samples samples = {1.0f, share >= 0.0f ? 0.0f : 1.0f};
+        if (!aur_vertex_irradiance(&reference, samples, &drawn, &shadow))
+            continue;
         known[k] = share > 0.0f ? (double)share : 0.0;
-        aur_vector_to_doubles(aur_vector_scale(drawn.radiance, weight * cosine / drawn.pdf), light[k]);
-        const aur_ray ray = aur_ray_between(surface_point->position, drawn.position);
-        aur_packet_set(&g->shadows, k, &ray);
+        aur_vector_to_doubles(shadow.radiance, light[k]);
+        aur_packet_set(&g->shadows, k, &shadow.ray);
         drawn_lanes |= 1u << k;
         sky |= (uint32_t)drawn.environment << k;
     }

@@ -252,7 +252,7 @@ static aur_vector camera_light(const round_work *work, const aur_camera_sample *
             !walk.bounce.specular_bounce)
             break;
         /* Light paths are connected through what lets light straight through. */
-        if (surface.bsdf->passes && aur_vector_dot(walk.ray.direction, direction) > 1.0f - 1e-6f)
+        if (aur_walk_passed(&surface, direction, &walk))
             continue;
         if (self->specular_paths)
             walk.radiance = aur_vector_add(

@@ -89,13 +89,11 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
         aur_light_lanes_direct(plan->scene, surface_points->lanes, &references, choice, u, v, &drawn);
         aur_light_sample lights[AUR_PACKET_SIZE];
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const aur_vector target = aur_lane_vector(&drawn.position, lane);
-            const aur_vector way = aur_vector_subtract(target, aur_lane_vector(&position, lane));
-            lights[lane] = (aur_light_sample){.position = target,
-                                              .direction = aur_vector_normalize(way),
-                                              .radiance = aur_lane_vector(&drawn.radiance, lane),
-                                              .pdf = drawn.pdf[lane] * (float)draws,
-                                              .delta = drawn.reachable[lane] == 0.0f};
+            aur_light_sample *const light = &lights[lane];
+            *light = aur_light_lane(&drawn, lane);
+            light->direction =
+                aur_vector_normalize(aur_vector_subtract(light->position, aur_lane_vector(&position, lane)));
+            light->pdf *= (float)draws;
         }
         add_lights(surface_points, surface_points->order, lights, sums);
     }

@@ -100,8 +100,9 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
                                    : aur_lane_vector(&radiance, k);
         if (aur_vector_is_zero(sky))
             continue;
-        const float weight =
-            aur_has_lane(g->specular, k) ? 1.0f : aur_power_heuristic(g->lanes.pdf[k], light_pdfs[k]);
+        const aur_bounce bounce = {
+            .pdf = g->lanes.pdf[k], .light_samples = 1.0f, .specular_bounce = aur_has_lane(g->specular, k)};
+        const float weight = aur_bounce_weight(&bounce, light_pdfs[k]);
         const aur_vector light = aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), sky);
         aur_lane_set(&g->lanes.sum, k,
                      aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight, light));

@@ -122,7 +122,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
             return true;
         specular_so_far = specular_so_far && sample.specular;
         /* Panes leave the direction as it is: shadow rays pass them. */
-        const bool bent = aur_vector_dot(sample.light, ray.direction) < 1.0f - 1e-6f;
+        const bool bent = !aur_is_unbent(ray.direction, sample.light);
         if (kind == AUR_PHOTONS_FOUND && hidden && specular_so_far && bent)
             return true;
         const aur_vector weight = adjoint_weight(&shading, &sample, in);

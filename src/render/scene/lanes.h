@@ -35,7 +35,7 @@ typedef struct aur_light_lanes {
     aur_lane_numbers reachable; /* 1, or 0 for lights that no BSDF sample can hit */
 } aur_light_lanes;
 
-/* One of them, drawn by aur_light_lanes_each. */
+/* One of them; its direction, too, where aur_light_lanes_each has drawn it. */
 static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, size_t lane) {
     return (aur_light_sample){.position = aur_lane_vector(&lights->position, lane),
                               .direction = aur_lane_vector(&lights->direction, lane),

@@ -98,6 +98,9 @@ bool aur_vertex_shadow(const aur_surface *surface, const aur_light_sample *light
 /* The same of the lobes, with their MIS weight, for a point that has been drawn. */
 bool aur_vertex_light(const aur_shading *shading, aur_vertex_lobes lobes, aur_vertex_samples samples,
                       const aur_light_sample *light, aur_shadow *shadow);
+/* The same of the irradiance of a sensor, which draws directions with the density cos / pi. */
+AUR_INTERNAL bool aur_vertex_irradiance(const aur_light_reference *sensor, aur_vertex_samples samples,
+                                        const aur_light_sample *light, aur_shadow *shadow);
 /* Draws the point: u[0] chooses the light, u[1], u[2] the point on it, in [0,1). */
 bool aur_vertex_draw_light(const aur_scene *scene, const aur_shading *shading, aur_vertex_lobes lobes,
                            aur_vertex_samples samples, const float u[3], aur_shadow *shadow);
@@ -131,11 +134,16 @@ void aur_walk_add_emission(const aur_scene *scene, const aur_surface *surface, a
 /* Goes on by a direction that u in [0,1)^3 draws; false where the path ends. */
 bool aur_walk_scatter(const aur_shading *shading, aur_vertex_lobes lobes, const float u[3], aur_walk *walk);
 
+/* Whether a ray that came in direction `before` goes straight on in direction `after`. */
+static inline bool aur_is_unbent(aur_vector before, aur_vector after) {
+    return aur_vector_dot(after, before) > 1.0f - 1e-6f;
+}
+
 /* Whether the walk, which came in `direction`, has gone straight on through a surface that lets light pass.
  */
 static inline bool aur_walk_passed(const aur_surface *surface, aur_vector direction, const aur_walk *walk) {
     return surface->bsdf->passes && walk->bounce.specular_bounce &&
-           aur_vector_dot(walk->ray.direction, direction) > 1.0f - 1e-6f;
+           aur_is_unbent(direction, walk->ray.direction);
 }
 
 /* The surface that a camera ray sees. */

@@ -198,8 +198,7 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     aur_bsdf_sample drawn;
     if (!aur_vertex_direction(&shading, AUR_VERTEX_ALL, (const float[3]){choice, u[0], u[1]}, &drawn))
         return false;
-    const bool unscattered =
-        drawn.specular && surface->bsdf->passes && aur_vector_dot(drawn.light, before) > 1.0f - 1e-6f;
+    const bool unscattered = drawn.specular && surface->bsdf->passes && aur_is_unbent(before, drawn.light);
     *edge = !unscattered;
     walk->state.throughput = aur_vector_multiply(walk->state.throughput, drawn.weight);
     if (unscattered) {
