@@ -41,7 +41,7 @@ if [ ! -e "$root/complete" ]; then
 fi
 
 cmake --preset arm64 --log-level=WARNING
-tests=(sampling_stream scene_packet pointset_generators pointset_net_2d pointset_runs sphere_fibonacci sphere_inverse quadrature_cholesky)
+tests=(sampling_stream scene_packet pointset_generators pointset_net_2d pointset_runs sphere_fibonacci sphere_inverse linear_cholesky)
 for file in tests/points/base/test_*.c; do
   name=${file##*/test_}
   tests+=("base_${name%.c}")

@@ -48,7 +48,7 @@ points/quadrature/tables
 points/quadrature/integrate
 points/quadrature/estimate
 points/quadrature/exact points/quadrature/weights
-points/quadrature/potential points/quadrature/linear
+points/quadrature/potential
 points/quadrature
 points/sphere/directions
 points/sphere/sets points/sphere/nearest
@@ -59,6 +59,7 @@ points/pointset/relax
 points/pointset/generators points/pointset/files
 points/pointset/digits
 points/pointset
+points/linear
 points/base
 '
 (cd "$source_tree" && grep -rnE '^#include "' src include bench lab scenes tests fuzz --include='*.[ch]' --include='*.cpp') |

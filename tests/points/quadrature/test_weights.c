@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "points/quadrature/linear/solve.h"
+#include "points/linear/solve.h"
 #include "points/quadrature/lobes.h"
 
 #define PI 3.14159265358979323846

@@ -354,7 +354,7 @@ static void sets_say_their_sizes(void **state) {
         {"lcg", "1..(2^31-2)/dimension", 2147483646, AUR_SIZES_ANY, 0},
         {"fibonacci-lattice", "1..2^48; a lattice at F_k", UINT64_C(1) << 48, AUR_SIZES_FIBONACCI, 0},
         {"esfg", "1..2^48; base*4^levels times 1, 2, 3, 4 is even", UINT64_C(1) << 48, AUR_SIZES_GRIDS, 0},
-        {"t-design", "4, 8, 18, .. 1338", 1338, AUR_SIZES_ANY, 0},
+        {"t-design", "4, 8, 18, .. 5178", 5178, AUR_SIZES_ANY, 0},
         {"healpix", "12, 48, 108, .. 3377699720527872", UINT64_C(12) << 48, AUR_SIZES_ANY, 0},
         {"file", "up to the file's", UINT64_MAX, AUR_SIZES_ANY, 0},
     };
@@ -371,12 +371,14 @@ static void sets_say_their_sizes(void **state) {
     for (size_t s = 0; s < 3; ++s) {
         const aur_set_description *const set = aur_set_find(some[s]);
         uint64_t last = 0;
-        for (size_t i = 0; i < 40 && set->size_at(i) != 0; ++i) {
+        for (size_t i = 0; i < 60 && set->size_at(i) != 0; ++i) {
             aur_directions_options of_size = {.size = sizeof of_size};
             aur_directions_options_init(set->size_at(i), AUR_DOMAIN_SPHERE, &of_size, NULL);
             aur_directions *directions = NULL;
             assert_true(set->size_at(i) > last);
             last = set->size_at(i);
+            if (s == 0 && last > 1338)
+                continue; /* larger designs take seconds to solve for */
             assert_int_equal(aur_directions_create(some[s], &of_size, &directions, NULL), AUR_OK);
             aur_directions_destroy(directions);
         }

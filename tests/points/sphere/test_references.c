@@ -1,7 +1,9 @@
+#include "short.h"
 #include "sphere_check.h"
 
 #include <string.h>
 
+#include "points/sphere/sets/design.h"
 #include "points/sphere/sets/reference.h"
 
 /* The largest sum of the weights times a harmonic of mean square 1, P_lm(z) cos(m phi) or sin(m phi): of
@@ -118,6 +120,34 @@ static void designs_are_exact(void **state) {
         check_exact("t-design", aur_t_designs + r, 1);
 }
 
+/* Those beyond the table: the solver at a degree that takes no time, and a set that is made on request, which
+ * the cache then gives. */
+static void designs_are_solved_for(void **state) {
+    (void)state;
+    const size_t half = aur_design_half(25);
+    double *const xyz = malloc(8 * half * sizeof *xyz);
+    assert_non_null(xyz);
+    assert_int_equal(aur_design_solve(25, xyz, NULL), AUR_OK);
+    for (size_t i = 0; i < 3 * half; ++i)
+        xyz[3 * half + i] = -xyz[i];
+    for (size_t i = 0; i < 2 * half; ++i)
+        xyz[6 * half + i] = 0.5 / (double)half;
+    const worst found = worst_harmonic(25, 1, 2 * half, xyz, xyz + 6 * half);
+    assert_true(found.exact <= 1e-14 && found.beyond > 1e-4);
+    assert_true(check_smallest_distance(2 * half, xyz) > 1.0 / sqrt((double)half));
+    free(xyz);
+    if (check_short())
+        return;
+    const aur_reference reference = {1446, 53, 0, 723};
+    check_exact("t-design", &reference, 1);
+    bool said = false;
+    double *const first = points_of("t-design", 1446, &said), *const again =
+                                                                  points_of("t-design", 1446, &said);
+    assert_memory_equal(first, again, 4 * 1446 * sizeof *first);
+    free(first);
+    free(again);
+}
+
 /* Turned by a quarter about each axis and mirrored, the large rules are the same nodes: orders that are no
  * multiples of 4 cancel. */
 static void lebedev_rules_are_exact(void **state) {
@@ -229,7 +259,7 @@ static void other_sizes_are_refused(void **state) {
     } wrong[] = {{"lebedev", 100, "86 or 110"}, {"lebedev", 5, "from 6"},
                  {"gauss", 9, "8 or 18"},       {"gauss:pruned=true", 5000, "4924 or 5098"},
                  {"icosahedral", 40, "42, 92"}, {"t-design", 17, "8 or 18"},
-                 {"t-design", 1, "from 4"}};
+                 {"t-design", 1, "from 4"},     {"t-design", 1400, "1338 or 1446"}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; ++k) {
         aur_directions_options options = {.size = sizeof options};
         aur_directions_options_init(wrong[k].count, AUR_DOMAIN_SPHERE, &options, NULL);
@@ -244,6 +274,7 @@ static void other_sizes_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(designs_are_exact),
+        cmocka_unit_test(designs_are_solved_for),
         cmocka_unit_test(lebedev_rules_are_exact),
         cmocka_unit_test(products_are_exact),
         cmocka_unit_test(partitions_are_leopardis),

@@ -10,8 +10,8 @@
 #include "points/base/random.h"
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
+#include "points/linear/solve.h"
 #include "points/quadrature/check.h"
-#include "points/quadrature/linear/solve.h"
 #include "points/sphere/lobe.h"
 
 static bool is_ggx(const aur_oswa *oswa) {

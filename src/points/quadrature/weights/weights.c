@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "points/base/error.h"
+#include "points/linear/solve.h"
 #include "points/quadrature/check.h"
-#include "points/quadrature/linear/solve.h"
 #include "points/quadrature/potential/potential.h"
 
 /* Samples whose kernel values differ by less than rounding in the matrix are one sample. */

@@ -1,4 +1,4 @@
-#include "points/quadrature/linear/solve.h"
+#include "points/linear/solve.h"
 
 #include <math.h>
 #include <stdlib.h>

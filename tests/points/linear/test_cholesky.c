@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "points/base/simd.h"
-#include "points/quadrature/linear/solve.h"
+#include "points/linear/solve.h"
 
 /* The kernel for s = 3/2 of a spiral of points, with the default regularisation: what the weights ask for. */
 static double *kernel_matrix(size_t n) {
@@ -98,6 +98,36 @@ static void test_bits(void **state) {
         check_bits((size_t[]){96, 127, 129, 200, 301}[i]);
 }
 
+/* Products of rows with each other, in the order of the columns. */
+static void check_gram(size_t n, size_t depth) {
+    const aur_cholesky *list[3];
+    const size_t count = kernels(list);
+    double *const rows = malloc(n * depth * sizeof *rows);
+    double *const matrix = malloc((n * n + aur_cholesky_work(n)) * sizeof *matrix);
+    assert_non_null(rows);
+    assert_non_null(matrix);
+    for (size_t i = 0; i < n * depth; ++i)
+        rows[i] = cos(0.7 * (double)i);
+    for (size_t k = 0; k < count; ++k) {
+        list[k]->gram(n, depth, rows, matrix, matrix + n * n);
+        for (size_t i = 0; i < n; ++i)
+            for (size_t j = 0; j <= i; ++j) {
+                double sum = 0.0;
+                for (size_t c = 0; c < depth; ++c)
+                    sum += rows[i * depth + c] * rows[j * depth + c];
+                assert_true(matrix[i * n + j] == sum);
+            }
+    }
+    free(matrix);
+    free(rows);
+}
+
+static void test_gram(void **state) {
+    (void)state;
+    for (size_t i = 0; i < 6; ++i)
+        check_gram((size_t[]){1, 2, 17, 33, 128, 200}[i], (size_t[]){3, 1, 40, 129, 200, 300}[i]);
+}
+
 static void check_lapack(size_t n) {
     const lapack_int size = (lapack_int)n;
     double *const matrix = kernel_matrix(n);
@@ -148,7 +178,7 @@ static void test_not_positive(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bits), cmocka_unit_test(test_lapack),
-                                       cmocka_unit_test(test_not_positive)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bits), cmocka_unit_test(test_gram),
+                                       cmocka_unit_test(test_lapack), cmocka_unit_test(test_not_positive)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "points/quadrature/linear/solve.h"
+#include "points/linear/solve.h"
 
 /* The doubles of a register, and how many rows a tile of `subtract` has. */
 #if AUR_KERNEL_WIDE && defined(__AVX512F__)
@@ -38,8 +38,9 @@ static inline void store(double *target, lanes value) {
 
 /* target[r][c] -= sum of left[r][k] right[k][c] for a tile of `rows` rows and WIDTH columns. Inlined with a
  * constant number of rows, so that the tile lies in registers. */
-static inline __attribute__((always_inline)) void
-subtract(size_t rows, size_t depth, size_t stride, const double *left, const double *right, double *target) {
+static inline __attribute__((always_inline)) void subtract(size_t rows, size_t depth, size_t left_stride,
+                                                           const double *left, const double *right,
+                                                           size_t stride, double *target) {
     lanes tile[ROWS][2];
     for (size_t r = 0; r < rows; ++r) {
         tile[r][0] = load(target + r * stride);
@@ -48,7 +49,7 @@ subtract(size_t rows, size_t depth, size_t stride, const double *left, const dou
     for (size_t k = 0; k < depth; ++k) {
         const lanes first = load(right + k * WIDTH), second = load(right + k * WIDTH + LANES);
         for (size_t r = 0; r < rows; ++r) {
-            const double factor = left[r * stride + k];
+            const double factor = left[r * left_stride + k];
             tile[r][0] -= factor * first;
             tile[r][1] -= factor * second;
         }
@@ -60,11 +61,11 @@ subtract(size_t rows, size_t depth, size_t stride, const double *left, const dou
 }
 
 /* The same for one row, of which only `width` columns are there. */
-static void subtract_edge(size_t width, size_t depth, size_t stride, const double *left, const double *right,
+static void subtract_edge(size_t width, size_t depth, const double *left, const double *right,
                           double *target) {
     double row[WIDTH] = {0};
     memcpy(row, target, width * sizeof *row);
-    subtract(1, depth, stride, left, right, row);
+    subtract(1, depth, depth, left, right, WIDTH, row);
     memcpy(target, row, width * sizeof *row);
 }
 
@@ -77,21 +78,50 @@ static void pack(size_t stride, size_t depth, size_t first, size_t last, const d
                 packed[k * WIDTH + c] = j + c < last ? a[(j + c) * stride + k] : 0.0;
 }
 
-/* Takes what the first `depth` columns have found from the columns up to `last` of all rows below. */
-static void update(size_t stride, size_t depth, size_t last, size_t rows, double *a, double *packed) {
-    pack(stride, depth, depth, last, a, packed);
-    for (size_t band = depth; band < rows; band += BAND) {
-        const size_t end = band + BAND < rows ? band + BAND : rows;
-        for (size_t j = depth; j < last && j < end; j += WIDTH) {
-            const size_t width = last - j < WIDTH ? last - j : WIDTH;
-            const double *const right = packed + (j - depth) * depth;
+/* target[i][j] -= sum over k < depth of left[i][k] left[j][k] for i from `first` to `rows`, j from `first` to
+ * i and below `last`. What stands above the diagonal is lost. */
+typedef struct product {
+    const double *left;
+    size_t left_stride, depth;
+    double *target;
+    size_t stride, first, last, rows;
+} product;
+
+static void subtract_product(const product *p, double *packed) {
+    pack(p->left_stride, p->depth, p->first, p->last, p->left, packed);
+    for (size_t band = p->first; band < p->rows; band += BAND) {
+        const size_t end = band + BAND < p->rows ? band + BAND : p->rows;
+        for (size_t j = p->first; j < p->last && j < end; j += WIDTH) {
+            const size_t width = p->last - j < WIDTH ? p->last - j : WIDTH;
+            const double *const right = packed + (j - p->first) * p->depth;
+            const double *const left = p->left;
+            double *const target = p->target + j;
             size_t i = band;
             for (; width == WIDTH && i + ROWS <= end; i += ROWS)
-                subtract(ROWS, depth, stride, a + i * stride, right, a + i * stride + j);
+                subtract(ROWS, p->depth, p->left_stride, left + i * p->left_stride, right, p->stride,
+                         target + i * p->stride);
             for (; i < end; ++i)
-                subtract_edge(width, depth, stride, a + i * stride, right, a + i * stride + j);
+                subtract_edge(width, p->depth, left + i * p->left_stride, right, target + i * p->stride);
         }
     }
+}
+
+/* Takes what the first `depth` columns have found from the columns up to `last` of all rows below. */
+static void update(size_t stride, size_t depth, size_t last, size_t rows, double *a, double *packed) {
+    const product p = {a, stride, depth, a, stride, depth, last, rows};
+    subtract_product(&p, packed);
+}
+
+static void gram(size_t size, size_t depth, const double *rows, double *matrix, double *work) {
+    memset(matrix, 0, size * size * sizeof *matrix);
+    const size_t most = size > WIDE ? WIDE : NARROW; /* as deep as `work` has room */
+    for (size_t k = 0; k < depth; k += most) {
+        const product p = {rows + k, depth, depth - k < most ? depth - k : most, matrix, size, 0, size, size};
+        subtract_product(&p, work);
+    }
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = 0; j <= i; ++j)
+            matrix[i * size + j] = -matrix[i * size + j];
 }
 
 /* part[k][r] = a[r][k], and back. */
@@ -204,4 +234,4 @@ static void solve(size_t size, const double *matrix, const double *inverse, size
         }
 }
 
-const aur_cholesky AUR_KERNEL(aur_cholesky) = {factor, solve};
+const aur_cholesky AUR_KERNEL(aur_cholesky) = {factor, solve, gram};

@@ -35,6 +35,9 @@ typedef struct aur_cholesky {
     bool (*factor)(size_t size, double *matrix, double *inverse, double *work);
     /* Solves K X = right in place, for `columns` vectors one after another. */
     void (*solve)(size_t size, const double *matrix, const double *inverse, size_t columns, double *right);
+    /* matrix[size * size], on and below its diagonal: the products of the `size` rows of rows[size * depth]
+     * with each other; `work` as for `factor`. */
+    void (*gram)(size_t size, size_t depth, const double *rows, double *matrix, double *work);
 } aur_cholesky;
 
 AUR_KERNELS(const aur_cholesky, aur_cholesky);
