@@ -39,6 +39,7 @@ render/scene/importers/meshes render/scene/importers/nodes
 render/scene/materials
 render/scene/plugin
 render/image
+points/ranks
 points/quality/table
 points/quality/sphere points/quality/square points/quality/spectrum
 points/quality/split points/quality/rotations
@@ -108,6 +109,7 @@ points/base
       if (there == "") { bad("unknown room of \"" target "\""); next }
       if (floor[there] < floor[here]) bad(here " must not call " there ", which is above it")
       if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
+      if (there == "points/ranks" && here !~ /^(points\/ranks|render\/driver|program\/mpi)$/) bad("only the driver knows ranks")
       if (here ~ /^program\/cli/ && there !~ /^program\/(cli|lab|watch|report)/) bad("the program uses <aureole/...> only")
       if (here == "program/lab" && there !~ /^program\/(lab|report)/) bad("the lab uses <aureole/...> only")
       if (here ~ /^program\/(watch|serve)$/ && there !~ /^program\/(watch|report)/) bad("watching uses <aureole/...> only")

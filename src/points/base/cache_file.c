@@ -9,6 +9,7 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
+#include "points/base/io.h"
 #include "points/base/text.h"
 #include "points/base/words.h"
 

@@ -13,26 +13,7 @@
 #include <unistd.h>
 
 #include "points/base/array.h"
-
-static _Thread_local const aur_io *here;
-
-const aur_io *aur_io_use(const aur_io *io) {
-    const aur_io *const before = here;
-    here = io;
-    return before;
-}
-
-const aur_io *aur_io_here(void) {
-    return here;
-}
-
-bool aur_io_leads(void) {
-    return here == NULL || here->leads(here->user);
-}
-
-aur_result aur_io_agree(size_t size, void *data, aur_error *error) {
-    return here != NULL ? here->agree(here->user, size, data, error) : AUR_OK;
-}
+#include "points/base/io.h"
 
 static aur_result fail_write(aur_error *error, const char *path, int code) {
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_WRITE, "cannot write: %s",
@@ -335,7 +316,7 @@ static aur_result read_for_all(const char *path, size_t limit, bool input, char 
     if (io == NULL)
         return read_here(path, limit, input, data, size, error);
     aur_error said = {0};
-    if (io->leads(io->user))
+    if (io->rank == 0)
         (void)read_here(path, limit, input, data, size, &said);
     (void)aur_io_agree(sizeof said, &said, NULL);
     if (said.result != AUR_OK) {
@@ -344,7 +325,7 @@ static aur_result read_for_all(const char *path, size_t limit, bool input, char 
         return said.result;
     }
     const aur_result result = io->share(io->user, data, size, error);
-    if (result != AUR_OK && io->leads(io->user)) {
+    if (result != AUR_OK && io->rank == 0) {
         free(*data);
         *data = NULL;
     }

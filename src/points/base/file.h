@@ -10,26 +10,6 @@
 
 #include "points/base/error.h"
 
-/* How several processes that do one job use files and the cache: one of them reads and writes for all. */
-typedef struct aur_io {
-    void *user;
-    bool (*leads)(void *user); /* whether this is the process that does */
-    /* Gives all of them the leader's bytes, or its data[*size]: the others' *data is allocated with malloc,
-     * with a zero byte after it. */
-    aur_result (*agree)(void *user, size_t size, void *data, aur_error *error);
-    aur_result (*share)(void *user, char **data, size_t *size, aur_error *error);
-} aur_io;
-
-/* Lets the calling thread use files so from here on, or alone (NULL, as at first). Returns what it did
- * before, which must stay valid meanwhile. */
-const aur_io *aur_io_use(const aur_io *io);
-/* What this thread uses, NULL when it is alone; and whether it reads and writes itself. */
-AUR_INTERNAL const aur_io *aur_io_here(void);
-AUR_INTERNAL bool aur_io_leads(void);
-/* Replaces data[size] by the leader's; nothing where this thread is alone. Fails with what has gone wrong
- * between the processes. */
-AUR_INTERNAL aur_result aur_io_agree(size_t size, void *data, aur_error *error);
-
 /* A file that is being written beside its destination. "-" is standard output. */
 typedef struct aur_file_writer {
     FILE *stream;    /* write here; buffered */
@@ -56,7 +36,7 @@ AUR_INTERNAL void aur_file_abandon(aur_file_writer *writer);
 /* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
  * that is not counted. Refuses files beyond `limit` bytes, and what is neither a regular file nor handed over
  * by the shell as /dev/fd/N: opening a pipe could block forever, a device might never end. Of several
- * processes with an aur_io one reads, and writes, for all. Errors: OPEN, FORMAT, MEMORY;
+ * processes (io.h) one reads, and writes, for all. Errors: OPEN, FORMAT, MEMORY;
  * ARGUMENT for an output of this process. */
 AUR_INTERNAL aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size,
                                       aur_error *error);

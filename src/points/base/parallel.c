@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "points/base/error.h"
-#include "points/base/shared_loop.h"
+#include "points/base/io.h"
 #include "points/base/text.h"
 
 #if defined(__x86_64__)
@@ -90,6 +90,7 @@ struct shared_work {
     size_t count;
     aur_parallel_function function;
     void *context;
+    const aur_loop_functions *loops;
     aur_shared_loop *loop; /* items are shared with other processes; NULL: they are not */
     shared_work *outer;    /* the work of whose items this is a part; NULL: of none */
     atomic_size_t next;    /* the first item that nobody has taken */
@@ -117,7 +118,7 @@ bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t
     if (progress->function == NULL)
         return false;
     shared_work *const work = inside;
-    aur_ranks *const ranks = aur_ranks_set_aside();
+    const aur_io *const io = aur_io_use(NULL);
     const bool flushed = flushes;
     const uint64_t host = host_denormals, rays = aur_rays_traced;
     if (flushed)
@@ -131,7 +132,7 @@ bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t
     host_denormals = host;
     if (flushed)
         flush_denormals();
-    aur_ranks_put_back(ranks);
+    aur_io_use(io);
     return stops;
 }
 
@@ -180,7 +181,7 @@ static void record(shared_work *work, size_t index, aur_result result) {
 
 static bool take_item(shared_work *work, size_t *index) {
     if (work->loop != NULL)
-        return aur_shared_loop_take(work->loop, index);
+        return work->loops->take(work->loop, index);
     *index = atomic_fetch_add_explicit(&work->next, 1, memory_order_relaxed);
     return *index < work->count;
 }
@@ -192,7 +193,7 @@ static bool do_item(void *shared) {
     if (atomic_load_explicit(&work->stop, memory_order_relaxed) || !take_item(work, &index))
         return false;
     shared_work *const outer = inside;
-    aur_ranks *const ranks = aur_ranks_set_aside();
+    const aur_io *const io = aur_io_use(NULL);
     const bool begins = work->options->flush_denormals && !flushes;
     if (begins)
         host_denormals = flush_denormals();
@@ -205,9 +206,9 @@ static bool do_item(void *shared) {
         flushes = false;
         restore_denormals(host_denormals);
     }
-    aur_ranks_put_back(ranks);
+    aur_io_use(io);
     if (work->loop != NULL)
-        aur_shared_loop_done(work->loop, index, result, aur_rays_traced - rays);
+        work->loops->done(work->loop, index, result, aur_rays_traced - rays);
     record(work, index, result);
     return true;
 }
@@ -248,7 +249,7 @@ static aur_result outcome(void *shared) {
     return result;
 }
 
-static void begin_sharing(shared_work *work, size_t threads) {
+static void begin_sharing(const aur_io *io, shared_work *work, size_t threads) {
     const aur_shared_loop_options options = {.what = work->options->what != NULL ? work->options->what
                                                                                  : "working",
                                              .share = work->options->share,
@@ -259,7 +260,8 @@ static void begin_sharing(shared_work *work, size_t threads) {
                                              .note = note,
                                              .outcome = outcome,
                                              .work = work};
-    work->loop = aur_shared_loop_create(aur_ranks_here(), &options);
+    work->loops = io->loops;
+    work->loop = io->loops->create(io->user, &options);
 }
 
 /* Starts up to `wanted` threads, which leave the host's signals to the host's threads. Returns how many there
@@ -282,7 +284,7 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
         options = &defaults;
     if (count == 0)
         return AUR_OK;
-    aur_ranks *const ranks = inside == NULL && options->share != NULL ? aur_ranks_here() : NULL;
+    const aur_io *const io = inside == NULL && options->share != NULL ? aur_io_here() : NULL;
     size_t wanted = inside != NULL ? 1 : aur_parallel_threads(options->threads);
     if (wanted > count)
         wanted = count;
@@ -297,27 +299,27 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     atomic_init(&work.rays, 0);
     if (pthread_mutex_init(&work.lock, NULL) != 0)
         return aur_fail_memory(error);
-    if (ranks != NULL)
-        begin_sharing(&work, wanted);
-    /* The thread of a job talks to the other ranks, and others do the items. */
+    if (io != NULL)
+        begin_sharing(io, &work, wanted);
+    /* The thread of a job exchanges messages, and others do the items. */
     const size_t others = work.loop != NULL ? wanted : wanted - 1;
     pthread_t threads[MOST_THREADS];
     const size_t started = others > 0 ? start_threads(&work, others, threads) : 0;
     if (work.loop != NULL)
-        aur_shared_loop_exchange_messages(work.loop, started == 0 ? do_item : NULL);
-    else if (ranks == NULL)
+        work.loops->exchange_messages(work.loop, started == 0 ? do_item : NULL);
+    else if (io == NULL)
         do_items(&work);
     for (size_t i = 0; i < started; ++i)
         pthread_join(threads[i], NULL);
     aur_rays_traced += atomic_load(&work.rays);
     if (work.loop != NULL)
-        aur_rays_traced += aur_shared_loop_end(work.loop);
+        aur_rays_traced += work.loops->end(work.loop);
     pthread_mutex_destroy(&work.lock);
-    /* A stop is told as a stop, also where a rank has been lost: what there is can be kept. */
-    if (ranks != NULL && aur_ranks_have_failed(ranks) && work.result != AUR_ERROR_CANCELLED)
-        return aur_ranks_failure(ranks, error);
-    if (work.result == AUR_OK)
-        return AUR_OK;
+    /* A stop is reported as a stop, also where a process has been lost: what there is can be kept. */
+    const bool fails = io != NULL && work.result != AUR_ERROR_CANCELLED;
+    const aur_result failure = fails ? io->loops->failure(io->user, error) : AUR_OK;
+    if (failure != AUR_OK || work.result == AUR_OK)
+        return failure;
     const bool named = options->what != NULL;
     return aur_fail(error, work.result, "%s%s%s", named ? options->what : "", named ? ": " : "",
                     aur_result_string(work.result));

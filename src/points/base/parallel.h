@@ -21,8 +21,8 @@ struct aur_bytes;
 struct aur_bytes_reader;
 enum { AUR_SHARE_SLICES = 4 };
 
-/* All that an item leaves behind, so that the ranks of a job (points/base/ranks.h) can share the items:
- * afterwards every rank has what all items found. */
+/* All that an item leaves behind, so that several processes (io.h) can share the items: afterwards each of
+ * them has what all items found. */
 typedef struct aur_parallel_share {
     aur_parallel_slice slices[AUR_SHARE_SLICES]; /* end with one without data */
     /* What is no slice, or NULL: puts what the item found into bytes (false: no memory), and takes it from

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "points/base/error.h"
-#include "points/base/ranks.h"
+#include "points/ranks/ranks.h"
 
 enum { TAG = 1 };
 

@@ -7,6 +7,7 @@
 
 #include "points/base/error.h"
 #include "points/base/file.h"
+#include "points/base/io.h"
 #include "points/base/words.h"
 
 /* "AURCHKP2" */

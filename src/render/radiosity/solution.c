@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "points/base/error.h"
+#include "points/base/io.h"
 #include "points/base/parallel.h"
 #include "points/base/random.h"
-#include "points/base/ranks.h"
 #include "render/radiosity/scene.h"
 
 /* --- making */
@@ -228,6 +228,10 @@ static aur_result prepare_lanes(aur_radiosity *radiosity, aur_error *error) {
     return result;
 }
 
+static size_t process_count(void) {
+    return aur_io_here() != NULL ? aur_io_here()->count : 1;
+}
+
 static aur_result trace_batch(aur_radiosity *radiosity, const point_source *points, uint64_t end,
                               aur_error *error) {
     const size_t count = radiosity->options.randomizations;
@@ -236,9 +240,10 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
                              aur_radiosity_paths_of(radiosity, count - 1, radiosity->paths);
     work.blocks_each = (size_t)(longest / AUR_RADIOSITY_BLOCK + 1);
     /* Each of several processes takes a range of the blocks. */
-    const size_t ranks = aur_ranks_count(), blocks = count * work.blocks_each;
-    atomic_init(&work.next, blocks * aur_ranks_rank() / ranks);
-    work.last = blocks * (aur_ranks_rank() + 1) / ranks;
+    const aur_io *const io = aur_io_here();
+    const size_t rank = io != NULL ? io->rank : 0, blocks = count * work.blocks_each;
+    atomic_init(&work.next, blocks * rank / process_count());
+    work.last = blocks * (rank + 1) / process_count();
     const aur_parallel_options parallel = {
         .threads = radiosity->lane_count, .what = "radiosity", .flush_denormals = true};
     aur_radiosity_tally *const lanes = radiosity->lanes;
@@ -312,7 +317,7 @@ aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_err
     result = prepare_lanes(radiosity, error);
     const aur_progress *const progress = &radiosity->options.progress;
     const uint64_t batch_paths =
-        (uint64_t)AUR_RADIOSITY_BLOCK * BLOCKS_A_BATCH * radiosity->lane_count * aur_ranks_count();
+        (uint64_t)AUR_RADIOSITY_BLOCK * BLOCKS_A_BATCH * radiosity->lane_count * process_count();
     while (result == AUR_OK && radiosity->paths < paths) {
         const uint64_t left = paths - radiosity->paths;
         result = trace_batch(radiosity, &points, radiosity->paths + (left < batch_paths ? left : batch_paths),

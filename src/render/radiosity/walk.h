@@ -45,7 +45,7 @@ aur_result aur_radiosity_tallies_create(size_t count, size_t patch_count, aur_ra
 void aur_radiosity_tallies_release(size_t count, aur_radiosity_tally *tallies); /* NULL is allowed */
 /* Adds `other` and empties it. */
 void aur_radiosity_tally_take(aur_radiosity_tally *tally, aur_radiosity_tally *other);
-/* Gives each of several processes the sums of all of theirs (points/base/ranks.h); alone, changes nothing. */
+/* Gives each of several processes the sums of all of theirs (points/base/io.h); alone, changes nothing. */
 aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallies, aur_error *error);
 
 typedef struct aur_radiosity_walk {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "points/base/file.h"
+#include "points/base/io.h"
 
 static void replaces_whole_or_not_at_all(void **state) {
     (void)state;
@@ -265,11 +266,6 @@ static void tells_inputs_from_outputs(void **state) {
 }
 
 /* The other process of two: what it is given is what the leader has found. */
-static bool follows(void *user) {
-    (void)user;
-    return false;
-}
-
 static aur_result give_nothing_bad(void *user, size_t size, void *data, aur_error *error) {
     (void)user;
     (void)error;
@@ -287,7 +283,7 @@ static aur_result give_text(void *user, char **data, size_t *size, aur_error *er
 static void one_process_reads_and_writes_for_all(void **state) {
     (void)state;
     char text[] = "of the leader", place[] = "/tmp/aureole-test-XXXXXX", path[64];
-    const aur_io io = {text, follows, give_nothing_bad, give_text};
+    const aur_io io = {.user = text, .rank = 1, .count = 2, .agree = give_nothing_bad, .share = give_text};
     assert_non_null(mkdtemp(place));
     snprintf(path, sizeof path, "%s/out.txt", place);
     assert_null(aur_io_use(&io));

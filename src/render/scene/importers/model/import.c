@@ -7,6 +7,7 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
+#include "points/base/io.h"
 #include "points/base/text.h"
 
 enum { MOST_REQUESTS = 100000, MOST_NOTES = 100, LONGEST_NAME = 4096 };

@@ -9,6 +9,7 @@
 
 #include "points/base/array.h"
 #include "points/base/file.h"
+#include "points/base/io.h"
 #include "render/scene/importers/xml/xml.h"
 
 /* The first `length` bytes of a path. */

@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "points/base/file.h"
+#include "points/base/io.h"
 #include "render/scene/importers/xml/xml.h"
 
 enum { CAPACITY = 4096 };

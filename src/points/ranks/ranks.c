@@ -1,4 +1,4 @@
-#include "points/base/ranks.h"
+#include "points/ranks/ranks.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,45 +10,17 @@
 
 enum { PIECE = 1 << 20 };
 
-static _Thread_local aur_ranks *here;
-
 aur_ranks *aur_ranks_here(void) {
-    return here;
-}
-
-aur_ranks *aur_ranks_set_aside(void) {
-    aur_ranks *const ranks = here;
-    here = NULL;
-    aur_io_use(NULL);
-    return ranks;
-}
-
-static bool leads(void *user) {
-    return ((const aur_ranks *)user)->transport.rank == 0;
-}
-
-static aur_result agree(void *user, size_t size, void *data, aur_error *error) {
-    aur_ranks_agree(size, data); /* in the thread's own job, which `user` is */
-    return aur_ranks_have_failed(user) ? aur_ranks_failure(user, error) : AUR_OK;
-}
-
-static aur_result share(void *user, char **data, size_t *size, aur_error *error) {
-    return aur_ranks_broadcast(user, data, size, error);
-}
-
-void aur_ranks_put_back(aur_ranks *ranks) {
-    here = ranks;
-    if (ranks != NULL)
-        ranks->io = (aur_io){ranks, leads, agree, share};
-    aur_io_use(ranks != NULL ? &ranks->io : NULL);
+    const aur_io *const io = aur_io_here();
+    return io != NULL && io->loops != NULL ? io->user : NULL;
 }
 
 size_t aur_ranks_rank(void) {
-    return here != NULL ? here->transport.rank : 0;
+    return aur_ranks_here() != NULL ? aur_io_here()->rank : 0;
 }
 
 size_t aur_ranks_count(void) {
-    return here != NULL ? here->transport.count : 1;
+    return aur_ranks_here() != NULL ? aur_io_here()->count : 1;
 }
 
 /* --- time */
@@ -294,6 +266,7 @@ aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_
 }
 
 void aur_ranks_agree(size_t size, void *data) {
+    aur_ranks *const here = aur_ranks_here();
     if (here == NULL)
         return;
     char *own = data;

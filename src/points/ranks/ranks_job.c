@@ -4,9 +4,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "points/base/ranks.h"
 #include "points/base/simd.h"
 #include "points/base/text.h"
+#include "points/ranks/ranks.h"
 
 size_t aur_ranks_started(void) {
     /* Slurm's count is of every task, so it counts where Slurm has also said how the tasks find each other.
@@ -91,12 +91,37 @@ static aur_result greet(aur_ranks *ranks, aur_error *error) {
     return aur_fail(error, AUR_ERROR_UNSUPPORTED, "%s", w.refused);
 }
 
+static aur_result agree(void *user, size_t size, void *data, aur_error *error) {
+    aur_ranks_agree(size, data); /* in the thread's own job, which `user` is */
+    return aur_ranks_have_failed(user) ? aur_ranks_failure(user, error) : AUR_OK;
+}
+
+static aur_result share(void *user, char **data, size_t *size, aur_error *error) {
+    return aur_ranks_broadcast(user, data, size, error);
+}
+
+static aur_result gather(void *user, size_t size, const void *data, aur_ranks_add add, void *context,
+                         aur_error *error) {
+    return aur_ranks_gather(user, size, data, add, context, error);
+}
+
+static void be_in(aur_ranks *ranks) {
+    ranks->io = (aur_io){.user = ranks,
+                         .rank = ranks->transport.rank,
+                         .count = ranks->transport.count,
+                         .agree = agree,
+                         .share = share,
+                         .gather = gather,
+                         .loops = &aur_ranks_loops};
+    aur_io_use(&ranks->io);
+}
+
 aur_result aur_ranks_join_by(const aur_transport *transport, aur_error *error) {
     aur_ranks *const ranks = calloc(1, sizeof *ranks);
     if (ranks == NULL)
         return aur_fail_memory(error);
     ranks->transport = *transport;
-    aur_ranks_put_back(ranks);
+    be_in(ranks);
     return greet(ranks, error);
 }
 
@@ -142,9 +167,10 @@ static int see_off(aur_ranks *ranks, int status, aur_error *error) {
 }
 
 int aur_ranks_leave(int status, const char *said, aur_error *error) {
-    aur_ranks *const ranks = aur_ranks_set_aside();
+    aur_ranks *const ranks = aur_ranks_here();
     if (ranks == NULL)
         return status;
+    aur_io_use(NULL);
     if (ranks->lost)
         ranks->transport.abort(ranks->transport.state, status);
     /* Who waits for rank 0 sees by the step whether all was done; where not, nobody may wait for this rank.

@@ -1,7 +1,11 @@
+/* The items of one loop, shared out to the ranks of a job (points/base/io.h). Rank 0 gives runs of items to
+ * whoever asks, long ones first and single ones in the end, and takes what comes of them; when all are done,
+ * every rank gets what the others have found. Threads do the items, the thread of the job exchanges messages.
+ */
 #if !defined(_GNU_SOURCE)
 #define _GNU_SOURCE
 #endif
-#include "points/base/shared_loop.h"
+#include "points/ranks/ranks.h"
 
 #include <errno.h>
 #include <pthread.h>
@@ -10,6 +14,7 @@
 #include <time.h>
 
 #include "points/base/bytes.h"
+#include "points/base/io.h"
 
 enum { PIECE = 1 << 20 };
 
@@ -34,7 +39,8 @@ struct aur_shared_loop {
     bool asked, told;      /* a rank waits for items; has said, or been told, that the work stops */
 };
 
-aur_shared_loop *aur_shared_loop_create(aur_ranks *ranks, const aur_shared_loop_options *options) {
+static aur_shared_loop *create(void *user, const aur_shared_loop_options *options) {
+    aur_ranks *const ranks = user;
     aur_shared_loop *const loop = calloc(1, sizeof *loop);
     unsigned char *const known = calloc(options->count, 1);
     uint64_t *const rays = calloc(options->count, sizeof *rays);
@@ -161,7 +167,7 @@ static void get_entries(aur_shared_loop *loop, const aur_message *message) {
 
 /* --- for the threads that do the items */
 
-bool aur_shared_loop_take(aur_shared_loop *loop, size_t *index) {
+static bool take(aur_shared_loop *loop, size_t *index) {
     pthread_mutex_lock(&loop->lock);
     ++loop->idle;
     const bool waits = !loop->is_root && !loop->alone;
@@ -178,7 +184,7 @@ bool aur_shared_loop_take(aur_shared_loop *loop, size_t *index) {
     return there;
 }
 
-void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result, uint64_t rays) {
+static void done(aur_shared_loop *loop, size_t index, aur_result result, uint64_t rays) {
     pthread_mutex_lock(&loop->lock);
     loop->rays[index] = rays;
     --loop->running;
@@ -357,7 +363,7 @@ static void messages_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
     }
 }
 
-void aur_shared_loop_exchange_messages(aur_shared_loop *loop, bool (*one)(void *work)) {
+static void exchange_messages(aur_shared_loop *loop, bool (*one)(void *work)) {
     const double start = aur_ranks_messages_begin();
     if (one != NULL) /* no other thread is there to read it */
         loop->alone = true;
@@ -404,7 +410,7 @@ static void take_results(aur_shared_loop *loop) {
     }
 }
 
-uint64_t aur_shared_loop_end(aur_shared_loop *loop) {
+static uint64_t end(aur_shared_loop *loop) {
     aur_ranks *const ranks = loop->ranks;
     const double start = aur_ranks_messages_begin();
     if (loop->is_root && !aur_ranks_have_failed(ranks)) {
@@ -420,3 +426,9 @@ uint64_t aur_shared_loop_end(aur_shared_loop *loop) {
     destroy(loop);
     return rays;
 }
+
+static aur_result failure(void *user, aur_error *error) {
+    return aur_ranks_have_failed(user) ? aur_ranks_failure(user, error) : AUR_OK;
+}
+
+const aur_loop_functions aur_ranks_loops = {create, take, done, exchange_messages, end, failure};

@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "points/base/error.h"
-#include "points/base/file.h"
+#include "points/base/io.h"
 
 /* What carries bytes from rank to rank. All of it is called by one thread. */
 typedef struct aur_transport {
@@ -64,15 +64,13 @@ typedef struct aur_ranks {
     size_t kept_count, kept_capacity;
     uint64_t sent, received;
     double message_seconds;
-    aur_io io; /* rank 0 reads and writes for all */
+    aur_io io;
 } aur_ranks;
 
-/* The job that the calling thread is in; NULL outside of one. */
-AUR_INTERNAL aur_ranks *aur_ranks_here(void);
-/* Lets the thread be outside of its job until it is put back: within an item of work that ranks do each for
- * themselves. */
-aur_ranks *aur_ranks_set_aside(void);
-void aur_ranks_put_back(aur_ranks *ranks);
+/* The job that the calling thread is in; NULL outside of one, as within an item of work that ranks do each
+ * for themselves. */
+aur_ranks *aur_ranks_here(void);
+extern const aur_loop_functions aur_ranks_loops;
 /* aur_ranks_join with a carrier of the caller's. */
 aur_result aur_ranks_join_by(const aur_transport *transport, aur_error *error);
 
@@ -100,12 +98,12 @@ aur_result aur_ranks_failure(const aur_ranks *ranks, aur_error *error);
 bool aur_ranks_spread(aur_ranks *ranks, bool last, size_t size, const void *data);
 bool aur_ranks_take(aur_ranks *ranks, aur_message *piece);
 /* Rank 0's data[*size] for all; the others' *data is allocated with malloc, with a zero byte after it. */
-AUR_INTERNAL aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_error *error);
+aur_result aur_ranks_broadcast(aur_ranks *ranks, char **data, size_t *size, aur_error *error);
 
 /* Gives rank 0 the data of each other rank, one after the other in their order. */
 typedef aur_result (*aur_ranks_add)(void *context, size_t rank, size_t size, const void *data);
-AUR_INTERNAL aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur_ranks_add add,
-                                         void *context, aur_error *error);
+aur_result aur_ranks_gather(aur_ranks *ranks, size_t size, const void *data, aur_ranks_add add, void *context,
+                            aur_error *error);
 
 /* Seconds of one clock on the wall, rank 0's, and of all ranks' processors. */
 AUR_INTERNAL void aur_ranks_share_seconds(double *wall, double *cpu);

@@ -1,7 +1,6 @@
 /* Tallies of several processes, added up. */
 #include "points/base/bytes.h"
-#include "points/base/parallel.h"
-#include "points/base/ranks.h"
+#include "points/base/io.h"
 #include "render/radiosity/walk.h"
 
 typedef struct counters {
@@ -58,8 +57,8 @@ static aur_result add(void *context, size_t rank, size_t size, const void *data)
 }
 
 aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallies, aur_error *error) {
-    aur_ranks *const ranks = aur_ranks_here();
-    if (ranks == NULL)
+    const aur_io *const io = aur_io_here();
+    if (io == NULL)
         return AUR_OK;
     aur_bytes bytes = {0};
     const uint64_t own = rays_of(count, tallies);
@@ -67,15 +66,15 @@ aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallie
     for (size_t i = 0; i < count; ++i)
         put(&tallies[i], &bytes);
     aur_result result = bytes.failed ? aur_fail_memory(error)
-                                     : aur_ranks_gather(ranks, bytes.size, bytes.data, add, &total, error);
+                                     : io->gather(io->user, bytes.size, bytes.data, add, &total, error);
     bytes.size = 0;
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         put(&tallies[i], &bytes);
     char *all = (char *)bytes.data;
     size_t size = bytes.size;
     if (result == AUR_OK)
-        result = aur_ranks_broadcast(ranks, &all, &size, error);
-    if (result == AUR_OK && aur_ranks_rank() != 0) {
+        result = io->share(io->user, &all, &size, error);
+    if (result == AUR_OK && io->rank != 0) {
         aur_bytes_reader reader = {.at = (unsigned char *)all, .end = (unsigned char *)all + size};
         for (size_t i = 0; i < count; ++i)
             get(&reader, &tallies[i]);

@@ -10,8 +10,9 @@
 #include <unistd.h>
 
 #include "points/base/bytes.h"
+#include "points/base/file.h"
 #include "points/base/parallel.h"
-#include "points/base/ranks.h"
+#include "points/ranks/ranks.h"
 
 enum { RANKS = 5, ITEMS = 1000, SECONDS = 60 };
 

@@ -1,7 +1,7 @@
 /* Where a build has MPI, it is a module beside the library, which is looked for when several processes were
  * started; where it has none, this file is the same and finds nothing. */
 #include "points/base/file.h"
-#include "points/base/ranks.h"
+#include "points/ranks/ranks.h"
 
 aur_result aur_transport_find(aur_transport *transport, aur_error *error) {
     /* MPI's own parts, which it loads itself, look for its names. */
