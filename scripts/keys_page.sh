@@ -48,23 +48,21 @@ if [ "${2:-}" = --options ]; then
   cat <<'HEAD'
 # Options
 
-Every verb of the program with its options. This page is written by `scripts/keys_page.sh PROGRAM --options` from what
-`aureole help verb NAME` prints, and a test compares them.
+Every command of the program with its options, as `aureole help COMMAND` prints them. `scripts/keys_page.sh PROGRAM --options` writes this page.
 HEAD
-  "$program" help verb --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
-    printf '\n## %s\n\n`%s`: %s.\n' "$name" "$("$program" help verb "$name" | head -1)" \
-      "$("$program" help verb --json | sed -n "s/.*\"name\": \"$name\", \"summary\": \"\(.*\)\"}.*/\1/p")"
-    "$program" help verb "$name" --format csv | table
+  "$program" help command --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
+    printf '\n## %s\n\n`%s`: %s.\n' "$name" "$("$program" help command "$name" | head -1)" \
+      "$("$program" help command --json | sed -n "s/.*\"name\": \"$name\", \"summary\": \"\(.*\)\"}.*/\1/p")"
+    "$program" help command "$name" --format csv | table
   done
   exit
 fi
 
 cat <<'HEAD'
-# Keys
+# Parameters
 
-Every key that sets, integrators, materials, textures, shapes, lights, cameras and films take, in SET and
-`--integrator` texts (`NAME:key=value,...`) and as children of a scene's elements; those of pictures are options of `aureole convert`. This page is written by
-`scripts/keys_page.sh` from what `aureole help KIND NAME` prints, and a test compares them.
+Every parameter (key) of sets, integrators, materials, textures, shapes, lights, cameras and films, in SET and
+`--integrator` texts (`NAME:key=value,...`) and as children of a scene's elements. `aureole help KIND NAME` prints them; `scripts/keys_page.sh` writes this page.
 HEAD
 for kind in $kinds; do
   [ "$kind" = sampler ] && continue # the sets

@@ -179,7 +179,7 @@ def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) ->
 
     A comment "# domain: NAME" in the header gives the domain; `write` writes it. Without it the names in the header of
     a CSV file say it: u,v; x,y; x,y,z; w,x,y,z; u1,u2,...; and w after it for weights. Without a header two columns are
-    u,v and three x,y,z. Directions that all have z >= 0 are then taken for the hemisphere, with an AureoleWarning.
+    u,v and three x,y,z. If all directions have z >= 0, the hemisphere is assumed, with an AureoleWarning.
     `domain` says it where it is known.
 
     >>> import tempfile, os
@@ -246,7 +246,7 @@ class View:
 
 def _warn(domain: str, what: str = "points") -> None:
     warnings.warn(
-        f"{what}: nothing says what domain these are of; they are taken for the {domain}: give domain=... "
+        f"{what}: the domain of the points is not stated; assuming the {domain}: set domain=... "
         "(sphere, axes, cube, rotations)", AureoleWarning, stacklevel=4,
     )  # fmt: skip
 

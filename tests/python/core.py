@@ -258,10 +258,10 @@ class Domains(unittest.TestCase):
             lambda: aureole.measure(axes, "energy"), lambda: aureole.Nearest(axes), lambda: aureole.write("a.csv", axes),
             lambda: aureole.worst_case_error(axes),
         ):  # fmt: skip
-            with self.assertWarnsRegex(aureole.AureoleWarning, "taken for the hemisphere"):
+            with self.assertWarnsRegex(aureole.AureoleWarning, "assuming the hemisphere"):
                 call()
         np.savetxt("bare.csv", axes, delimiter=",", header="x,y,z", comments="")
-        with self.assertWarnsRegex(aureole.AureoleWarning, "bare.csv: .* taken for the hemisphere"):
+        with self.assertWarnsRegex(aureole.AureoleWarning, "bare.csv: .* assuming the hemisphere"):
             aureole.read("bare.csv")
         self.assertEqual(aureole.read("bare.csv", "axes")[2], "axes")
 
@@ -276,7 +276,7 @@ class Domains(unittest.TestCase):
         cube -= 0.5
         cube /= np.linalg.norm(cube, axis=1)[:, np.newaxis]
         self.assertTrue(aureole.measure(cube, "energy") > 0)
-        with self.assertWarnsRegex(aureole.AureoleWarning, "taken for the cube"):
+        with self.assertWarnsRegex(aureole.AureoleWarning, "assuming the cube"):
             aureole.measure(np.array([[0.6, 0.8, 0.01], [0.01, 0.6, 0.8]]), "centered")
 
     def test_numbers_out_of_range_are_argument_errors(self):

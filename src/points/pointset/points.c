@@ -68,8 +68,8 @@ void aur_points_warn_of_prefix(const aur_points_view *points, uint64_t used, con
 void aur_points_warn_of_guess(const aur_points_view *points, const char *path, const aur_warnings *warnings) {
     if (points->guessed)
         aur_warn_at(warnings, (aur_location){.file = path},
-                    "nothing in the file says what domain its points are of; they are taken for the %s: give "
-                    "the domain if they are of another (sphere, axes, cube)",
+                    "the file does not state the domain of its points; assuming the %s: set the domain if it "
+                    "is another one (sphere, axes, cube)",
                     aur_domain_name(points->domain));
 }
 

@@ -71,6 +71,6 @@ const cli_option cli_limits_option[] = {
     {CLI_TEXT(cli_common, no_cache, "memory-limit", "2G", NULL, "limit the address space"),
      .parse = limit_memory},
     {CLI_TEXT(cli_common, no_cache, "time-limit", "10min", NULL,
-              "stop after this time with status 3; a checkpoint is kept"),
+              "stop after this time with status 3; the checkpoint remains"),
      .parse = limit_time},
     {.key = {0}}};

@@ -199,7 +199,7 @@ static void put_scene(FILE *page, const cli_command *const *commands) {
                    "its parameters, each with a name and a value, and nested plugins.");
     put_entry(page, "<integer>, <float>, <boolean>, <string>", "A parameter's value, as value=\"...\".");
     put_entry(page, "<vector>, <point>", "Three numbers, as x, y and z or as value=\"1, 2, 3\".");
-    put_entry(page, "<rgb>, <spectrum>", "A colour: one number or three; a <texture> may stand for it.");
+    put_entry(page, "<rgb>, <spectrum>", "A colour: one number, three numbers, or a <texture>.");
     put_entry(page, "<transform>",
               "Its children are applied in order: translate, rotate, scale, matrix, lookat.");
     put_entry(page, "<ref id=\"...\">", "The plugin that has this id.");

@@ -52,7 +52,7 @@ aur_result report_load(const char *path, report_table **table, char **notes, aur
     *table = NULL;
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return fail_in(path, 0, AUR_ERROR_OPEN, "it is no file", error);
+        return fail_in(path, 0, AUR_ERROR_OPEN, "not a regular file", error);
     FILE *const file = fopen(path, "r");
     if (file == NULL)
         return fail_in(path, 0, AUR_ERROR_OPEN, strerror(errno), error);

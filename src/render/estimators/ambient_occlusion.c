@@ -14,7 +14,7 @@ typedef struct occlusion_data {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(occlusion_data, "samples", pattern.count, 1, 1 << 30, "64",
-                        "directions a pixel, shared out among its samples")},
+                        "directions per pixel, split among its samples")},
     {AUR_KEY_OF_TEXT(occlusion_data, "pattern", pattern.set, "spherical-fibonacci", "SET of the directions")},
     {AUR_KEY_OF_TEXT(occlusion_data, "map", map, "lambert",
                      "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
@@ -24,7 +24,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(occlusion_data, "rotations", pattern.rotations, 0, 65536, "16",
                         "number of prepared randomisations; 0: a separate one for every pixel")},
     {AUR_KEY_OF_REAL(occlusion_data, "max_distance", occlusion.max_distance, 0.0, INFINITY, "infinity",
-                     "what is farther, in scene units, does not occlude")},
+                     "largest distance of occluders, in scene units")},
     {AUR_KEY_OF_BOOLEAN(occlusion_data, "cosine", cosine, "true",
                         "directions weighted by the cosine, else evenly")},
     {AUR_KEY_OF_CHOICE(occlusion_data, "pixel", pixel, "filter",
@@ -105,7 +105,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
 
 const aur_integrator_descriptor aur_integrator_ambient_occlusion = {
     .row = {.name = "ao",
-            .summary = "ambient occlusion: how much of the hemisphere over a point is open",
+            .summary = "ambient occlusion: the visible part of the hemisphere above a point",
             .source = "Zhukov 1998, Schretter 2012",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(occlusion_data),

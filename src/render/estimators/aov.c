@@ -251,7 +251,7 @@ static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
 
 const aur_integrator_descriptor aur_integrator_aov = {
     .row = {.name = "aov",
-            .summary = "albedo, normals, positions and more as channels next to those of another integrator",
+            .summary = "albedo, normals, positions and more as channels, added to another integrator",
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(aov_data),

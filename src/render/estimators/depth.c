@@ -11,6 +11,8 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
 }
 
 const aur_integrator_descriptor aur_integrator_depth = {
-    .row = {.name = "depth", .summary = "the distance to what the camera sees", .source = "Mitsuba 3"},
+    .row = {.name = "depth",
+            .summary = "distance along the camera ray to the first surface",
+            .source = "Mitsuba 3"},
     .radiance = radiance,
 };

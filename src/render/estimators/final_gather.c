@@ -21,31 +21,29 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_TEXT(aur_gather_settings, "pattern", pattern, "spherical-fibonacci",
                      "SET of the directions")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "split", split, 0, AUR_SAMPLES_PER_PIXEL_MAX, "0",
-                        "samples among which a pattern is shared out, the next ones share another; 0: all of "
-                        "a pixel")},
-    {AUR_KEY_OF_CHOICE(aur_gather_settings, "share", share, "false",
-                       "neighbouring pixels share the diffuse light that they gather: of 4 x 4, or the "
-                       "nearest alone",
-                       "false", "true", "near")},
+                        "number of samples that split one pattern; 0: all of a pixel")},
+    {AUR_KEY_OF_CHOICE(
+        aur_gather_settings, "share", share, "false",
+        "neighbouring pixels share gathered diffuse light: in blocks of 4 x 4, or the nearest pixels",
+        "false", "true", "near")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "photons", photons, 1, MOST, "500000",
                         "number of photons in the map that gather rays query")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "photon_seed", photon_seed, 0, INFINITY, "0",
                         "the same photons in images of all seeds; 0: by the image's seed")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "caustic_photons", caustic_photons, 0, MOST, "0",
-                        "photons of a map of caustics alone; 0 leaves them in the one map")},
+                        "photons of a separate caustic map; 0: caustics are in the photon map")},
     {AUR_KEY_OF_REAL(aur_gather_settings, "photons_per_texel", photons_per_texel, 1.0, 1e6, "16",
-                     "photons that a texel of irradiance is the mean of")},
-    {AUR_KEY_OF_CHOICE(
-        aur_gather_settings, "debias", debias, "false",
-        "paths correct the bias of the photon map; only: the image is that correction alone; found: "
-        "without light that paths cannot find, of a point or a sun over mirrors",
-        "false", "true", "only", "found")},
+                     "photons per texel of irradiance")},
+    {AUR_KEY_OF_CHOICE(aur_gather_settings, "debias", debias, "false",
+                       "paths correct the bias of the photon map; only: the image is the correction; found: "
+                       "without light that paths cannot find, from points or suns over mirrors",
+                       "false", "true", "only", "found")},
     {AUR_KEY_OF_REAL(aur_gather_settings, "continued", continued, 0.0, 1.0, "0.25",
                      "of debias: the share of gather rays that go on as paths"),
      .minimum_open = true},
-    {AUR_KEY_OF_REAL(aur_gather_settings, "short_rays", short_rays, 0.0, 1e6, "2",
-                     "gather rays that are shorter than so many widths of the texel that they meet go on as "
-                     "paths")},
+    {AUR_KEY_OF_REAL(
+        aur_gather_settings, "short_rays", short_rays, 0.0, 1e6, "2",
+        "gather rays shorter than this number of widths of the texel that they hit continue as paths")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "light_samples", light_samples, 1, 65536, "1",
                         "points on lights that each sample's shadow rays aim at")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "bright_samples", bright_samples, 0, 65536, "0",
@@ -145,7 +143,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
     .row = {.name = "finalgather",
-            .summary = "final gathering over a photon map, one pattern of directions an image",
+            .summary = "final gathering over a photon map, one pattern of directions per image",
             .source = "Christensen 1999, Marques 2013",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(aur_gather_settings),

@@ -29,7 +29,7 @@ static const aur_row *const rows[] = {INTEGRATORS(ADDRESS)};
 
 const aur_table aur_integrator_table = {
     .kind = "integrator",
-    .summary = "how the light that reaches the camera is found",
+    .summary = "methods of light transport",
     AUR_TABLE_ROWS(rows),
 };
 

@@ -17,7 +17,7 @@ static const aur_key keys[] = {
         aur_path, "packets", packets, "true",
         "trace sixteen pixels in lockstep instead of one path at a time; the image is the same")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "interleaved", interleaved, "false",
-                        "the pixels of a packet share the random numbers of all but their camera rays")},
+                        "the pixels of a packet share all random numbers except those of camera rays")},
     {AUR_KEY_OF_INTEGER(aur_path, "candidates", candidates, 1, AUR_CANDIDATES_MOST, "1",
                         "candidate points on emitters per vertex; one is chosen by its unshadowed "
                         "contribution and gets the shadow ray: less noise under skies for more time")},

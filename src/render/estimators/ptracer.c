@@ -32,8 +32,7 @@ static const aur_key keys[] = {
                         "Russian roulette from this depth on")},
     {AUR_KEY_OF_BOOLEAN(ptracer, "hide_emitters", hide_emitters, "false", "lights are black to the camera")},
     {AUR_KEY_OF_BOOLEAN(ptracer, "specular_paths", specular_paths, "true",
-                        "path tracing of what the camera sees in mirrors and through glass; false: black, as "
-                        "in Mitsuba")},
+                        "follow mirrors and glass; false: they are black, as in Mitsuba")},
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,

@@ -27,7 +27,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(radiosity_data, "paths", paths, 1, INT64_C(1) << 40, "100000",
                         "paths of the walk; with epsilon the most that are tried (2^28)"),
      .computed = true},
-    {AUR_KEY_OF_TEXT(radiosity_data, "sequence", sequence, "sobol", "SET of the walk's numbers"),
+    {AUR_KEY_OF_TEXT(radiosity_data, "sequence", sequence, "sobol", "point set (SET) of the walk"),
      .computed = true},
     {AUR_KEY_OF_CHOICE(radiosity_data, "walk", walk, "power",
                        "paths begin on lights by their power, with directions by the cosine; paper: by area, "
@@ -51,10 +51,11 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_CHOICE(radiosity_data, "light_sampling", light_sampling, "permuted",
                        "each light at one of four points, or all lights at each", "permuted", "all")},
     {AUR_KEY_OF_BOOLEAN(radiosity_data, "share_neighbours", image.share_neighbours, "false",
-                        "neighbouring pixels share what they gather")},
-    {AUR_KEY_OF_CHOICE(radiosity_data, "oversampling", image.oversampling, "halton",
-                       "samples of a pixel: Halton points, these until nothing changes, or the sampler's",
-                       "halton", "adaptive", "sampler")},
+                        "neighbouring pixels share gathered light")},
+    {AUR_KEY_OF_CHOICE(
+        radiosity_data, "oversampling", image.oversampling, "halton",
+        "samples of a pixel: Halton points, Halton points until the pixel converges, or the sampler's",
+        "halton", "adaptive", "sampler")},
     {AUR_KEY_OF_REAL(radiosity_data, "threshold", image.threshold, 0.0, 1.0, "0.01",
                      "change at which adaptive oversampling ends")},
     {AUR_KEY_OF_CHOICE(radiosity_data, "component", image.component, "all", "the part of the light to show",
@@ -233,7 +234,7 @@ static void release(aur_integrator *integrator) {
 
 const aur_integrator_descriptor aur_integrator_radiosity = {
     .row = {.name = "radiosity",
-            .summary = "particles give every triangle its radiance, which is gathered once",
+            .summary = "particles compute the radiance of every triangle, which is gathered once",
             .source = "Keller 1994",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(radiosity_data),

@@ -185,8 +185,9 @@ static const aur_row lanczos = {.name = "lanczos",
 /* In the order of aur_filter_kind. */
 static const aur_row *const rows[] = {&box, &tent, &gaussian, &mitchell, &catmullrom, &lanczos};
 
-const aur_table aur_filter_table = {
-    .kind = "rfilter", .summary = "how samples are weighed around a pixel", AUR_TABLE_ROWS(rows)};
+const aur_table aur_filter_table = {.kind = "rfilter",
+                                    .summary = "reconstruction filters: weights of samples around a pixel",
+                                    AUR_TABLE_ROWS(rows)};
 
 const aur_filter *aur_filter_find(const char *name) {
     for (size_t i = 0; i < FILTER_COUNT; ++i)

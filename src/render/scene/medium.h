@@ -1,5 +1,5 @@
-/* Participating media: what absorbs and scatters light between surfaces. Each stands in a file of the folder
- * media and has one line in media/table.c.
+/* Participating media: media that absorb and scatter light between surfaces. Each stands in a file of the
+ * folder media and has one line in media/table.c.
  *
  * Light paths are drawn by one colour channel, and weighed over all three and over both ways to find a light
  * by the balance heuristic (Veach 1997; Wilkie and others 2014; Miller, Georgiev and Jarosz 2019). */

@@ -11,7 +11,7 @@ render() { "$aureole" render "$scene" --width 40 -q "$@"; }
 AUREOLE_OIDN=$PWD/nowhere.so render -o none.exr --denoise 2>message.txt
 [ $? -eq 2 ] && grep -q -- '--denoise: the library that AUREOLE_OIDN names: .*nowhere.so' message.txt || fail "no library: $(cat message.txt)"
 AUREOLE_OIDN=libz.so.1 render -o none.exr --denoise 2>message.txt
-[ $? -eq 2 ] && grep -q -- '--denoise: the library is no Open Image Denoise' message.txt || fail "another library: $(cat message.txt)"
+[ $? -eq 2 ] && grep -q -- '--denoise: the library is not Open Image Denoise' message.txt || fail "another library: $(cat message.txt)"
 AUREOLE_OIDN=$stub render -o none.exr --denoise --shard 1/2 2>message.txt
 [ $? -eq 2 ] && grep -q -- "'--denoise' cannot be used with '--shard'" message.txt || fail "a part: $(cat message.txt)"
 

@@ -65,11 +65,11 @@ sed '1s/#.*//' axes.csv >open.csv
 "$aureole" points file:axes.csv -o closed.npy
 awk -F, '{ print $1 " " $2 " " $3 }' <(tail -n +2 axes.csv) >bare.txt
 for file in open.csv bare.txt; do
-  says 0 "they are taken for the hemisphere" measure $file -m energy
-  says 0 "they are taken for the hemisphere" weights $file --method exact --report
-  says 0 "they are taken for the hemisphere" voronoi $file
-  says 0 "they are taken for the hemisphere" info $file
-  says 0 "they are taken for the hemisphere" points file:$file
+  says 0 "assuming the hemisphere" measure $file -m energy
+  says 0 "assuming the hemisphere" weights $file --method exact --report
+  says 0 "assuming the hemisphere" voronoi $file
+  says 0 "assuming the hemisphere" info $file
+  says 0 "assuming the hemisphere" points file:$file
   for domain in axes hemisphere sphere; do
     says 0 "" measure $file -m energy --domain $domain
   done
@@ -79,7 +79,7 @@ says 0 "" nearest axes.csv axes.csv
 # Points of the cube of unit length, in an array without names: said, too.
 printf '\x93NUMPY\x01\x00\x46\x00%-69s\n' "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }" >unit.npy
 printf '\x33\x33\x33\x33\x33\x33\xe3\x3f\x9a\x99\x99\x99\x99\x99\xe9\x3f\x00\x00\x00\x00\x00\x00\x00\x00' >>unit.npy # .6 .8 0
-says 0 "they are taken for the hemisphere" info unit.npy
+says 0 "assuming the hemisphere" info unit.npy
 says 0 "" measure unit.npy -m star-bound --domain cube
 
 # Comments that are not ours say nothing, and ours do not contradict the columns.
@@ -96,7 +96,7 @@ says 2 "below.csv:2: point 1 has z = -1, below the hemisphere" info below.csv
 says 0 "only the first 12 of the file's 60 points" points file:axes.csv -n 12
 says 2 "has 60 points, not 61" points file:axes.csv -n 61
 for verb in voronoi "nearest" weights; do
-  says 2 "has 60 points, not 12: leave -n out" $verb axes.csv $([ $verb = nearest ] && echo axes.csv) -n 12
+  says 2 "has 60 points, not 12: omit -n" $verb axes.csv $([ $verb = nearest ] && echo axes.csv) -n 12
 done
 "$aureole" points sobol -n 16 -o square.csv
 says 0 "only the first 8 of the file's 16 points" measure file:square.csv -n 8 -m star

@@ -77,11 +77,11 @@ sed "s|meshes/red-wall.obj|/dev/zero|" $scene >box/device.xml
 for command in 'info fifo' 'convert fifo out.exr' 'points file:fifo' 'measure file:fifo -m energy' 'info box/fifo.xml' 'render fifo -o out.exr' 'merge fifo -o out.exr' \
   'irradiance box/cornell-box.xml --sensors fifo' 'viewfactors fifo' 'render box/cornell-box.xml --checkpoint fifo --resume -o out.exr'; do
   # shellcheck disable=SC2086
-  refuses 'pipe\|no file\|no checkpoint\|unknown\|fifo' 2 timeout -s KILL 20 "$aureole" $command
+  refuses 'pipe\|not a regular file\|no checkpoint\|unknown\|fifo' 2 timeout -s KILL 20 "$aureole" $command
 done
 for command in 'info /dev/zero' 'convert /dev/zero out.exr' 'info box/device.xml' 'points file:/dev/zero'; do
   # shellcheck disable=SC2086
-  refuses 'device\|no file' 2 timeout -s KILL 20 "$aureole" $command
+  refuses 'device\|not a regular file' 2 timeout -s KILL 20 "$aureole" $command
 done
 "$aureole" points sobol -n 8 -o eight.csv
 "$aureole" measure <(cat eight.csv) -m l2-star --format csv 2>/dev/null | cut -d, -f2- | cmp -s - <("$aureole" measure eight.csv -m l2-star --format csv | cut -d, -f2-) || fail "a process substitution is refused"

@@ -71,7 +71,7 @@ paste -d, <(tail -1 exact) <(tail -1 bounded) | awk -F, '{ off = $8 - $4; exit !
   fail "bounds: $(cat exact bounded)"
 refuses --accuracy $measure random -n 64 --metric energy --accuracy -1
 refuses accuracy $measure random -n 64 --metric energy --accuracy 1
-refuses 'stands alone' $measure sobol -n 16 --metric spectrum,star
+refuses 'cannot be combined' $measure sobol -n 16 --metric spectrum,star
 prints 'degree' $measure sobol -n 16 --metric spectrum:2 --domain sphere
 prints 'kx,ky,power' $measure sobol -n 16 --metric periodogram:2 --format csv
 
@@ -123,7 +123,7 @@ for points in "sobol -n 16" "spherical-fibonacci -n 16" "spherical-fibonacci -n 
   # shellcheck disable=SC2086
   [ "$all" = "$($measure $points -q --domain "$domain" --metric "$names" --format csv)" ] || fail "--metric all of $points is not $names"
 done
-refuses "stands alone" $measure sobol -n 4 --metric all,star
+refuses "cannot be combined" $measure sobol -n 4 --metric all,star
 # A net has a power of its base as its size: such a figure is left out, and said.
 prints "no net: a net in base 2" $measure halton -n 8,12 --metric all
 [ "$($measure halton -q -n 8,12 --metric all --format csv | cut -d, -f9 | paste -sd' ')" = "net 3 nan" ] ||

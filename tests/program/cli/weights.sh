@@ -152,7 +152,7 @@ refused "length 1" off.csv --lobe cosine
 printf 'x,y,z\n0,0,1\n0,0,-1\n' >below.csv
 refused "below the hemisphere" below.csv --lobe cosine
 printf 'u,v\n0.5,0.5\n' >square.csv
-refused "as they stand" points.csv --lobe cosine --density optimal
+refused "cannot be used with a file" points.csv --lobe cosine --density optimal
 refused "x,y,z" square.csv --lobe cosine
 refused "exponent" sobol -n 8 --lobe phong:-1
 refused "exponent\|nan" sobol -n 8 --lobe phong:nan

@@ -13,7 +13,7 @@ typedef struct file_keys {
 } file_keys;
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_TEXT(file_keys, "PATH", path, NULL, "the file, in place of key=value: file:PATH")},
+    {AUR_KEY_OF_TEXT(file_keys, "PATH", path, NULL, "the file: file:PATH")},
 };
 
 static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {

@@ -49,7 +49,7 @@ typedef struct interlaced_keys {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(interlaced_keys, "order", order, 2, 3, "2",
-                        "how many coordinates of Sobol's sequence give the digits of one")},
+                        "number of Sobol' coordinates that are interleaved into one")},
 };
 
 static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
@@ -78,18 +78,17 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
 }
 
 const aur_square_set aur_set_interlaced = {
-    .description =
-        {.row = {.name = "interlaced",
-                 .summary = "digital nets of order 2 or 3: digits of Sobol' coordinates in turn, for smooth "
-                            "functions",
-                 .source = "Dick 2008; Dick 2011",
-                 AUR_ROW_KEYS(keys)},
-         .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-         .dimensions = {1, AUR_SOBOL_DIMENSIONS / 2},
-         .maximum_size = UINT64_C(1) << 53,
-         .best_sizes = AUR_SIZES_POWERS,
-         .size_base = 2,
-         .extensible = true},
+    .description = {.row = {.name = "interlaced",
+                            .summary = "digital nets of order 2 or 3: interleaved digits of Sobol' "
+                                       "coordinates, for smooth functions",
+                            .source = "Dick 2008; Dick 2011",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
+                    .dimensions = {1, AUR_SOBOL_DIMENSIONS / 2},
+                    .maximum_size = UINT64_C(1) << 53,
+                    .best_sizes = AUR_SIZES_POWERS,
+                    .size_base = 2,
+                    .extensible = true},
     .scramblings = AUR_SCRAMBLES_BINARY,
     .prepare = prepare,
     .fill = fill,

@@ -125,7 +125,7 @@ const aur_square_set aur_set_golden = {
 const aur_square_set aur_set_r2 = {
     .description = {.row = {.name = "r2",
                             .summary =
-                                "additive recurrence of the plastic number (its kin in other dimensions)",
+                                "additive recurrence of the plastic number, generalised to any dimension",
                             .source = "Roberts 2018"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .dimensions = {1, R2_DIMENSIONS},

@@ -89,7 +89,7 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
 
 const aur_square_set aur_set_sliced = {
     .description = {.row = {.name = "sliced",
-                            .summary = "sliced optimal transport: projections on all directions are even",
+                            .summary = "sliced optimal transport: uniform projections on all directions",
                             .source = "Paulin 2020"},
                     .domains = AUR_ON_SQUARE,
                     .dimensions = {2, 2},

@@ -15,7 +15,7 @@
 static const aur_row *const rows[] = {AUR_MEASURES(ROW_OF)};
 
 static const aur_table measures = {
-    .kind = "measure", .summary = "figures of the quality of points", AUR_TABLE_ROWS(rows)};
+    .kind = "measure", .summary = "measures of the quality of points", AUR_TABLE_ROWS(rows)};
 
 size_t aur_measure_count(void) {
     return measures.count;

@@ -29,7 +29,7 @@ static void fill(const void *data, uint64_t first, size_t count, double *wxyz) {
 
 const aur_native_set aur_native_super_fibonacci = {
     .description = {.row = {.name = "super-fibonacci",
-                            .summary = "rotations on a spiral about a spiral, any number of them",
+                            .summary = "rotations on a double spiral, any number",
                             .source = "Alexa 2022"},
                     .domains = AUR_ON_ROTATIONS,
                     .dimensions = {4, 4},

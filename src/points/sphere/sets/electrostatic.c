@@ -28,9 +28,9 @@ typedef struct electrostatic_keys {
 } electrostatic_keys;
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_TEXT(electrostatic_keys, "shells", shells, NULL,
-                     "points of each shell with / between, 30/30/60: all even together and each by itself; "
-                     "they come one shell after another")},
+    {AUR_KEY_OF_TEXT(
+        electrostatic_keys, "shells", shells, NULL,
+        "points of each shell, such as 30/30/60: uniform together and separately, one shell after another")},
     {AUR_KEY_OF_INTEGER(electrostatic_keys, "starts", starts, 1, 65536, "by the size",
                         "number of starts; the lowest energy is taken"),
      .computed = true},
@@ -194,13 +194,15 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
 }
 
 const aur_native_set aur_native_electrostatic = {
-    .description = {.row = {.name = "electrostatic",
-                            .summary = "charges at rest, in an order whose prefixes are even; several shells",
-                            .source = "Thomson 1904; Jones 1999; Caruyer 2013",
-                            AUR_ROW_KEYS(keys)},
-                    .domains = AUR_ON_SPHERE | AUR_ON_AXES,
-                    .dimensions = {3, 3},
-                    .maximum_size = LARGEST},
+    .description =
+        {.row = {.name = "electrostatic",
+                 .summary =
+                     "points of least Coulomb energy, ordered so that prefixes are uniform; several shells",
+                 .source = "Thomson 1904; Jones 1999; Caruyer 2013",
+                 AUR_ROW_KEYS(keys)},
+         .domains = AUR_ON_SPHERE | AUR_ON_AXES,
+         .dimensions = {3, 3},
+         .maximum_size = LARGEST},
     .prepare = prepare,
     .fill = fill,
 };

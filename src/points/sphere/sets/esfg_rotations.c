@@ -130,16 +130,16 @@ static void fill(const void *data, uint64_t first, size_t count, double *wxyz) {
 }
 
 const aur_native_set aur_native_esfg_rotations = {
-    .description = {.row = {.name = "esfg-rotations",
-                            .summary =
-                                "directions of E-SFG with equal turns about each; doubles and keeps its "
-                                "points",
-                            .source = "Marques 2019, lifted",
-                            AUR_ROW_KEYS(keys)},
-                    .domains = AUR_ON_ROTATIONS,
-                    .dimensions = {4, 4},
-                    .maximum_size = AUR_INDEX_LIMIT,
-                    .extensible = true},
+    .description =
+        {.row = {.name = "esfg-rotations",
+                 .summary =
+                     "directions of E-SFG with equally spaced turns about each; doubles and keeps its points",
+                 .source = "Marques 2019, lifted",
+                 AUR_ROW_KEYS(keys)},
+         .domains = AUR_ON_ROTATIONS,
+         .dimensions = {4, 4},
+         .maximum_size = AUR_INDEX_LIMIT,
+         .extensible = true},
     .prepare = prepare,
     .fill = fill,
 };

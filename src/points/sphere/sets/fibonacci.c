@@ -50,10 +50,10 @@ typedef struct fibonacci_keys {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(fibonacci_keys, "offset", offset, 0.0, 1.0, "0.5",
-                     "heights stand at i + offset: 0.5 in the middle of their bands"),
+                     "height of point i is at i + offset: 0.5 is the middle of its band"),
      .computed = true},
     {AUR_KEY_OF_REAL(fibonacci_keys, "epsilon", epsilon, 0.0, 1e6, "none",
-                     "in place of offset: distance of the first and last point from the poles, in bands"),
+                     "instead of offset: distance of the first and last point from the poles, in bands"),
      .computed = true},
     {AUR_KEY_OF_CHOICE(fibonacci_keys, "region", region, "domain", "fill the domain, or one octant of it",
                        "domain", "octant")},
@@ -121,10 +121,12 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
 
 const aur_native_set aur_native_fibonacci = {
     .description =
-        {.row = {.name = "spherical-fibonacci",
-                 .summary = "a spiral of golden angles at equal heights: among the most even, at any size",
-                 .source = "Swinbank 2006, Marques 2013",
-                 AUR_ROW_KEYS(keys)},
+        {.row =
+             {.name = "spherical-fibonacci",
+              .summary =
+                  "spiral of golden angles at equal steps of height: among the most uniform sets at any size",
+              .source = "Swinbank 2006, Marques 2013",
+              AUR_ROW_KEYS(keys)},
          .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK | AUR_ON_AXES,
          .dimensions = {3, 3},
          .maximum_size = UINT64_C(1) << 50},

@@ -83,15 +83,15 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
 }
 
 const aur_native_set aur_native_greedy = {
-    .description = {.row = {.name = "greedy",
-                            .summary =
-                                "each point where the sum of distances to those before it is greatest: "
-                                "good at every size",
-                            .source = "Leja 1957; Lopez Garcia, Saff 2010"},
-                    .domains = AUR_ON_SPHERE | AUR_ON_AXES,
-                    .dimensions = {3, 3},
-                    .maximum_size = LARGEST,
-                    .extensible = true},
+    .description =
+        {.row = {.name = "greedy",
+                 .summary =
+                     "each point maximises the sum of distances to the previous points: good at every size",
+                 .source = "Leja 1957; Lopez Garcia, Saff 2010"},
+         .domains = AUR_ON_SPHERE | AUR_ON_AXES,
+         .dimensions = {3, 3},
+         .maximum_size = LARGEST,
+         .extensible = true},
     .prepare = prepare,
     .fill = fill,
 };

@@ -227,7 +227,8 @@ static const aur_key keys[] = {
         "the points are centred for base*4^levels of them, or for each size: old points then move", "final",
         "per-level")},
     {AUR_KEY_OF_CHOICE(grid_keys, "progression", progression, "2",
-                       "2 puts the sub-grid first that doubles a grid best, 4 keeps their order", "2", "4")},
+                       "2: the sub-grid that doubles the grid best comes first; 4: sub-grids in their order",
+                       "2", "4")},
 };
 
 static void choose_order(grid *g, const grid_keys *p, double height) {

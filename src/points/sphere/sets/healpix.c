@@ -200,7 +200,7 @@ static uint64_t size_at(size_t index) {
 
 const aur_native_set aur_native_healpix = {
     .description = {.row = {.name = "healpix",
-                            .summary = "centres of HEALPix's pixels, 12 k^2 of them, in rings or nested",
+                            .summary = "centres of the 12 k^2 pixels of HEALPix, in ring or nested order",
                             .source = "Gorski 2005",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SPHERE,

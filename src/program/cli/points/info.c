@@ -108,7 +108,7 @@ static int describe_file(const char *path, const cli_info_options *options) {
     char start[START_CAPACITY];
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
-        return cli_bad_usage("%s: cannot read: it is no file; '-' reads standard input", path);
+        return cli_bad_usage("%s: cannot read: not a regular file; '-' reads standard input", path);
     FILE *const file = fopen(path, "rb");
     if (file == NULL)
         return cli_bad_usage("%s: cannot read: %s", path, strerror(errno));

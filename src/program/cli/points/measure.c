@@ -93,9 +93,9 @@ static bool complete(cli_measure_arguments *arguments) {
     }
     arguments->series = series > 0;
     if (series > 0 && arguments->metrics.count > 1)
-        return cli_bad_usage("--metric: a measure that is a table stands alone, not with others"), false;
+        return cli_bad_usage("--metric: a measure that is a table cannot be combined with others"), false;
     if (series > 0 && arguments->seed_count > 0)
-        return cli_bad_usage("--seeds: there are no statistics of tables"), false;
+        return cli_bad_usage("--seeds cannot be used with a measure that is a table"), false;
     for (size_t i = 0; i < arguments->source_count; ++i)
         if (arguments->sizes.count == 0 && !cli_has_size(arguments->sources[i]))
             return cli_bad_usage("measure: -n is missing for the set '%s' (there is no such file)",
@@ -105,7 +105,7 @@ static bool complete(cli_measure_arguments *arguments) {
         if (strcmp(cli_metric(arguments, i), "all") != 0)
             continue;
         if (arguments->metrics.count > 1)
-            return cli_bad_usage("--metric: 'all' stands alone"), false;
+            return cli_bad_usage("--metric: 'all' cannot be combined with other measures"), false;
         return cli_status(find_all(arguments, &error), &error) == CLI_SUCCESS;
     }
     if (!arguments->points.domain_given)

@@ -129,7 +129,7 @@ static bool has_values(const cli_measure_arguments *arguments, const cli_measure
         if (drawable(figure_of(arguments, &rows->items[r], metric, 0)))
             return true;
     cli_bad_usage(
-        "--plot: no value of '%s' is positive and finite, so none has a place on a logarithmic axis",
+        "--plot: no value of '%s' is positive and finite, so none can be drawn on a logarithmic axis",
         cli_metric(arguments, metric));
     return false;
 }

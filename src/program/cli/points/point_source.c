@@ -75,8 +75,8 @@ static bool are_equal(size_t count, const double *weights) {
 void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warnings warnings) {
     char text[AUR_ERROR_MESSAGE_CAPACITY];
     aur_format(text, sizeof text,
-               "%s: nothing in the file says what domain its points are of; they are taken for the %s: "
-               "--domain says otherwise (sphere, axes, cube)",
+               "%s: the file does not state the domain of its points; assuming the %s: --domain sets it "
+               "(sphere, axes, cube)",
                path, aur_domain_name(points->domain));
     if (points->guessed && warnings.function != NULL)
         warnings.function(warnings.user, text);
@@ -93,8 +93,8 @@ static aur_result load(const char *text, const cli_points *from, size_t count, a
         aur_points_destroy(*points);
         *points = NULL;
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "%s has %zu points, not %zu: leave -n out (file:PATH takes the first ones alone)",
-                        text, held, count);
+                        "%s has %zu points, not %zu: omit -n, or use file:PATH to take the first ones", text,
+                        held, count);
     }
     aur_directions_options options = from->options;
     options.size = sizeof options;

@@ -165,7 +165,7 @@ static int run(const cli_call *call) {
     if (wanted->cells != NULL && find_format(wanted->cells) == NULL)
         return cli_bad_usage("--cells: '%s' ends in none of .csv, .obj, .ply", wanted->cells);
     if (wanted->cells != NULL && wanted->from.options.cap_degrees > 0.0)
-        return cli_bad_usage("--cells: cells at the rim of a cap are no polygons: leave --cap out");
+        return cli_bad_usage("--cells cannot be used with --cap: cells at the rim are not polygons");
     wanted->from.domain_given = cli_given(call, "domain") != NULL;
     if (!wanted->from.domain_given && !cli_is_file(source))
         wanted->from.options.domain =

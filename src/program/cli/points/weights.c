@@ -81,7 +81,7 @@ static const cli_option options[] = {
     {CLI_REAL(cli_weights_arguments, look_up_degrees, "lookup", "DEGREES", 0, 90, NULL,
               "write the samples and weights of a table at this view angle")},
     {CLI_REAL(cli_weights_arguments, look_up_alpha, "roughness", "ALPHA", 1e-4, 1,
-              "the smallest of the table", "roughness to look up, in a table of several"),
+              "the smallest of the table", "roughness to look up, in a table of several roughnesses"),
      .key.computed = true},
     {CLI_INTEGER(cli_weights_arguments, rotation, "rotation", "K", 0, (1 << 16) - 1, "0",
                  "index of the rotation to look up")},
@@ -92,7 +92,7 @@ static const cli_option options[] = {
 static const char *broken_rule(const cli_call *call, const cli_weights_arguments *arguments) {
     const bool two = arguments->two;
     if (arguments->points.options.optimal_density && cli_has_size(arguments->source))
-        return "--density: the points of a file are as they stand";
+        return "--density cannot be used with a file";
     if (!two && (cli_given(call, "angle") != NULL || arguments->mirror_size > 0 || arguments->clipped))
         return "--angle, --n2 and --clip are for two lobes: give --lobe2";
     if (two && cli_given(call, "angle") == NULL && arguments->table == NULL)
@@ -183,7 +183,7 @@ static int print_report(const cli_weights_arguments *arguments, const cli_weight
         int digits;
     } of[FIGURES] = {{"equal", 8},       {"ratio", 8},     {"weighted", 8}, {"gain_percent", 4},
                      {"weight_sum", 10}, {"condition", 3}, {"degree", 9},   {"residual", 3},
-                     {"least", 8},       {"largest", 8},   {"places", 9}};
+                     {"least", 8},       {"largest", 8},   {"distinct", 9}};
     const bool exact = arguments->method == CLI_METHOD_EXACT;
     double figures[FIGURES];
     find_figures(arguments, result, 0, figures);
@@ -264,12 +264,10 @@ const cli_command cli_command_weights = {
     .name = "weights",
     .summary = "compute optimal and exact weights of samples, and their gain",
     .notes =
-        "Points are directions of the hemisphere (of the sphere, where the lobe is uniform), and the lobe is "
-        "what the integrand is multiplied by: the points of a set follow it. Weights are for densities of "
-        "integral 1: equal ones are 1/N. Square, cube, disk and rotations have exact weights alone. They are "
-        "worth most for random, irregular and partial sets. With "
-        "--lookup a set and its options must be those that the table has been built from; they may be left "
-        "out.",
+        "Points are directions of the hemisphere (of the sphere, if the lobe is uniform). The lobe "
+        "multiplies the integrand, and points of a set follow it. Weights add up to 1: equal ones are 1/N. "
+        "Square, cube, disk and rotations have exact weights only. Weights gain most for random, irregular "
+        "and partial sets. With --lookup, omit the set and its options, or give those of the table.",
     .operands = {{"FILE|SET", "the samples", .optional = true, .content = "file or set"}},
     .groups = {{options, 0},
                {cli_points_options, offsetof(cli_weights_arguments, points)},

@@ -99,7 +99,7 @@ aur_result cli_oidn_open(cli_oidn **made, aur_error *error) {
     if (oidn == NULL) {
         dlclose(own.library);
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "--denoise: the library is no Open Image Denoise of version 1.4 or 2");
+                        "--denoise: the library is not Open Image Denoise 1.4 or 2");
     }
     *oidn = own;
     *made = oidn;

@@ -27,9 +27,10 @@ typedef struct photometric_keys {
 static const aur_key keys[] = {
     {AUR_KEY_OF_TEXT(photometric_keys, "filename", filename, NULL,
                      "an IES (LM-63, 1986 to 2019) or EULUMDAT file; must be given")},
-    {AUR_KEY_OF_TEXT(photometric_keys, "text", text, NULL, "the content of such a file, in its place")},
-    {AUR_KEY_OF_TRANSFORM(photometric_keys, "to_world", to_world,
-                          "from a lamp at the origin that shines along -z, with C 0 along +x, in metres")},
+    {AUR_KEY_OF_TEXT(photometric_keys, "text", text, NULL, "content of such a file, instead of filename")},
+    {AUR_KEY_OF_TRANSFORM(
+        photometric_keys, "to_world", to_world,
+        "from a luminaire at the origin that shines along -z, with C 0 along +x, in metres")},
     {AUR_KEY_OF_COLOR(photometric_keys, "color", color, 1e30, "1", "factor of the light, RGB")},
     {AUR_KEY_OF_REAL(photometric_keys, "scale", scale, 0.0, 1e30, "1",
                      "factor of the light: dimming, depreciation")},
@@ -144,7 +145,7 @@ static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur
 
 const aur_emitter_descriptor aur_emitter_photometric = {
     .row = {.name = "photometric",
-            .summary = "a measured lamp, from an IES (LM-63) or EULUMDAT file",
+            .summary = "a measured luminaire, from an IES (LM-63) or EULUMDAT file",
             .source = "IESNA LM-63-2019; Stockmar 1990",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(photometric_light),

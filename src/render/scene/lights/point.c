@@ -42,9 +42,9 @@ static const aur_key spot_table[] = {
 static const aur_key directional_table[] = {
     {AUR_KEY_OF_COLOR(point_keys, "irradiance", color, 1e30, "1", "on a plane across the light, RGB")},
     {AUR_KEY_OF_VECTOR(point_keys, "direction", direction, -AUR_REACH, AUR_REACH, "+z by to_world",
-                       "where the light goes"),
+                       "direction of the light"),
      .computed = true},
-    {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "in place of direction: from light along +z")},
+    {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "instead of direction: from light along +z")},
 };
 
 static aur_vector to_vector(const double v[3]) {

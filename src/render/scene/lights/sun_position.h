@@ -23,7 +23,7 @@ typedef struct aur_sun_keys {
                            "by date and time", "to the sun"),                                                \
          .computed = true},                                                                                  \
         {AUR_KEY_OF_TEXT(struct_, "date", sun.date, NULL,                                                    \
-                         "YYYY-MM-DD, 1950 to 2050, in place of sun_direction")},                            \
+                         "YYYY-MM-DD, 1950 to 2050, instead of sun_direction")},                             \
         {AUR_KEY_OF_TEXT(struct_, "time", sun.time, "12:00",                                                 \
                          "HH:MM or HH:MM:SS by the clock of the time zone")},                                \
         {AUR_KEY_OF_REAL(struct_, "latitude", sun.latitude, -90.0, 90.0, "0", "degrees to the north")},      \

@@ -50,8 +50,8 @@ static const aur_key film_key_table[] = {
     {AUR_KEY_OF_INTEGER(film_keys, "crop_height", crop_height, 1, LARGEST_SIDE, "height",
                         "of the part to render"),
      .computed = true},
-    {AUR_KEY_OF_ITEM(film_keys, "rfilter", rfilter, "gaussian", "how samples are weighed around a pixel",
-                     "rfilter")},
+    {AUR_KEY_OF_ITEM(film_keys, "rfilter", rfilter, "gaussian",
+                     "reconstruction filters: weights of samples around a pixel", "rfilter")},
 };
 
 static const aur_row hdrfilm = {
@@ -132,7 +132,7 @@ static const aur_row sampler_common = {
     .name = "sampler", .summary = "what every sampler takes", AUR_ROW_KEYS(sampler_keys)};
 
 const aur_table aur_sampler_table = {.kind = "sampler",
-                                     .summary = "the numbers of a camera's samples: any set of the square",
+                                     .summary = "samplers of the camera: any set of the square",
                                      AUR_TABLE_ROWS(aur_set_rows),
                                      .common = &sampler_common};
 

@@ -35,7 +35,7 @@ static const aur_key shape_names[] = {
     NAME("silhouette_sampling_weight", "not needed: nothing is differentiated"),
 };
 static const aur_key emitter_names[] = {
-    NAME("mis_compensation", "not needed: directions are drawn by the image alone"),
+    NAME("mis_compensation", "not needed: directions follow the image"),
 };
 static const aur_key sensor_names[] = {
     NAME("shutter_open", "of no effect: nothing moves"),
@@ -50,7 +50,7 @@ static const aur_key volume_names[] = {
     NAME("accel", "not needed: volumes are read by no special hardware"),
 };
 static const aur_key film_names[] = {
-    NAME("file_format", "not needed: the name of the output file says it"),
+    NAME("file_format", "not needed: the extension of the output file selects it"),
     NAME("pixel_format", "not needed: images are RGB"),
     NAME("component_format", "not needed: images are 32-bit floats where the format has them"),
     NAME("banner", "of no effect: images carry none"),

@@ -37,7 +37,7 @@ static const aur_key shape_names[] = {
     NAME("hair", "'bsplinecurve' and 'linearcurve' render fibres"),
 };
 static const aur_key emitter_names[] = {
-    NAME("timed_sunsky", "an image is of one moment: 'sunsky' has a date and a time"),
+    NAME("timed_sunsky", "an image shows one moment: 'sunsky' has a date and a time"),
 };
 static const aur_key sensor_names[] = {
     NAME("distant", "'orthographic' measures parallel light"),

@@ -24,7 +24,7 @@ typedef struct coating {
         {AUR_KEY_OF_COLOR(coating, "sigma_a", absorption, 1e30, "0",                                         \
                           "absorption in the coat, an inverse of the thickness' unit")},                     \
         {AUR_KEY_OF_COLOR(coating, "specular_reflectance", specular, 1.0, "1",                               \
-                          "factor of what the coat reflects")},                                              \
+                          "factor of the light reflected by the coat")},                                     \
         AUR_NESTED_BSDF_KEY("bsdf", NULL, "the material under the coat; must be given")
 
 static const aur_key smooth_keys[] = {COATING_KEYS};

@@ -13,7 +13,7 @@ typedef struct conductor {
 #define CONDUCTOR_KEYS                                                                                       \
     AUR_METAL_KEYS(conductor), {                                                                             \
         AUR_KEY_OF_COLOR(conductor, "specular_reflectance", reflectance, 1.0, "1",                           \
-                         "factor of what is reflected")                                                      \
+                         "factor of the reflected light")                                                    \
     }
 
 static const aur_key smooth_keys[] = {CONDUCTOR_KEYS};

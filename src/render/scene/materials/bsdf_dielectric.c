@@ -11,9 +11,9 @@ typedef struct dielectric {
 static const aur_key keys[] = {
     AUR_IOR_KEYS("bk7"),
     {AUR_KEY_OF_COLOR(dielectric, "specular_reflectance", reflectance, 1.0, "1",
-                      "factor of what is reflected")},
+                      "factor of the reflected light")},
     {AUR_KEY_OF_COLOR(dielectric, "specular_transmittance", transmittance, 1.0, "1",
-                      "factor of what goes through")},
+                      "factor of the transmitted light")},
 };
 
 static aur_result add_lobes(aur_parameters *parameters, aur_lobe_way through, aur_bsdf *bsdf,

@@ -56,7 +56,7 @@ const aur_bsdf aur_bsdf_nothing = {.descriptor = &aur_bsdf_null,
 /* --- filters */
 
 static const aur_key filter_keys[] = {
-    {AUR_KEY_OF_COLOR(filter, "transmittance", transmittance, 1.0, "1", "factor of what goes through")},
+    {AUR_KEY_OF_COLOR(filter, "transmittance", transmittance, 1.0, "1", "factor of the transmitted light")},
 };
 
 #define FILTER(name_, summary_, weigh_)                                                                      \

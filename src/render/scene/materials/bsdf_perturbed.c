@@ -14,7 +14,7 @@ typedef struct perturbed {
 } perturbed;
 
 #define PERTURBED_KEYS                                                                                       \
-    AUR_NESTED_BSDF_KEY("bsdf", NULL, "what is perturbed; must be given"),                                   \
+    AUR_NESTED_BSDF_KEY("bsdf", NULL, "nested bsdf; must be given"),                                         \
         {AUR_KEY_OF_BOOLEAN(perturbed, "flip_invalid_normals", flips, "true",                                \
                             "normals that face away from the view are turned over")},                        \
     {                                                                                                        \

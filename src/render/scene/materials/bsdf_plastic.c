@@ -28,7 +28,7 @@ typedef struct plastic {
     AUR_IOR_KEYS("polypropylene"),                                                                           \
         {AUR_KEY_OF_COLOR(plastic, "diffuse_reflectance", diffuse, 1.0, "0.5", "of the base")}, {            \
         AUR_KEY_OF_COLOR(plastic, "specular_reflectance", specular, 1.0, "1",                                \
-                         "factor of what the coat reflects")                                                 \
+                         "factor of the light reflected by the coat")                                        \
     }
 #define PLASTIC_KEYS                                                                                         \
     COAT_KEYS, {                                                                                             \
@@ -241,7 +241,7 @@ const aur_bsdf_descriptor aur_bsdf_roughplastic = {
 
 const aur_bsdf_descriptor aur_bsdf_pplastic = {
     .row = {.name = "pplastic",
-            .summary = "a rough coat over a base that light meets once, unpolarised",
+            .summary = "a rough coat over a base, with one interaction, unpolarised",
             .source = "Baek et al. 2018 (Mitsuba 3)",
             AUR_ROW_KEYS(once_keys)},
     .size = sizeof(plastic),

@@ -21,7 +21,7 @@ static const aur_key keys[] = {
                      "index of refraction inside over outside"),
      .computed = true},
     {AUR_KEY_OF_REAL(principled, "specular", specular, 0.0, 1.0, "0.5",
-                     "in place of eta: 12.5 times the reflectance straight on")},
+                     "instead of eta: 12.5 times the reflectance at normal incidence")},
 };
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {

@@ -15,7 +15,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_COLOR(thin, "eta", eta, 100.0, "1.5", "index of refraction inside over outside"),
      .minimum = 0.1},
     {AUR_KEY_OF_COLOR(thin, "diff_trans", diffuse_through, 2.0, "0",
-                      "twice the share of diffuse light that goes through")},
+                      "twice the share of transmitted diffuse light")},
 };
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {

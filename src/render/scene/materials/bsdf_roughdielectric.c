@@ -11,9 +11,9 @@ typedef struct rough {
 
 static const aur_key keys[] = {
     AUR_IOR_KEYS("bk7"),
-    {AUR_KEY_OF_COLOR(rough, "specular_reflectance", reflectance, 1.0, "1", "factor of what is reflected")},
+    {AUR_KEY_OF_COLOR(rough, "specular_reflectance", reflectance, 1.0, "1", "factor of the reflected light")},
     {AUR_KEY_OF_COLOR(rough, "specular_transmittance", transmittance, 1.0, "1",
-                      "factor of what goes through")},
+                      "factor of the transmitted light")},
     AUR_MICROFACET_KEYS(rough),
 };
 

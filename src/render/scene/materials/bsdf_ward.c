@@ -20,10 +20,9 @@ typedef struct ward {
 static const aur_key keys[] = {
     {AUR_KEY_OF_COLOR(ward, "diffuse_reflectance", diffuse, 1.0, "0.5", "of the diffuse part")},
     {AUR_KEY_OF_COLOR(ward, "specular_reflectance", glossy, 1.0, "0.2", "of the glossy part")},
-    {AUR_KEY_OF_COLOR(ward, "diffuse_transmittance", diffuse_through, 1.0, "0",
-                      "what goes through to all sides")},
+    {AUR_KEY_OF_COLOR(ward, "diffuse_transmittance", diffuse_through, 1.0, "0", "diffuse transmittance")},
     {AUR_KEY_OF_COLOR(ward, "specular_transmittance", glossy_through, 1.0, "0",
-                      "what goes through straight, or about that way; the four add to at most 1")},
+                      "specular transmittance; the four add up to at most 1")},
     {AUR_KEY_OF_REAL(ward, "alpha", alpha, 0.0, 1.0, "0.1",
                      "roughness: the standard deviation of slopes times the root of 2; 0 mirrors")},
     {AUR_KEY_OF_BOOLEAN(ward, "varnished", varnished, "false",

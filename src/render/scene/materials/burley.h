@@ -21,14 +21,14 @@ typedef struct aur_burley {
         AUR_KEY_OF_SHARE(struct_, "anisotropic", burley.anisotropic, "0",                                    \
                          "how much longer than wide a highlight is: 1 is 10 to 1"),                          \
         AUR_KEY_OF_SHARE(struct_, "spec_trans", burley.spec_trans, "0",                                      \
-                         "share of glass in what is no metal"),                                              \
+                         "share of glass in the non-metallic part"),                                         \
         AUR_KEY_OF_SHARE(struct_, "spec_tint", burley.spec_tint, "0",                                        \
-                         "how much of the base's colour the highlight of what is no metal has"),             \
+                         "tint of non-metallic highlights by the base colour"),                              \
         AUR_KEY_OF_SHARE(struct_, "sheen", burley.sheen, "0", "light at grazing angles, as cloth has"),      \
         AUR_KEY_OF_SHARE(struct_, "sheen_tint", burley.sheen_tint, "0",                                      \
                          "how much of the base's colour that has"),                                          \
         AUR_KEY_OF_SHARE(struct_, "flatness", burley.flatness, "0",                                          \
-                         "share of flat reflection, as of light that goes through skin, in diffuse light")
+                         "share of subsurface-like reflection in diffuse light")
 
 /* What they are at a point. */
 typedef struct aur_burley_point {

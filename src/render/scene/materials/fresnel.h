@@ -45,7 +45,7 @@ aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_
     {AUR_KEY_READ_APART(AUR_KEY_TEXT, "material", "none",                                                    \
                         "a metal's symbol such as Au; none reflects all")},                                  \
         {AUR_KEY_OF_VECTOR(struct_, "eta", metal.eta, -1e3, 1e3, NULL,                                       \
-                           "in place of material, with k: index for R, G, B")},                              \
+                           "instead of material, with k: index for R, G, B")},                               \
     {                                                                                                        \
         AUR_KEY_OF_VECTOR(struct_, "k", metal.k, -1e3, 1e3, NULL, "absorption for R, G, B")                  \
     }

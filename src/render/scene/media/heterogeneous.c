@@ -14,7 +14,7 @@ typedef struct heterogeneous {
 } heterogeneous;
 
 static const aur_key keys[] = {
-    {AUR_VOLUME_KEY("albedo", "0.75", "the part of the light it meets that it scatters, from 0 to 1")},
+    {AUR_VOLUME_KEY("albedo", "0.75", "share of scattered light in an interaction, from 0 to 1")},
     {AUR_VOLUME_KEY("sigma_t", "1", "extinction: scattering and absorption, an inverse length")},
     {AUR_KEY_OF_REAL(heterogeneous, "scale", scale, 0.0, 1e30, "1", "factor of sigma_t")},
 };

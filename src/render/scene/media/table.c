@@ -24,14 +24,14 @@ typedef struct medium_keys {
 static const aur_key common_keys[] = {
     {AUR_KEY_OF_ITEM(medium_keys, "phase", phase, "isotropic", "how it scatters", "phase")},
     {AUR_KEY_OF_BOOLEAN(medium_keys, "sample_emitters", sample_emitters, "true",
-                        "draws points on lights where it scatters; else light is found by chance")},
+                        "sample points on lights at scattering events; else only paths find lights")},
 };
 
 static const aur_row common = {
     .name = "medium", .summary = "what every medium takes", AUR_ROW_KEYS(common_keys)};
 
 const aur_table aur_medium_table = {.kind = "medium",
-                                    .summary = "what absorbs and scatters light between surfaces",
+                                    .summary = "media that absorb and scatter light between surfaces",
                                     AUR_TABLE_ROWS(rows),
                                     .common = &common};
 

@@ -9,7 +9,7 @@ typedef struct henyey_greenstein {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(henyey_greenstein, "g", g, -1.0, 1.0, "0.8",
-                     "mean cosine: above 0 light goes on forwards, below 0 backwards"),
+                     "mean cosine: above 0 forward, below 0 backward scattering"),
      .minimum_open = true, .maximum_open = true},
 };
 

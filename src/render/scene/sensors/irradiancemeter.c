@@ -9,7 +9,7 @@ typedef struct irradiancemeter_keys {
 } irradiancemeter_keys;
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_ITEM(irradiancemeter_keys, "shape", shape, NULL, "the shape in which it stands", "shape")},
+    {AUR_KEY_OF_ITEM(irradiancemeter_keys, "shape", shape, NULL, "the shape", "shape")},
 };
 
 static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
@@ -62,7 +62,7 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
 
 const aur_sensor_descriptor aur_sensor_irradiancemeter = {
     .row = {.name = "irradiancemeter",
-            .summary = "the irradiance of the shape that it stands in",
+            .summary = "the irradiance of the shape around it",
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(keys)},
     .create = create,

@@ -24,7 +24,7 @@ typedef struct lens_keys {
         {AUR_KEY_OF_REAL(lens_keys, "principal_point_offset_y", offset_y, -1e3, 1e3, "0",                    \
                          "vertical shift, in image heights")},                                               \
     {                                                                                                        \
-        AUR_KEY_OF_ITEM(lens_keys, "focal_length", focal_length, "50mm", "in place of fov, on 35 mm film",   \
+        AUR_KEY_OF_ITEM(lens_keys, "focal_length", focal_length, "50mm", "instead of fov, on 35 mm film",    \
                         "millimetres")                                                                       \
     }
 

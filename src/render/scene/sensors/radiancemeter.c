@@ -8,7 +8,7 @@ typedef struct radiancemeter_keys {
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_VECTOR(radiancemeter_keys, "origin", origin, -AUR_REACH, AUR_REACH, "by to_world",
-                       "where it stands, with direction in place of to_world"),
+                       "position, with direction, instead of to_world"),
      .computed = true},
     {AUR_KEY_OF_VECTOR(radiancemeter_keys, "direction", direction, -AUR_REACH, AUR_REACH, "by to_world",
                        "viewing direction"),

@@ -27,9 +27,8 @@ static const aur_key common_keys[] = {
     {AUR_KEY_OF_REAL(sensor_keys, "near_clip", near_clip, 0.0, 1e30, "0.01", "nothing nearer is seen")},
     {AUR_KEY_OF_REAL(sensor_keys, "far_clip", far_clip, 0.0, INFINITY, "10000", "nothing farther is seen")},
     {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "image size and filter", "film")},
-    {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "the numbers of the camera's samples",
-                     "sampler")},
-    {AUR_KEY_OF_ITEM(sensor_keys, "medium", medium, NULL, "what it stands in", "medium")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "sampler of the camera", "sampler")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "medium", medium, NULL, "medium around the camera", "medium")},
 };
 
 static const aur_row common = {

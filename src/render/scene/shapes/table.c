@@ -31,11 +31,11 @@ static const aur_key common_keys[] = {
     {AUR_KEY_OF_TRANSFORM(aur_shape_keys, "to_world", to_world, "object to world")},
     {AUR_KEY_OF_BOOLEAN(aur_shape_keys, "flip_normals", flip_normals, "false",
                         "normals point to the other side")},
-    {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL,
-                     "what it is made of; else grey, or black for a light", "bsdf")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL, "material; without one grey, or black for a light",
+                     "bsdf")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "emitter", emitter, NULL, "makes it a light", "emitter")},
-    {AUR_KEY_OF_ITEM(aur_shape_keys, "interior", interior, NULL, "what is behind its surface", "medium")},
-    {AUR_KEY_OF_ITEM(aur_shape_keys, "exterior", exterior, NULL, "what is before its surface", "medium")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "interior", interior, NULL, "medium inside", "medium")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "exterior", exterior, NULL, "medium outside", "medium")},
 };
 
 static const aur_row common = {

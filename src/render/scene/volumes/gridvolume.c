@@ -28,7 +28,7 @@ static const aur_key keys[] = {
                        "nearest")},
     {AUR_KEY_OF_CHOICE(grid, "wrap_mode", wrap, "clamp", "outside of the grid", "clamp", "repeat", "mirror")},
     {AUR_KEY_OF_BOOLEAN(grid, "use_grid_bbox", use_grid_bbox, "false",
-                        "the box that the file names takes the unit cube's place")},
+                        "use the bounding box of the file instead of the unit cube")},
     {AUR_KEY_OF_TRANSFORM(grid, "to_world", to_world, "from the unit cube or that box to the scene")},
 };
 
