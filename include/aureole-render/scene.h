@@ -126,6 +126,9 @@ typedef struct aur_scene_options {
     size_t lamp_count;
     const aur_scene_lamp *lamps;
     aur_scene_stage stage;
+    /* Bytes of bitmap textures that are in memory at a time, at least 4 MiB; the rest lies in a file without
+     * a name in TMPDIR or /var/tmp. 0: all are in memory. The result does not depend on it. */
+    size_t texture_memory;
 } aur_scene_options;
 
 AUR_EXPERIMENTAL aur_result aur_scene_options_init(aur_scene_options *options, aur_error *error)
@@ -138,10 +141,11 @@ AUR_EXPERIMENTAL bool aur_scene_is_name(const char *path) AUR_NONNULL(1);
 
 /* Reads a scene and all files that it names: includes, meshes, images and point sets. Relative names are
  * looked for beside the file that has them, beside the scene, in the folders of <path>, and in the folder of
- * the process; only regular files are read, and none is written. `options` may be NULL. Errors carry file,
- * line and column: OPEN (a file is not there, is no regular file, or lies where `confine` does not let it),
- * FORMAT (what is written cannot be meant), NAME (an unknown element, plugin, parameter or definition; the
- * message suggests the nearest), UNSUPPORTED (Mitsuba has it, Aureole has not), ARGUMENT (`options`), MEMORY.
+ * the process; only regular files are read, and none is written but that of `texture_memory`. `options` may
+ * be NULL. Errors carry file, line and column: OPEN (a file is not there, is no regular file, or lies where
+ * `confine` does not let it), FORMAT (what is written cannot be meant), NAME (an unknown element, plugin,
+ * parameter or definition; the message suggests the nearest), UNSUPPORTED (Mitsuba has it, Aureole has not),
+ * ARGUMENT (`options`), MEMORY.
  */
 AUR_EXPERIMENTAL aur_result aur_scene_load(const char *path, const aur_scene_options *options,
                                            aur_scene **scene, aur_error *error) AUR_NONNULL(1, 3);

@@ -13,12 +13,11 @@
 #include "program/cli/options.h"
 
 static aur_result limit_memory(const char *text, void *field, aur_error *error) {
-    static const cli_unit units[] = {{"K", 0x1p10}, {"M", 0x1p20}, {"G", 0x1p30}, {"T", 0x1p40}};
-    double bytes = 0.0;
+    size_t bytes = 0;
     (void)field;
-    if (!cli_parse_quantity(text, sizeof units / sizeof units[0], units, &bytes) || bytes >= 0x1p62)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "--memory-limit: expected a size in bytes, or such as 500M or 2G, not '%s'", text);
+    const aur_result result = cli_parse_bytes("memory-limit", text, &bytes, error);
+    if (result != AUR_OK)
+        return result;
     struct rlimit limit;
     getrlimit(RLIMIT_AS, &limit);
     limit.rlim_cur = (rlim_t)bytes < limit.rlim_max ? (rlim_t)bytes : limit.rlim_max;

@@ -164,3 +164,5 @@ bool cli_parse_quantity(const char *text, size_t unit_count, const cli_unit *uni
 size_t cli_split_numbers(const char *text, size_t most, double *numbers);
 /* 30s, 5min or 1h; a number alone is seconds. */
 aur_result cli_parse_seconds(const char *option, const char *text, double *seconds, aur_error *error);
+/* 500M or 2G; a number alone is bytes. */
+aur_result cli_parse_bytes(const char *option, const char *text, size_t *bytes, aur_error *error);

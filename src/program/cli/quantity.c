@@ -34,6 +34,16 @@ aur_result cli_parse_seconds(const char *option, const char *text, double *secon
                     option, text);
 }
 
+aur_result cli_parse_bytes(const char *option, const char *text, size_t *bytes, aur_error *error) {
+    static const cli_unit units[] = {{"K", 0x1p10}, {"M", 0x1p20}, {"G", 0x1p30}, {"T", 0x1p40}};
+    double value = 0.0;
+    if (!cli_parse_quantity(text, sizeof units / sizeof units[0], units, &value) || value >= 0x1p62)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--%s: expected a size in bytes, or such as 500M or 2G, not '%s'", option, text);
+    *bytes = value > 1.0 ? (size_t)value : 1;
+    return AUR_OK;
+}
+
 size_t cli_split_numbers(const char *text, size_t most, double *numbers) {
     size_t count = 0;
     for (const char *end = text; end != NULL; text = end + 1) {

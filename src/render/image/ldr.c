@@ -39,7 +39,6 @@ static aur_result create_decoded(const char *format, const size_t size[3], const
     return aur_image_create(size[0], size[1], size[2], image, error);
 }
 
-/* 16 bits a value: an 8-bit value v becomes 257 v, so nothing is lost. */
 static aur_result read_ldr(const aur_image_source *source, const char *format, size_t pixels_a_byte,
                            aur_image **image, aur_error *error) {
     size_t size[3];
@@ -47,25 +46,21 @@ static aur_result read_ldr(const aur_image_source *source, const char *format, s
     if (result != AUR_OK)
         return result;
     int decoded[3];
-    stbi_us *const values = stbi_load_16_from_memory(source->data, (int)source->size, &decoded[0],
-                                                     &decoded[1], &decoded[2], (int)size[2]);
+    stbi_uc *const values = stbi_load_from_memory(source->data, (int)source->size, &decoded[0], &decoded[1],
+                                                  &decoded[2], (int)size[2]);
     if (values == NULL)
         return fail_stb(format, error);
     decoded[2] = (int)size[2];
-    float *const table = malloc(65536 * sizeof *table);
-    if (table == NULL)
-        result = aur_fail_memory(error);
-    if (result == AUR_OK)
-        result = create_decoded(format, size, decoded, image, error);
+    result = create_decoded(format, size, decoded, image, error);
     if (result == AUR_OK) {
-        for (size_t i = 0; i < 65536; ++i)
-            table[i] = (float)aur_srgb_decode((double)i / 65535.0);
+        float table[256];
+        for (size_t i = 0; i < 256; ++i)
+            table[i] = (float)aur_srgb_decode((double)i / 255.0);
         const size_t alpha = size[2] == 2 || size[2] == 4 ? size[2] - 1 : SIZE_MAX;
         const size_t count = size[0] * size[1] * size[2];
         for (size_t i = 0; i < count; ++i)
-            (*image)->data[i] = i % size[2] == alpha ? (float)values[i] / 65535.0f : table[values[i]];
+            (*image)->data[i] = i % size[2] == alpha ? (float)values[i] / 255.0f : table[values[i]];
     }
-    free(table);
     stbi_image_free(values);
     return result;
 }

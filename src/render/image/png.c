@@ -10,7 +10,6 @@
 /* What a read has in hand where libpng leaves it by a jump. */
 typedef struct png_reader {
     const unsigned char *at, *end;
-    unsigned char *values; /* 16 bits each, the high byte first */
     aur_image **image;
     char message[128];
 } png_reader;
@@ -34,8 +33,9 @@ static void ignore_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-/* An 8-bit value v is 257 v as one of 16 bits, so nothing is lost. */
-static aur_result decode_values(const unsigned char *values, const aur_image *image, aur_error *error) {
+/* Values of 16 bits, the high byte first, stand in the second half of the image's memory: value i is read
+ * before float i is written over it. An 8-bit value v is 257 v as one of 16 bits, so nothing is lost. */
+static aur_result decode_values(const aur_image *image, aur_error *error) {
     float *const table = malloc(65536 * sizeof *table);
     if (table == NULL)
         return aur_fail_memory(error);
@@ -44,6 +44,7 @@ static aur_result decode_values(const unsigned char *values, const aur_image *im
     const size_t channel_count = image->channel_count;
     const size_t alpha = channel_count % 2 == 0 ? channel_count - 1 : SIZE_MAX;
     const size_t count = image->width * image->height * channel_count;
+    const unsigned char *const values = (const unsigned char *)image->data + 2 * count;
     for (size_t i = 0; i < count; ++i) {
         const size_t value = (size_t)values[2 * i] * 256 + values[2 * i + 1];
         image->data[i] = i % channel_count == alpha ? (float)value / 65535.0f : table[value];
@@ -89,17 +90,16 @@ static aur_result read_values(png_structp png, png_infop info, const aur_image_s
         result = aur_image_check_claim(source, "PNG", width * height, pixels_a_byte, error);
     if (result != AUR_OK)
         return result;
-    reader->values = malloc(row * height);
-    if (reader->values == NULL)
-        return aur_fail_memory(error);
+    result = aur_image_create(width, height, channel_count, reader->image, error);
+    if (result != AUR_OK)
+        return result;
+    unsigned char *const values = (unsigned char *)(*reader->image)->data + row * height;
     for (int pass = 0; pass < passes; ++pass)
         for (size_t y = 0; y < height; ++y)
-            png_read_row(png, reader->values + y * row, NULL);
+            png_read_row(png, values + y * row, NULL);
     png_read_end(png, NULL);
-    result = aur_image_create(width, height, channel_count, reader->image, error);
-    if (result == AUR_OK)
-        add_notes(png, info, *reader->image);
-    return result == AUR_OK ? decode_values(reader->values, *reader->image, error) : result;
+    add_notes(png, info, *reader->image);
+    return decode_values(*reader->image, error);
 }
 
 static bool recognize(const aur_image_source *source) {
@@ -120,7 +120,6 @@ static aur_result read_png(const aur_image_source *source, aur_image **image, au
     const aur_result result =
         info != NULL ? read_guarded(png, info, source, &reader, error) : aur_fail_memory(error);
     png_destroy_read_struct(&png, &info, NULL);
-    free(reader.values);
     return result;
 }
 

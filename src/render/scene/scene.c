@@ -6,6 +6,7 @@
 #include "points/base/error.h"
 #include "render/scene/importers/rad/rad.h"
 #include "render/scene/materials/sampling.h"
+#include "render/scene/materials/texel_pages.h"
 #include "render/scene/overlaps.h"
 #include "render/scene/scene_data.h"
 
@@ -178,8 +179,12 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     made->keeps_points = keep_points;
     made->overlap_rule = rule;
     made->definitions = aur_definitions_text(&options);
-    result = made->definitions != NULL ? aur_xml_read(path, bytes, data, &options, &made->document, error)
-                                       : aur_fail_memory(error);
+    if (options.texture_memory > 0)
+        made->texel_pages = aur_texel_pages_create(options.texture_memory);
+    const bool has_memory =
+        made->definitions != NULL && (options.texture_memory == 0 || made->texel_pages != NULL);
+    result = has_memory ? aur_xml_read(path, bytes, data, &options, &made->document, error)
+                        : aur_fail_memory(error);
     if (result == AUR_OK)
         result = aur_scene_build(made, &options, error);
     if (result == AUR_OK)
@@ -238,6 +243,7 @@ void aur_scene_destroy(aur_scene *scene) {
         aur_bsdf_destroy(scene->bsdfs[i]);
     for (size_t i = 0; i < scene->texture_count; ++i)
         aur_texture_destroy(scene->textures[i]);
+    aur_texel_pages_destroy(scene->texel_pages);
     for (size_t i = 0; i < scene->medium_count; ++i)
         aur_medium_destroy(scene->media[i]);
     for (size_t i = 0; i < scene->phase_count; ++i)

@@ -68,6 +68,7 @@ struct aur_scene {
     aur_bsdf **bsdfs;
     size_t texture_count, texture_capacity;
     aur_texture **textures;
+    struct aur_texel_pages *texel_pages; /* of textures, or NULL */
     size_t volume_count, volume_capacity;
     aur_volume **volumes;
     size_t phase_count, phase_capacity;

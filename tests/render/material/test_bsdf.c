@@ -270,7 +270,7 @@ static void lobes_are_the_same_at_every_point(void **state) {
     aur_texture *texture;
     assert_int_equal(aur_parameters_parse(&parameters, "texture", "checkerboard:color0=0,color1=0.5", &error),
                      AUR_OK);
-    assert_int_equal(aur_texture_create(&parameters, &texture, &error), AUR_OK);
+    assert_int_equal(aur_texture_create(&parameters, NULL, &texture, &error), AUR_OK);
     aur_parameters_release(&parameters);
     static const char *const names[] = {"diffuse_reflectance", "specular_reflectance"};
     for (size_t k = 0; k < 2; ++k) {

@@ -31,7 +31,7 @@ static aur_texture *make(const char *keys) {
     aur_error error = {0};
     aur_texture *texture;
     assert_int_equal(aur_parameters_parse(&parameters, "texture", text, &error), AUR_OK);
-    if (aur_texture_create(&parameters, &texture, &error) != AUR_OK)
+    if (aur_texture_create(&parameters, NULL, &texture, &error) != AUR_OK)
         fail_msg("%s", error.message);
     aur_parameters_release(&parameters);
     return texture;
@@ -99,7 +99,7 @@ static void says_what_is_wrong(void **state) {
         aur_error error = {0};
         aur_texture *texture;
         assert_int_equal(aur_parameters_parse(&parameters, "texture", rows[i][0], &error), AUR_OK);
-        assert_int_not_equal(aur_texture_create(&parameters, &texture, &error), AUR_OK);
+        assert_int_not_equal(aur_texture_create(&parameters, NULL, &texture, &error), AUR_OK);
         if (strstr(error.message, rows[i][1]) == NULL)
             fail_msg("%s: %s", rows[i][0], error.message);
         aur_parameters_release(&parameters);

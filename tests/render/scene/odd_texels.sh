@@ -52,3 +52,12 @@ done
 "$aureole" convert odd2.exr back.pfm 2>said && cmp <(tail -c 64 odd.pfm) <(tail -c 64 back.pfm) || { echo "values changed on the way"; exit 1; }
 "$aureole" convert finite.pfm finite.png 2>said && [ ! -s said ] || { cat said; exit 1; }
 "$aureole" view odd.pfm -o odd.html >page 2>said && grep -q 'they are shown as they are' said || { cat said; exit 1; }
+
+# Texels of which a part is in memory are the same; where their file cannot be, that is said.
+{ printf 'PF\n256 256\n-1\n'; yes 'abcdefg' | tr '\n' '?' | head -c 786432; } >odd.pfm
+scene odd "<shape type='rectangle'><emitter type='area'>$(texture radiance | sed s/FILE/odd/)</emitter></shape>"
+"$aureole" render odd.xml --spp 4 --texture-memory 4M -o paged.exr && cmp odd.exr paged.exr || { echo "another image with --texture-memory"; exit 1; }
+TMPDIR=/nowhere "$aureole" render odd.xml --spp 4 --texture-memory 4M -o paged.exr 2>said && { echo "a file in no folder"; exit 1; }
+grep -q '/nowhere: a temporary file for textures: No such file' said || { cat said; exit 1; }
+"$aureole" render odd.xml --texture-memory much 2>said && exit 1
+grep -q -- "--texture-memory: expected a size in bytes, or such as 500M or 2G, not 'much'" said || { cat said; exit 1; }

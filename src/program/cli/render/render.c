@@ -27,6 +27,7 @@ typedef struct render_command {
     cli_watch watch;
     cli_denoise denoise;
     bool statistics, json;
+    size_t texture_memory;
     cli_render_end end;
     const aur_scene *scene;
     cli_common common;
@@ -76,6 +77,10 @@ static aur_result parse_shard(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
+static aur_result parse_texture_memory(const char *text, void *field, aur_error *error) {
+    return cli_parse_bytes("texture-memory", text, field, error);
+}
+
 static const cli_option options[] = {
     {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
               "output image (.exr, .png, ...; see 'aureole help image'); - writes EXR to standard output"),
@@ -111,6 +116,10 @@ static const cli_option options[] = {
          render_command, options, "shard", "i/n", NULL,
          "render only part i of n, to SCENE.i-of-n.part or the file of -o; 'aureole merge' merges the parts"),
      .parse = parse_shard},
+    {CLI_TEXT(
+         render_command, texture_memory, "texture-memory", "500M", "all",
+         "memory for image textures, from 4M; the rest is read from a temporary file in $TMPDIR or /var/tmp"),
+     .parse = parse_texture_memory, .key.computed = true},
     {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "random seed")},
     {CLI_TEXT(render_command, reference, "reference", "REF", NULL,
               "reference image of --errors, rendered with another seed"),
@@ -291,6 +300,7 @@ static aur_scene_options loading(const render_command *command) {
                                .further_count = command->file_count - 1,
                                .further = command->stage.further,
                                .stage = command->stage.stage,
+                               .texture_memory = command->texture_memory,
                                .model_light = command->definitions.model_light,
                                .progress = command->options.progress,
                                .threads = command->common.threads,

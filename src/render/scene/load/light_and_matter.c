@@ -102,7 +102,7 @@ aur_result aur_build_texture(aur_loader *self, aur_parameters *parameters, void 
         result = aur_loader_reserve(self, &scene->textures, scene->texture_count, &scene->texture_capacity);
     aur_texture **const made = scene->textures + scene->texture_count;
     if (result == AUR_OK)
-        result = aur_texture_create(parameters, made, self->error);
+        result = aur_texture_create(parameters, scene->texel_pages, made, self->error);
     if (result != AUR_OK)
         return result;
     *object = *made;

@@ -21,17 +21,19 @@ typedef struct aur_texture_descriptor {
 struct aur_texture {
     const aur_texture_descriptor *descriptor;
     void *data;
-    aur_vector mean;           /* over the unit square */
-    float maximum;             /* of any channel anywhere; 0: not known */
-    float aspect;              /* width over height of an image; 0: not one */
-    aur_attributes attributes; /* of meshes, that it reads, here or in a nested texture */
+    struct aur_texel_pages *pages; /* where texels go; NULL: to memory */
+    aur_vector mean;               /* over the unit square */
+    float maximum;                 /* of any channel anywhere; 0: not known */
+    float aspect;                  /* width over height of an image; 0: not one */
+    aur_attributes attributes;     /* of meshes, that it reads, here or in a nested texture */
 };
 
 extern const aur_table aur_texture_table;
 
 /* Builds the texture that parameters->plugin names. A bitmap's `filename` must already be a path that opens.
- */
-aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error);
+ * `pages` may be NULL, and must outlive the texture. */
+aur_result aur_texture_create(aur_parameters *parameters, struct aur_texel_pages *pages,
+                              aur_texture **texture, aur_error *error);
 void aur_texture_destroy(aur_texture *texture);
 
 /* The affine map `to_uv` of a texture. */

@@ -4,14 +4,13 @@
 #include <strings.h>
 
 #include "render/image/format.h"
+#include "render/scene/materials/bitmap.h"
 #include "render/scene/materials/texture.h"
 
 typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;
 
 typedef struct bitmap {
-    size_t width, height;
-    float *rgb;     /* 3 * width * height */
-    float *heights; /* the same with negative values, or NULL where there are none */
+    aur_bitmap texels; /* colours are not negative, heights may be */
     aur_uv_map to_uv;
     enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
     wrap_mode wrap;
@@ -21,6 +20,7 @@ typedef struct bitmap {
     float factor[3], cutoff;
     const char *path;
     aur_uv_keys uv;
+    bool encodes, opaque;
 } bitmap;
 
 /* What sRGB stores for a linear value: undoes the reader's decoding for `raw` images of 8 bits. */
@@ -37,41 +37,26 @@ static bool has_8_bits(const char *path) {
     return false;
 }
 
-/* The channels of red, green and blue, or grey three times, with their signs; what is NaN becomes 0. */
-static aur_result take_rgb(const aur_image *image, const size_t channel[3], float **rgb, aur_error *error) {
-    const float largest = 65504.0f; /* the largest half: what other renderers make of infinity */
-    const size_t count = image->width * image->height;
-    *rgb = malloc((3 * count + 1) * sizeof **rgb);
-    if (*rgb == NULL)
-        return aur_fail_memory(error);
-    for (size_t i = 0; i < count; ++i) {
-        for (size_t k = 0; k < 3; ++k) {
-            const float value = image->data[i * image->channel_count + channel[k]];
-            (*rgb)[3 * i + k] = isfinite(value) ? value : isnan(value) ? 0.0f : copysignf(largest, value);
-        }
-    }
-    return AUR_OK;
-}
-
-/* Whether there was a negative value. */
-static bool cut_negative(float *rgb, size_t count) {
-    bool found = false;
-    for (size_t i = 0; i < count; ++i) {
-        found = found || rgb[i] < 0.0f;
-        rgb[i] = fmaxf(rgb[i], 0.0f);
-    }
-    return found;
+/* What is infinite becomes the largest half, as in other renderers, and what is NaN 0. */
+static float finite_value(float value) {
+    const float largest = 65504.0f;
+    return isfinite(value) ? value : isnan(value) ? 0.0f : copysignf(largest, value);
 }
 
 aur_result aur_image_radiance(const char *name, const aur_image *image, float **rgb, aur_error *error) {
+    const size_t count = image->width * image->height;
     size_t channel[3];
     *rgb = NULL;
-    aur_result result = aur_image_require_color(name, image, channel, error);
-    if (result == AUR_OK)
-        result = take_rgb(image, channel, rgb, error);
-    if (result == AUR_OK)
-        cut_negative(*rgb, 3 * image->width * image->height);
-    return result;
+    const aur_result result = aur_image_require_color(name, image, channel, error);
+    if (result != AUR_OK)
+        return result;
+    *rgb = malloc((3 * count + 1) * sizeof **rgb);
+    if (*rgb == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < 3; ++k)
+            (*rgb)[3 * i + k] = fmaxf(finite_value(image->data[i * image->channel_count + channel[k]]), 0.0f);
+    return AUR_OK;
 }
 
 /* The channels that the key `channel` names; none of alpha where there is none. */
@@ -89,46 +74,41 @@ static aur_result choose_channels(const bitmap *self, const aur_image *image, si
     return result;
 }
 
-/* What the keys make of the image. Colours are not negative, heights may be. */
-static aur_result take_texels(bitmap *self, const aur_image *image, aur_error *error) {
-    size_t channel[3];
-    self->width = image->width;
-    self->height = image->height;
-    aur_result result = choose_channels(self, image, channel, error);
-    const bool opaque = result == AUR_OK && channel[0] == SIZE_MAX;
-    if (opaque)
-        channel[0] = channel[1] = channel[2] = 0;
-    if (result == AUR_OK)
-        result = take_rgb(image, channel, &self->rgb, error);
-    const bool encodes = self->raw && self->channel != CHANNEL_ALPHA && has_8_bits(self->path);
-    const size_t count = 3 * self->width * self->height;
-    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
-        float value = opaque ? 1.0f : encodes ? encode(self->rgb[i]) : self->rgb[i];
-        value *= self->factor[i % 3];
-        self->rgb[i] = !(self->cutoff > 0.0f) ? value : value < self->cutoff ? 0.0f : 1.0f;
-    }
-    if (result != AUR_OK)
-        return result;
-    self->heights = malloc((count + 1) * sizeof *self->heights);
-    if (self->heights == NULL)
-        return aur_fail_memory(error);
-    memcpy(self->heights, self->rgb, count * sizeof *self->heights);
-    if (!cut_negative(self->rgb, count)) {
-        free(self->heights);
-        self->heights = NULL;
-    }
-    return AUR_OK;
+/* What the keys make of a value of the image. */
+static float map_value(const void *context, size_t channel, float value) {
+    const bitmap *const self = context;
+    value = self->opaque ? 1.0f : finite_value(value);
+    value = (self->encodes ? encode(value) : value) * self->factor[channel];
+    return !(self->cutoff > 0.0f) ? value : value < self->cutoff ? 0.0f : 1.0f;
 }
 
-static void note_range(aur_texture *texture, const bitmap *self) {
-    double sum[3] = {0.0, 0.0, 0.0};
-    const size_t count = self->width * self->height;
-    for (size_t i = 0; i < 3 * count; ++i) {
-        sum[i % 3] += (double)self->rgb[i];
-        texture->maximum = fmaxf(texture->maximum, self->rgb[i]);
-    }
-    const double n = (double)count;
-    texture->mean = (aur_vector){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n)};
+static aur_result take_texels(aur_texture *texture, const aur_image *image, aur_error *error) {
+    bitmap *const self = texture->data;
+    aur_texel_source source = {.width = image->width,
+                               .height = image->height,
+                               .stride = image->channel_count,
+                               .data = image->data,
+                               .map = map_value,
+                               .context = self,
+                               .same =
+                                   self->factor[0] == self->factor[1] && self->factor[0] == self->factor[2]};
+    aur_texel_range range;
+    aur_result result = choose_channels(self, image, source.channel, error);
+    if (result != AUR_OK)
+        return result;
+    self->opaque = source.channel[0] == SIZE_MAX;
+    if (self->opaque)
+        source.channel[0] = source.channel[1] = source.channel[2] = 0;
+    self->encodes = self->raw && self->channel != CHANNEL_ALPHA && has_8_bits(self->path);
+    result = aur_bitmap_pack(&source, texture->pages, &self->texels, &range, error);
+    if (result != AUR_OK)
+        return result;
+    const double count = (double)(image->width * image->height);
+    texture->mean = (aur_vector){(float)(range.sum[0] / count), (float)(range.sum[1] / count),
+                                 (float)(range.sum[2] / count)};
+    texture->maximum = range.maximum;
+    texture->aspect = (float)image->width / (float)image->height;
+    return AUR_OK;
 }
 
 static const aur_key keys[] = {
@@ -163,20 +143,16 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     if (result == AUR_OK && held == NULL)
         result = aur_image_read(self->path, &image, error);
     if (result == AUR_OK)
-        result = take_texels(self, held != NULL ? held->object : image, error);
+        result = take_texels(texture, held != NULL ? held->object : image, error);
     aur_image_destroy(image);
     if (result != AUR_OK)
         return result;
-    texture->aspect = (float)self->width / (float)self->height;
     self->to_uv = aur_uv_map_of(&self->uv);
-    note_range(texture, self);
     return AUR_OK;
 }
 
 static void release(void *data) {
-    bitmap *const self = data;
-    free(self->rgb);
-    free(self->heights);
+    aur_bitmap_release(&((bitmap *)data)->texels);
 }
 
 static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
@@ -195,18 +171,21 @@ static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
 }
 
 static aur_vector texel_at(const bitmap *self, size_t x, size_t y) {
-    const float *const rgb = &self->rgb[3 * (y * self->width + x)];
-    return (aur_vector){rgb[0], rgb[1], rgb[2]};
+    float rgb[3];
+    aur_bitmap_at(&self->texels, x, y, rgb);
+    return (aur_vector){rgb[0] > 0.0f ? rgb[0] : 0.0f, rgb[1] > 0.0f ? rgb[1] : 0.0f,
+                        rgb[2] > 0.0f ? rgb[2] : 0.0f};
 }
 
 static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
-    return texel_at(self, wrapped(x, self->width, self->wrap), wrapped(y, self->height, self->wrap));
+    return texel_at(self, wrapped(x, self->texels.width, self->wrap),
+                    wrapped(y, self->texels.height, self->wrap));
 }
 
 static float height_at(const bitmap *self, int64_t x, int64_t y) {
-    const size_t at =
-        wrapped(y, self->height, self->wrap) * self->width + wrapped(x, self->width, self->wrap);
-    const float *const rgb = &(self->heights != NULL ? self->heights : self->rgb)[3 * at];
+    float rgb[3];
+    aur_bitmap_at(&self->texels, wrapped(x, self->texels.width, self->wrap),
+                  wrapped(y, self->texels.height, self->wrap), rgb);
     return aur_luminance((aur_vector){rgb[0], rgb[1], rgb[2]});
 }
 
@@ -219,7 +198,7 @@ typedef struct texel_place {
 static bool place_of(const bitmap *self, aur_bsdf_point point, texel_place *place) {
     const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, point.u, point.v);
     const float offset = self->filter == FILTER_NEAREST ? 0.0f : 0.5f;
-    const float x = at.u * (float)self->width - offset, y = at.v * (float)self->height - offset;
+    const float x = at.u * (float)self->texels.width - offset, y = at.v * (float)self->texels.height - offset;
     if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
         return false;
     const float left = floorf(x), top = floorf(y);
@@ -235,9 +214,10 @@ static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
     if (self->filter == FILTER_NEAREST)
         return texel(self, at.i, at.j);
     const float s = at.s, t = at.t;
-    const size_t x[2] = {wrapped(at.i, self->width, self->wrap), wrapped(at.i + 1, self->width, self->wrap)};
-    const size_t y[2] = {wrapped(at.j, self->height, self->wrap),
-                         wrapped(at.j + 1, self->height, self->wrap)};
+    const size_t x[2] = {wrapped(at.i, self->texels.width, self->wrap),
+                         wrapped(at.i + 1, self->texels.width, self->wrap)};
+    const size_t y[2] = {wrapped(at.j, self->texels.height, self->wrap),
+                         wrapped(at.j + 1, self->texels.height, self->wrap)};
     aur_vector sum = aur_vector_scale(texel_at(self, x[0], y[0]), (1.0f - s) * (1.0f - t));
     sum = aur_vector_add_scaled(sum, s * (1.0f - t), texel_at(self, x[1], y[0]));
     sum = aur_vector_add_scaled(sum, (1.0f - s) * t, texel_at(self, x[0], y[1]));
@@ -256,9 +236,9 @@ static void slope(const aur_texture *texture, aur_bsdf_point point, float result
         for (int i = 0; i < 2; ++i)
             corner[j][i] = height_at(self, at.i + i, at.j + j);
     const float x = ((1.0f - at.t) * (corner[0][1] - corner[0][0]) + at.t * (corner[1][1] - corner[1][0])) *
-                    (float)self->width;
+                    (float)self->texels.width;
     const float y = ((1.0f - at.s) * (corner[1][0] - corner[0][0]) + at.s * (corner[1][1] - corner[0][1])) *
-                    (float)self->height;
+                    (float)self->texels.height;
     const float *const m = self->to_uv.m;
     result[0] = m[0] * x + m[3] * y;
     result[1] = m[1] * x + m[4] * y;

@@ -37,8 +37,8 @@ void aur_attributes_add(aur_attributes *attributes, const aur_attributes *others
 }
 
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
-    (void)context;
     aur_texture *const texture = object;
+    memcpy(&texture->pages, context, sizeof texture->pages);
     const aur_result result = texture->descriptor->create(parameters, texture, error);
     for (size_t i = 0; i < parameters->count; ++i)
         if (parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
@@ -50,8 +50,9 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
 
 static const aur_plugin_kind kind = AUR_PLUGIN_KIND(texture);
 
-aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
-    return aur_plugin_create(&kind, parameters, NULL, texture, error);
+aur_result aur_texture_create(aur_parameters *parameters, struct aur_texel_pages *pages,
+                              aur_texture **texture, aur_error *error) {
+    return aur_plugin_create(&kind, parameters, &pages, texture, error);
 }
 
 void aur_texture_destroy(aur_texture *texture) {

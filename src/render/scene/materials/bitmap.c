@@ -1,0 +1,198 @@
+#include "render/scene/materials/bitmap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { TILE_BITS = 6, BYTE_NUMBERS = 256, SHORT_NUMBERS = 65536 };
+
+/* The different values of an image, numbered as they come. */
+typedef struct numbering {
+    size_t count, most;
+    size_t slot_mask;
+    uint32_t *slots; /* number + 1; 0: free */
+    float *values;
+} numbering;
+
+typedef struct packing {
+    const aur_texel_source *source;
+    aur_bitmap *texels;
+    aur_texel_range *range;
+    numbering numbers;
+} packing;
+
+static bool numbering_begin(numbering *self, size_t most) {
+    const size_t slots = 4 * (most > BYTE_NUMBERS ? (size_t)SHORT_NUMBERS : (size_t)BYTE_NUMBERS);
+    *self = (numbering){.most = most, .slot_mask = slots - 1};
+    self->slots = calloc(slots, sizeof *self->slots);
+    self->values = malloc((most + 1) * sizeof *self->values);
+    return self->slots != NULL && self->values != NULL;
+}
+
+static void numbering_end(numbering *self) {
+    free(self->slots);
+    free(self->values);
+    *self = (numbering){0};
+}
+
+/* `most` when there are more. */
+static size_t number_of(numbering *self, float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    uint32_t hash = bits * UINT32_C(0x9e3779b1);
+    hash ^= hash >> 15;
+    for (size_t i = hash & self->slot_mask;; i = (i + 1) & self->slot_mask) {
+        const size_t number = self->slots[i];
+        if (number > 0 && memcmp(&self->values[number - 1], &value, sizeof value) == 0)
+            return number - 1;
+        if (number > 0)
+            continue;
+        if (self->count == self->most)
+            return self->most;
+        self->values[self->count++] = value;
+        self->slots[i] = (uint32_t)self->count;
+        return self->count - 1;
+    }
+}
+
+/* A form of `channels` channels and `value_bytes` bytes a value: tiles are no larger than the image. */
+static bool begin(packing *self, size_t channels, size_t value_bytes) {
+    const aur_texel_source *const source = self->source;
+    aur_bitmap *const texels = self->texels;
+    *texels = (aur_bitmap){
+        .width = source->width, .height = source->height, .channels = channels, .value_bytes = value_bytes};
+    while (texels->tile_x < TILE_BITS && (size_t)1 << texels->tile_x < source->width)
+        ++texels->tile_x;
+    while (texels->tile_y < TILE_BITS && (size_t)1 << texels->tile_y < source->height)
+        ++texels->tile_y;
+    texels->tiles_across = ((source->width - 1) >> texels->tile_x) + 1;
+    *self->range = (aur_texel_range){0};
+    const size_t last = aur_bitmap_index(texels, source->width - 1, source->height - 1);
+    texels->memory =
+        calloc((last | ((1u << (texels->tile_x + texels->tile_y)) - 1)) + 1, channels * value_bytes);
+    texels->values = texels->memory;
+    const size_t count = source->width * source->height * channels;
+    const size_t most = count / 8 < SHORT_NUMBERS ? count / 8 : SHORT_NUMBERS;
+    return texels->memory != NULL &&
+           (value_bytes == 4 || numbering_begin(&self->numbers, value_bytes == 1 ? BYTE_NUMBERS : most));
+}
+
+static void end(packing *self) {
+    numbering_end(&self->numbers);
+    aur_bitmap_release(self->texels);
+}
+
+/* False where the value has no number any more. */
+static bool put(packing *self, unsigned char *to, size_t channel, float value) {
+    const aur_texel_source *const source = self->source;
+    float mapped;
+    if (self->texels->value_bytes == 4) {
+        mapped = source->map(source->context, channel, value);
+        memcpy(to + 4 * channel, &mapped, sizeof mapped);
+        return true;
+    }
+    const size_t number = number_of(&self->numbers, value);
+    if (self->texels->value_bytes == 1)
+        to[channel] = (unsigned char)number;
+    else
+        memcpy(to + 2 * channel, &(uint16_t){(uint16_t)number}, sizeof(uint16_t));
+    return number < self->numbers.most;
+}
+
+typedef enum attempt { FITS, HAS_COLORS, HAS_MORE_VALUES } attempt;
+
+static attempt put_all(packing *self) {
+    const aur_texel_source *const source = self->source;
+    aur_bitmap *const texels = self->texels;
+    for (size_t y = 0; y < texels->height; ++y) {
+        for (size_t x = 0; x < texels->width; ++x) {
+            const float *const pixel = &source->data[(y * texels->width + x) * source->stride];
+            const float rgb[3] = {pixel[source->channel[0]], pixel[source->channel[1]],
+                                  pixel[source->channel[2]]};
+            unsigned char *const to =
+                texels->memory + aur_bitmap_index(texels, x, y) * texels->channels * texels->value_bytes;
+            /* By their bits, so that NaN is itself. */
+            if (texels->channels == 1 && (memcmp(&rgb[0], &rgb[1], sizeof(float)) != 0 ||
+                                          memcmp(&rgb[0], &rgb[2], sizeof(float)) != 0))
+                return HAS_COLORS;
+            for (size_t c = 0; c < texels->channels; ++c)
+                if (!put(self, to, c, rgb[c]))
+                    return HAS_MORE_VALUES;
+        }
+    }
+    return FITS;
+}
+
+/* The table of what the numbers stand for. */
+static bool finish(packing *self) {
+    const aur_texel_source *const source = self->source;
+    aur_bitmap *const texels = self->texels;
+    const numbering *const numbers = &self->numbers;
+    const size_t parts = source->same ? 1 : 3;
+    texels->table_step = source->same ? 0 : numbers->count;
+    texels->table = malloc((parts * numbers->count + 1) * sizeof *texels->table);
+    if (texels->table == NULL)
+        return false;
+    for (size_t c = 0; c < parts; ++c)
+        for (size_t i = 0; i < numbers->count; ++i)
+            texels->table[c * numbers->count + i] = source->map(source->context, c, numbers->values[i]);
+    return true;
+}
+
+static void measure(const packing *self) {
+    aur_texel_range *const range = self->range;
+    for (size_t y = 0; y < self->texels->height; ++y) {
+        for (size_t x = 0; x < self->texels->width; ++x) {
+            float rgb[3];
+            aur_bitmap_at(self->texels, x, y, rgb);
+            for (size_t c = 0; c < 3; ++c) {
+                range->sum[c] += (double)fmaxf(rgb[c], 0.0f);
+                range->maximum = fmaxf(range->maximum, rgb[c]);
+            }
+        }
+    }
+}
+
+static aur_result move_to_pages(aur_bitmap *texels, aur_texel_pages *pages, aur_error *error) {
+    const size_t last = aur_bitmap_index(texels, texels->width - 1, texels->height - 1);
+    const size_t size = (last + 1) * texels->channels * texels->value_bytes;
+    if (pages == NULL || size < AUR_TEXEL_BLOCK)
+        return AUR_OK;
+    const aur_result result =
+        aur_texel_pages_add(pages, size, texels->memory, &texels->values, &texels->first_block, error);
+    if (result != AUR_OK)
+        return result;
+    free(texels->memory);
+    texels->memory = NULL;
+    texels->pages = pages;
+    return AUR_OK;
+}
+
+aur_result aur_bitmap_pack(const aur_texel_source *source, aur_texel_pages *pages, aur_bitmap *texels,
+                           aur_texel_range *range, aur_error *error) {
+    packing self = {.source = source, .texels = texels, .range = range};
+    size_t channels = source->same ? 1 : 3, value_bytes = 1;
+    bool good = begin(&self, channels, value_bytes);
+    /* Small forms first: an image that one does not fit shows it soon. */
+    for (attempt last = FITS; good && (last = put_all(&self)) != FITS;) {
+        channels = last == HAS_COLORS ? 3 : channels;
+        value_bytes *= last == HAS_MORE_VALUES ? 2 : 1;
+        end(&self);
+        good = begin(&self, channels, value_bytes);
+    }
+    good = good && finish(&self);
+    aur_result result = good ? AUR_OK : aur_fail_memory(error);
+    if (good) {
+        measure(&self);
+        result = move_to_pages(texels, pages, error);
+    }
+    numbering_end(&self.numbers);
+    if (result != AUR_OK)
+        aur_bitmap_release(texels);
+    return result;
+}
+
+void aur_bitmap_release(aur_bitmap *texels) {
+    free(texels->memory);
+    free(texels->table);
+    *texels = (aur_bitmap){0};
+}
