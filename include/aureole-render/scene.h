@@ -75,9 +75,17 @@ typedef enum aur_scene_ground {
 
 enum { AUR_SCENE_GROUND_COUNT = AUR_SCENE_GROUND_NONE + 1 };
 
-/* How a scene is seen and lit, in place of what its files say. Up is +y, or +z for .stl and Radiance's files.
- * All zero keeps the scene as it is; a model without a camera or light source gets the camera "corner" and
- * the environment "studio". */
+/* Which axis of the scene points up. */
+typedef enum aur_scene_up {
+    AUR_SCENE_UP_AUTO, /* +z for a scene that is an .stl, and with Radiance's files; else +y */
+    AUR_SCENE_UP_Y,
+    AUR_SCENE_UP_Z
+} aur_scene_up;
+
+enum { AUR_SCENE_UP_COUNT = AUR_SCENE_UP_Z + 1 };
+
+/* How a scene is seen and lit, in place of what its files say. All zero keeps the scene as it is; a model
+ * without a camera or light source gets the camera "corner" and the environment "studio". */
 typedef struct aur_scene_stage {
     /* Views that show all of the scene as large as the image allows: "front" (from +z, or -y where +z is up),
      * "back", "left", "right", "top", "bottom", "corner" (26.6 degrees to the right of the front and 17.4
@@ -98,6 +106,8 @@ typedef struct aur_scene_stage {
     double aspect;        /* width over height of the image that is framed; 0: the film's */
     size_t placement_count;
     const aur_scene_placement *placements;
+    aur_scene_up up;     /* for views, environments, the ground and placements; no file is turned */
+    const char *variant; /* of the materials of glTF models (KHR_materials_variants); NULL: none */
 } aur_scene_stage;
 
 /* All zero but `size`, as aur_scene_options_init fills it, takes the scene as it stands. */

@@ -161,14 +161,9 @@ static void refine_attribute(writer *self, const json_value *index, size_t width
 }
 
 void gltf_refine_meshes(writer *self, const struct aiNode *node, const gltf_node *exact) {
-    const json_value *const mesh = json_member(exact, "mesh");
-    const json_value *const primitives = json_member(
-        mesh != NULL ? json_item(json_member(self->gltf, "meshes"), json_size(mesh, SIZE_MAX)) : NULL,
-        "primitives");
-    for (unsigned i = 0; primitives != NULL && primitives->count == node->mNumMeshes && i < node->mNumMeshes;
-         ++i) {
+    for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         struct aiMesh *const made = self->scene->mMeshes[node->mMeshes[i]];
-        const json_value *const from = json_member(json_item(primitives, i), "attributes");
+        const json_value *const from = json_member(gltf_primitive(self, node, exact, i), "attributes");
         refine_attribute(self, json_member(from, "POSITION"), 3, made->mNumVertices, made->mVertices);
         refine_attribute(self, json_member(from, "NORMAL"), 3, made->mNumVertices, made->mNormals);
         for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {

@@ -73,10 +73,18 @@ struct aiFile *files_open(struct aiFileIO *io, const char *name, const char *mod
     char *const path = strdup(name);
     if (path == NULL)
         stream_fail_memory();
-    if (io->UserData != NULL && strcmp(path, io->UserData) != 0)
+    const model_file *const model = (const model_file *)(const void *)io->UserData;
+    const bool is_model = strcmp(path, model->name) == 0;
+    if (model->is_gltf && !is_model)
         files_decode_address(path);
     bool found = mode[0] == 'r' && path[0] != '\0';
-    if (found) {
+    if (is_model && model->bytes != NULL) {
+        self->size = model->size;
+        self->data = malloc(self->size + 1);
+        if (self->data == NULL)
+            stream_fail_memory();
+        memcpy(self->data, model->bytes, self->size);
+    } else if (found) {
         stream_send(AUR_IMPORT_OPEN, 0, strlen(path), path);
         found = stream_receive(AUR_IMPORT_ANSWER, &self->size, &self->data) != 0;
     }

@@ -6,14 +6,28 @@
 
 #include "program/import/writer.h"
 
-void gltf_read(writer *self, const char *name) {
+/* The bytes of the file, with a zero byte after them. */
+static char *bytes_of(const model_file *file, size_t *size) {
+    char *data = NULL;
+    if (file->bytes == NULL) {
+        stream_send(AUR_IMPORT_OPEN, 0, strlen(file->name), file->name);
+        return stream_receive(AUR_IMPORT_ANSWER, size, &data) != 0 ? data : NULL;
+    }
+    *size = file->size;
+    data = malloc(file->size + 1);
+    if (data == NULL)
+        stream_fail_memory();
+    memcpy(data, file->bytes, file->size);
+    data[file->size] = '\0';
+    return data;
+}
+
+void gltf_read(writer *self, const model_file *file) {
     enum { HEADER = 20 }; /* of a .glb: 12 bytes of the file and 8 of the chunk that holds the JSON */
-    size_t size;
-    char *data;
-    stream_send(AUR_IMPORT_OPEN, 0, strlen(name), name);
-    if (stream_receive(AUR_IMPORT_ANSWER, &size, &data) == 0)
+    size_t size = 0;
+    char *const data = bytes_of(file, &size), *text = data;
+    if (data == NULL)
         return;
-    char *text = data;
     if (size > HEADER && memcmp(data, "glTF", 4) == 0) {
         uint32_t length;
         memcpy(&length, data + 12, sizeof length);
@@ -25,7 +39,10 @@ void gltf_read(writer *self, const char *name) {
             self->gltf_binary_size = binary < size ? size - binary : 0;
             text[length] = '\0';
         }
+        self->gltf_head = HEADER;
+        self->gltf_length = length < size - HEADER ? length : size - HEADER;
     }
+    self->gltf_text = text;
     self->gltf = json_parse(text);
 }
 
@@ -55,6 +72,21 @@ const gltf_node *gltf_root(const writer *self, const struct aiNode *root) {
 const gltf_node *gltf_child(const writer *self, const gltf_node *node, size_t index) {
     const json_value *const list = node == self->gltf ? root_list(self) : json_member(node, "children");
     return node_at(self, json_item(list, index));
+}
+
+/* Points and lines have no mesh: assimp takes them away. */
+const json_value *gltf_primitive(const writer *self, const struct aiNode *node, const gltf_node *exact,
+                                 size_t index) {
+    enum { TRIANGLES = 4 };
+    const json_value *const mesh = json_member(exact, "mesh"), *found = NULL;
+    const json_value *const list = json_member(
+        mesh != NULL ? json_item(json_member(self->gltf, "meshes"), json_size(mesh, SIZE_MAX)) : NULL,
+        "primitives");
+    size_t count = 0;
+    for (const json_value *item = list != NULL ? list->first : NULL; item != NULL; item = item->next)
+        if (json_number(json_member(item, "mode"), TRIANGLES) >= TRIANGLES && count++ == index)
+            found = item;
+    return count == node->mNumMeshes ? found : NULL;
 }
 
 /* --- matrices */
@@ -106,7 +138,28 @@ void gltf_refine(const gltf_node *node, double matrix[16]) {
     memcpy(matrix, exact, sizeof exact);
 }
 
+/* --- materials */
+
+void gltf_map_materials(writer *self, const struct aiNode *node, const gltf_node *exact) {
+    const unsigned count = self->scene->mNumMaterials;
+    if (self->gltf_materials == NULL) {
+        self->gltf_materials = malloc((count + (size_t)1) * sizeof *self->gltf_materials);
+        if (self->gltf_materials == NULL)
+            stream_fail_memory();
+        for (unsigned i = 0; i < count; ++i)
+            self->gltf_materials[i] = SIZE_MAX;
+    }
+    for (unsigned i = 0; i < node->mNumMeshes; ++i) {
+        const unsigned own = self->scene->mMeshes[node->mMeshes[i]]->mMaterialIndex;
+        const json_value *const from = gltf_primitive(self, node, exact, i);
+        if (from != NULL && own < count)
+            self->gltf_materials[own] = json_size(json_member(from, "material"), SIZE_MAX);
+    }
+    for (unsigned i = 0; i < node->mNumChildren; ++i)
+        gltf_map_materials(self, node->mChildren[i], gltf_child(self, exact, i));
+}
+
 const json_value *gltf_extension(const writer *self, unsigned material, const char *name) {
-    return json_member(json_member(json_item(json_member(self->gltf, "materials"), material), "extensions"),
-                       name);
+    const size_t own = self->gltf_materials != NULL ? self->gltf_materials[material] : SIZE_MAX;
+    return json_member(json_member(json_item(json_member(self->gltf, "materials"), own), "extensions"), name);
 }

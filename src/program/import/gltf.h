@@ -8,18 +8,30 @@
 
 typedef struct json_value gltf_node;
 
-/* Reads the JSON of the model, which assimp has read before, if it can be read. */
-void gltf_read(writer *self, const char *name);
+/* Reads the JSON of the model, if it can be read. */
+void gltf_read(writer *self, const model_file *file);
+/* Notes which material of the JSON each of assimp's is: those stand in the order of their first use. */
+void gltf_map_materials(writer *self, const struct aiNode *node, const gltf_node *exact);
 /* The node that assimp's root stands for; NULL where that is not known. */
 const gltf_node *gltf_root(const writer *self, const struct aiNode *root);
 /* Child `index` of a node; all of them at the roots of the scene where assimp has put a node above these. */
 const gltf_node *gltf_child(const writer *self, const gltf_node *node, size_t index);
 /* Replaces what a node does to coordinates by the same in double precision. */
 void gltf_refine(const gltf_node *node, double matrix[16]);
-/* An extension of a material, or NULL. */
+/* An extension of one of assimp's materials, or NULL. */
 const struct json_value *gltf_extension(const writer *self, unsigned material, const char *name);
+/* The primitive that mesh `index` of a node was made of; NULL where that is not known. */
+const struct json_value *gltf_primitive(const writer *self, const struct aiNode *node, const gltf_node *exact,
+                                        size_t index);
 /* Row major: translation times rotation (a quaternion x, y, z, w) times scale (glTF 2.0, 3.5.3). */
 void gltf_matrix(const double t[3], const double q[4], const double s[3], double matrix[16]);
+
+/* Notes what the model has that is not read; ends the program if nothing of the model can be (extensions.c).
+ */
+void gltf_check_extensions(const writer *self);
+/* Gives primitives their materials in a variant, in the file's bytes and in the JSON; an unknown name ends
+ * the program (variants.c). */
+void gltf_choose_variant(writer *self, const char *name, model_file *file);
 
 /* Numbers of accessors (accessor.c). */
 
@@ -36,9 +48,10 @@ typedef enum json_kind { JSON_NULL, JSON_BOOLEAN, JSON_NUMBER, JSON_TEXT, JSON_A
 
 typedef struct json_value {
     json_kind kind;
-    double number;    /* of a boolean 0 or 1 */
-    const char *text; /* with escapes of more than one letter as they are */
-    const char *name; /* of a member, else NULL */
+    double number;      /* of a boolean 0 or 1 */
+    const char *text;   /* with escapes of more than one letter as they are */
+    const char *name;   /* of a member, else NULL */
+    const char *source; /* where it begins in the text */
     struct json_value *first, *next;
     size_t count;              /* of an array's items or an object's members */
     struct json_value **items; /* of an array */

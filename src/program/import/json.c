@@ -71,6 +71,7 @@ static char *read_value(char *at, size_t depth, json_value *made) {
     } words[] = {{"null", JSON_NULL, 0.0}, {"true", JSON_BOOLEAN, 1.0}, {"false", JSON_BOOLEAN, 0.0}};
     if (depth > DEEPEST)
         return NULL;
+    made->source = at;
     if (*at == '{' || *at == '[') {
         made->kind = *at == '{' ? JSON_OBJECT : JSON_ARRAY;
         return read_list(at + 1, depth, made);

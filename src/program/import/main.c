@@ -19,15 +19,15 @@ static bool ends_with(const char *name, const char *ending) {
     return length >= own && strcasecmp(name + length - own, ending) == 0;
 }
 
-static const struct aiScene *read_scene(const char *name, bool is_gltf) {
-    struct aiFileIO io = {files_open, files_close, is_gltf ? (char *)name : NULL};
+static const struct aiScene *read_scene(model_file *file) {
+    struct aiFileIO io = {files_open, files_close, (char *)(void *)file};
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     /* glTF has its corners joined as they are meant. */
     const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure |
-                           (is_gltf ? 0u : (unsigned)aiProcess_JoinIdenticalVertices);
-    const struct aiScene *const scene = aiImportFileExWithProperties(name, steps, &io, properties);
+                           (file->is_gltf ? 0u : (unsigned)aiProcess_JoinIdenticalVertices);
+    const struct aiScene *const scene = aiImportFileExWithProperties(file->name, steps, &io, properties);
     if (scene == NULL && strstr(aiGetErrorString(), "bad_alloc") != NULL)
         stream_fail_memory();
     if (scene == NULL)
@@ -68,13 +68,22 @@ int main(int argc, char **argv) {
         stream_fail(AUR_ERROR_UNSUPPORTED,
                     "the library is of version %s, but the program aureole-import of %s", start,
                     aur_version());
-    writer self = {.is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb"), .first = first};
-    self.scene = read_scene(name, self.is_gltf);
-    if (self.is_gltf) {
-        gltf_read(&self, name);
-        gltf_refine_meshes(&self, self.scene->mRootNode, gltf_root(&self, self.scene->mRootNode));
-    }
+    model_file file = {.name = name, .is_gltf = ends_with(name, ".gltf") || ends_with(name, ".glb")};
+    writer self = {.is_gltf = file.is_gltf, .first = first};
     const char *const time = name + strlen(name) + 1;
+    const char *const variant = time + strlen(time) + 1;
+    if (self.is_gltf) {
+        gltf_read(&self, &file);
+        gltf_check_extensions(&self);
+        if (variant[0] != '\0')
+            gltf_choose_variant(&self, variant, &file);
+    }
+    self.scene = read_scene(&file);
+    if (self.is_gltf) {
+        const gltf_node *const root = gltf_root(&self, self.scene->mRootNode);
+        gltf_map_materials(&self, self.scene->mRootNode, root);
+        gltf_refine_meshes(&self, self.scene->mRootNode, root);
+    }
     double seconds = 0.0;
     const bool moving = aur_parse_double(time, &seconds);
     writer_pose(&self, moving, seconds);

@@ -11,7 +11,8 @@ static const slot base_slot = {aiTextureType_BASE_COLOR, 0}, diffuse_slot = {aiT
                   roughness_slot = {aiTextureType_DIFFUSE_ROUGHNESS, 0},
                   both_slot = {AI_MATKEY_GLTF_PBRMETALLICROUGHNESS_METALLICROUGHNESS_TEXTURE},
                   normal_slot = {aiTextureType_NORMALS, 0}, emissive_slot = {aiTextureType_EMISSIVE, 0},
-                  opacity_slot = {aiTextureType_OPACITY, 0}, through_slot = {aiTextureType_TRANSMISSION, 0};
+                  opacity_slot = {aiTextureType_OPACITY, 0}, through_slot = {aiTextureType_TRANSMISSION, 0},
+                  coat_slot = {aiTextureType_CLEARCOAT, 0}, sheen_slot = {aiTextureType_SHEEN, 0};
 
 float writer_number(const struct aiMaterial *material, const char *key, float otherwise) {
     float value = otherwise;
@@ -165,21 +166,61 @@ static void put_specular(writer *self, unsigned index) {
 
 /* Cloth: principled's sheen has the colour of the base as far as it is tinted. */
 static void put_sheen(writer *self, unsigned index) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
     float color[3] = {0.0f, 0.0f, 0.0f};
     extension_color(self, index, "KHR_materials_sheen", "sheenColorFactor", color);
     const float most = fmaxf(color[0], fmaxf(color[1], color[2]));
     const float least = fminf(color[0], fminf(color[1], color[2]));
     if (!(most > 0.0f))
         return;
+    if (picture_exists(self, material, sheen_slot)) { /* whose colour has no place */
+        picture_put(self, material,
+                    &(picture_use){sheen_slot, "sheen", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
+        return;
+    }
     writer_property(self, "float", "sheen", "%.9g", (double)most);
     writer_property(self, "float", "sheen_tint", "%.9g", (double)(1.0f - least / most));
+}
+
+/* KHR_materials_anisotropy: alpha along the tangent is that across and strength^2 of the rest up to 1.
+ * principled (Burley 2012) has alpha times and by (1 - .9 a)^(1/2). Returns the roughness between both. */
+static float put_anisotropy(writer *self, unsigned index, float rough) {
+    static const char name[] = "KHR_materials_anisotropy";
+    const json_value *const extension = gltf_extension(self, index, name);
+    const float strength = extension_number(self, index, name, "anisotropyStrength", 0.0f, 1.0f);
+    const double turn = json_number(json_member(extension, "anisotropyRotation"), 0.0);
+    if (!(strength > 0.0f))
+        return rough;
+    if (fabs(sin(turn)) > 0.02 || json_member(extension, "anisotropyTexture") != NULL ||
+        picture_exists(self, self->scene->mMaterials[index], both_slot)) {
+        writer_note("anisotropy with a rotation or textures (%s) is ignored", name);
+        return rough;
+    }
+    const float across = fmaxf(rough * rough, 1e-4f), along = across + (1.0f - across) * strength * strength;
+    writer_property(self, "float", "anisotropic", "%.9g",
+                    (double)at_most_one((1.0f - across / along) / 0.9f));
+    return powf(along * across, 0.25f);
+}
+
+static void put_coat(writer *self, unsigned index) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
+    const float coat = at_most_one(writer_number(material, "$mat.clearcoat.factor", 0.0f));
+    if (!(coat > 0.0f) || is_thin(self, index))
+        return;
+    /* The coat's width is .1 without gloss, .001 with all of it. */
+    const float width = writer_number(material, "$mat.clearcoat.roughnessFactor", 0.0f);
+    picture_put_share(self, material,
+                      &(picture_use){coat_slot, "clearcoat", "red", true, {coat, coat, coat}, 0.0f});
+    writer_property(self, "float", "clearcoat_gloss", "%.9g",
+                    (double)at_most_one((0.1f - width * width) / 0.099f));
 }
 
 static void put_principled(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
     const bool both = picture_exists(self, material, both_slot);
     const float metal = at_most_one(writer_number(material, "$mat.metallicFactor", 0.0f));
-    const float rough = roughness_of(material), through = transmission_of(material);
+    const float through = transmission_of(material);
+    const float rough = put_anisotropy(self, index, roughness_of(material));
     put_color(self, index, "base_color");
     picture_put_share(
         self, material,
@@ -201,16 +242,7 @@ static void put_principled(writer *self, unsigned index) {
              !(highlight[0] + highlight[1] + highlight[2] > 0.0f) && !(metal > 0.0f))
         writer_property(self, "float", "specular", "0");
     put_sheen(self, index);
-    const float coat = at_most_one(writer_number(material, "$mat.clearcoat.factor", 0.0f));
-    if (is_thin(self, index))
-        return;
-    if (coat > 0.0f) {
-        /* The coat's width is .1 without gloss, .001 with all of it. */
-        const float width = writer_number(material, "$mat.clearcoat.roughnessFactor", 0.0f);
-        writer_property(self, "float", "clearcoat", "%.9g", (double)coat);
-        writer_property(self, "float", "clearcoat_gloss", "%.9g",
-                        (double)at_most_one((0.1f - width * width) / 0.099f));
-    }
+    put_coat(self, index);
 }
 
 /* How the alpha of glTF is meant, or that of others; false: the surface is whole. */

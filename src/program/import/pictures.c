@@ -124,7 +124,9 @@ unsigned writer_uv_set(writer *self, const struct aiMaterial *material) {
                           {aiTextureType_EMISSIVE, 0},
                           {aiTextureType_NORMALS, 0},
                           {aiTextureType_OPACITY, 0},
-                          {aiTextureType_TRANSMISSION, 0}};
+                          {aiTextureType_TRANSMISSION, 0},
+                          {aiTextureType_CLEARCOAT, 0},
+                          {aiTextureType_SHEEN, 0}};
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; ++i)
         if (picture_exists(self, material, slots[i]))
             return uv_set_of(material, slots[i]);

@@ -139,11 +139,21 @@ static void add_moved(const double m[16], float weight, struct aiVector3D v, flo
     to->z += (float)(share * (m[8] * x + m[9] * y + m[10] * z + m[11] * one));
 }
 
+/* Weights are to sum up to 1, but in some files do not; a corner without any stays where it is. */
+static void normalize(unsigned count, const float *sums, const struct aiVector3D *from,
+                      struct aiVector3D *to) {
+    for (unsigned i = 0; i < count; ++i) {
+        const float sum = sums[i];
+        to[i] = sum > 0.0f ? (struct aiVector3D){to[i].x / sum, to[i].y / sum, to[i].z / sum} : from[i];
+    }
+}
+
 /* Moves a mesh to the world, where its bones are. */
 static void skin(const struct aiScene *scene, struct aiMesh *mesh) {
     struct aiVector3D *const points = calloc(mesh->mNumVertices, sizeof *points);
     struct aiVector3D *const normals = calloc(mesh->mNumVertices, sizeof *normals);
-    if (points == NULL || normals == NULL)
+    float *const sums = calloc(mesh->mNumVertices, sizeof *sums);
+    if (points == NULL || normals == NULL || sums == NULL)
         stream_fail_memory();
     for (unsigned b = 0; b < mesh->mNumBones; ++b) {
         const struct aiBone *const bone = mesh->mBones[b];
@@ -158,16 +168,21 @@ static void skin(const struct aiScene *scene, struct aiMesh *mesh) {
             const float weight = bone->mWeights[k].mWeight;
             if (i >= mesh->mNumVertices)
                 continue;
+            sums[i] += weight;
             add_moved(moves, weight, mesh->mVertices[i], 1.0f, &points[i]);
             if (mesh->mNormals != NULL)
                 add_moved(moves, weight, mesh->mNormals[i], 0.0f, &normals[i]);
         }
     }
+    normalize(mesh->mNumVertices, sums, mesh->mVertices, points);
     memcpy(mesh->mVertices, points, mesh->mNumVertices * sizeof *points);
-    if (mesh->mNormals != NULL)
+    if (mesh->mNormals != NULL) {
+        normalize(mesh->mNumVertices, sums, mesh->mNormals, normals);
         memcpy(mesh->mNormals, normals, mesh->mNumVertices * sizeof *normals);
+    }
     free(points);
     free(normals);
+    free(sums);
 }
 
 /* --- the whole */

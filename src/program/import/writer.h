@@ -22,6 +22,14 @@ typedef struct gltf_buffer {
     size_t size;
 } gltf_buffer;
 
+/* The model's own file. */
+typedef struct model_file {
+    const char *name;
+    bool is_gltf; /* its names of others are addresses */
+    char *bytes;  /* in place of those that the library has, or NULL */
+    size_t size;
+} model_file;
+
 typedef struct writer {
     const struct aiScene *scene;
     FILE *records; /* of elements: render/scene/importers/model/message.h */
@@ -34,6 +42,10 @@ typedef struct writer {
     unsigned
         *image_file; /* of each image that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
     struct json_value *gltf; /* the JSON of a glTF file, or NULL */
+    const char *gltf_text;   /* what it was read from */
+    size_t gltf_head;        /* of a .glb: the bytes before that text, else 0 */
+    size_t gltf_length;      /* of a .glb: the bytes of that text */
+    size_t *gltf_materials;  /* of each material of assimp: its number in the JSON, or SIZE_MAX */
     const char *gltf_binary; /* of a .glb: the chunk behind the JSON, or NULL */
     size_t gltf_binary_size;
     struct gltf_buffer *gltf_buffers; /* those of the JSON's list that were needed; NULL: none yet */
@@ -94,7 +106,7 @@ _Noreturn void stream_fail_memory(void);
 
 /* Replaces %XX by the bytes that are meant, in names of glTF. */
 void files_decode_address(char *text);
-/* As aiFileIO has them; UserData: the name of a model that names others by addresses, or NULL. */
+/* As aiFileIO has them; UserData: the model_file. */
 struct aiFile *files_open(struct aiFileIO *io, const char *name, const char *mode);
 void files_close(struct aiFileIO *io, struct aiFile *file);
 

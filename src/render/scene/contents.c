@@ -19,6 +19,10 @@ static void write_stage(const aur_scene_stage *stage, FILE *stream) {
         fprintf(stream, "ground %u\n", (unsigned)stage->ground);
     if (stage->has_time)
         fprintf(stream, "time %.17g\n", stage->time);
+    if (stage->up != AUR_SCENE_UP_AUTO)
+        fprintf(stream, "up %u\n", (unsigned)stage->up);
+    if (stage->variant != NULL)
+        fprintf(stream, "variant %s\n", stage->variant);
     if (stage->has_background)
         fprintf(stream, "background %.17g %.17g %.17g\n", b[0], b[1], b[2]);
     for (size_t i = 0; i < stage->placement_count; ++i) {

@@ -105,6 +105,12 @@ cases = {
     "volume": ({"KHR_materials_transmission": through, "KHR_materials_ior": {"ior": 1.25},
                 "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 1, "attenuationColor": [0.5, 1, 0.25]}},
                principled.format(color("0.2 0.6 0.025"), number("eta", 1.25) + number("spec_trans", 0.75))),
+    # alpha across .25, along .25 + .75 * .36 = .52: roughness (.25 * .52)^(1/4), and 1 - .25 / .52 = .9 a
+    "turned": ({"KHR_materials_anisotropy": {"anisotropyStrength": 0.6}}, '<bsdf type="twosided"><bsdf type="principled">' + plain +
+               number("roughness", 0.13 ** 0.25) + number("metallic", 0) + number("anisotropic", (1 - 0.25 / 0.52) / 0.9) + "</bsdf></bsdf>"),
+    "coated": ({"KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatTexture": {"index": 0}}}, '<bsdf type="twosided">' +
+               principled.format(plain, '<texture type="bitmap" name="clearcoat"><string name="filename" value="texels.bmp"/><boolean name="raw" value="true"/>'
+               '<string name="channel" value="red"/><vector name="factor" value="0.75 0.75 0.75"/></texture>' + number("clearcoat_gloss", 1)) + "</bsdf>"),
     "sheet": ({"KHR_materials_transmission": through},
               '<bsdf type="principledthin">' + plain + number("roughness", 0.5) + number("spec_trans", 0.75) + number("eta", 1.5) + "</bsdf>")}
 for name, (extensions, bsdf) in cases.items():
@@ -113,6 +119,7 @@ for name, (extensions, bsdf) in cases.items():
     with open(name + ".xml", "w") as file:
         file.write('<scene version="3.0.0"><shape type="ply"><string name="filename" value="body.ply"/><transform name="to_world">'
                    f'<scale value="0.5"/></transform>{bsdf}</shape><sensor type="perspective"><sampler type="multijitter"/></sensor></scene>')
+open("texels.bmp", "wb").write(base64.b64decode(texels))
 with open("body.ply", "w") as file:
     file.write(f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n" + "".join(f"property float {c}\n" for c in ("x", "y", "z", "nx", "ny", "nz", "u", "v")) +
                f"element face {len(indices) // 3}\nproperty list uchar int vertex_indices\nend_header\n")
@@ -141,6 +148,8 @@ tree["meshes"][0]["weights"] = [0]
 moving("morph", tree, (0, "weights", weights))
 joints = m.add([(1, 0, 0, 0)] * len(points), USHORT)
 full = m.add([(1.0, 0.0, 0.0, 0.0)] * len(points), FLOAT)
+# Weights of .25 alone, and those of one corner that has none: as if they were 1, but that corner stays.
+short = m.add([(0.25, 0.0, 0.0, 0.0)] * (len(points) - 1) + [(0.0, 0.0, 0.0, 0.0)], FLOAT)
 identity = tuple(float(i % 5 == 0) for i in range(16))
 m.views.append({"buffer": 0, "byteOffset": len(m.data), "byteLength": 128})
 m.data += struct.pack("<32f", *(identity * 2))
@@ -149,9 +158,56 @@ tree = m.tree(dict(attributes, JOINTS_0=joints, WEIGHTS_0=full), index, [{"mesh"
 tree["scenes"][0]["nodes"] = [0, 1]
 tree["skins"] = [{"joints": [1, 2], "inverseBindMatrices": len(m.accessors) - 1}]
 moving("skin", tree, (2, "translation", moves))
+tree["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = short
+moving("short", tree, (1, "translation", moves))
 for name, transform in (("node", {"translation": [1, 2, 0], "rotation": [0, 0.5 ** 0.5, 0, 0.5 ** 0.5]}), ("morph", {"translation": [0, 1, 0]}),
                         ("skin", {"translation": [1, 2, 0]}), ("skin-rest", {})):
     m.write(name + "-there.gltf", m.tree(attributes, index, [dict({"mesh": 0}, **transform)]))
+
+# Materials of variants, and what is not read.
+red, blue = ({"pbrMetallicRoughness": dict(base, baseColorFactor=color)} for color in ([0.8, 0.1, 0.1, 1], [0.1, 0.1, 0.8, 1]))
+m, attributes, index = build(False)
+m.write("blue.gltf", m.tree(attributes, index, [body], blue))
+tree = m.tree(attributes, index, [{"scale": [0.5, 0.5, 0.5], "children": [1]}, {"mesh": 0}], red)
+tree["scenes"][0]["nodes"] = [0]
+tree["materials"].append(blue)
+tree["extensionsUsed"].append("KHR_materials_variants")
+tree["extensions"] = {"KHR_materials_variants": {"variants": [{"name": "night"}, {"name": "deep sea"}]}}
+tree["meshes"][0]["primitives"][0]["extensions"] = {"KHR_materials_variants": {"mappings": [{"material": 0, "variants": [0]}, {"material": 1, "variants": [1]}]}}
+m.write("variants.gltf", tree)
+glb = m.tree(attributes, index, [body], red, form="glb")
+for key in ("materials", "extensions", "extensionsUsed"):
+    glb[key] = tree[key]
+glb["meshes"][0]["primitives"][0] = dict(tree["meshes"][0]["primitives"][0])
+del glb["meshes"][0]["primitives"][0]["material"]
+m.write("variants.glb", glb)
+# Materials in another order than their meshes, with a line between these: each has its own extensions.
+cloth = {"pbrMetallicRoughness": base, "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0.9, 0.9, 0.9]}}}
+for name, materials, numbers in (("order", [cloth, red], (0, 1)), ("swapped", [red, cloth], (1, 0))):
+    tree = m.tree(attributes, index, [dict(body), dict(body, mesh=1, translation=[0, 0, -2])])
+    part = tree["meshes"][0]["primitives"][0]
+    tree["meshes"] = [{"primitives": [dict(part, mode=1), dict(part, material=number)]} for number in numbers]
+    tree["materials"] = materials
+    m.write(name + ".gltf", tree)
+def odd(name, required=(), mode=None, textures=None, extensions=None):
+    m, attributes, index = build(False)
+    tree = m.tree(attributes, index, [body], {"pbrMetallicRoughness": base, "extensions": extensions or {}})
+    tree["extensionsRequired"] = list(required)
+    if mode is not None:
+        tree["meshes"][0]["primitives"].append(dict(tree["meshes"][0]["primitives"][0], mode=mode))
+    if textures:
+        tree["textures"] = textures
+    m.write("odd-" + name + ".gltf", tree)
+odd("lines", mode=1)
+odd("meshopt", ["EXT_meshopt_compression"])
+odd("unknown", ["VENDOR_thing"])
+for name in ("EXT_texture_webp", "KHR_texture_basisu"):
+    odd(name, [name], textures=[{"extensions": {name: {"source": 0}}}])
+odd("film", extensions={"KHR_materials_iridescence": {"iridescenceFactor": 1}})
+odd("coat", extensions={"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0}}})
+bare = m.tree(attributes, index, [body], red)
+bare["meshes"][0]["primitives"][0]["mode"] = 0
+m.write("odd-points.gltf", bare)
 PYTHON
 
 draw() { # draw FILE OUTPUT
@@ -167,7 +223,7 @@ draw copies.gltf made.exr
 "$aureole" compare nodes.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "copies are not the nodes: $(cat compared)"
 draw other.gltf made.exr
 "$aureole" compare nodes.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "the order of nodes matters: $(cat compared)"
-for name in sheen specular volume sheet; do
+for name in sheen specular volume sheet turned coated; do
   draw $name.gltf made.exr
   draw $name.xml scene.exr
   "$aureole" compare scene.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "$name is not its scene: $(cat compared)"
@@ -180,4 +236,33 @@ done
 draw skin.gltf made.exr
 draw skin-rest-there.gltf there.exr
 "$aureole" compare there.exr made.exr --metric relative-rmse --tolerance 1e-4 >compared || fail "a skin is not where its bones are: $(cat compared)"
+draw short.gltf made.exr
+"$aureole" compare there.exr made.exr --metric relative-rmse --tolerance 1e-4 >compared || fail "weights are not made to sum up to 1: $(cat compared)"
+draw blue.gltf there.pfm
+draw variants.gltf made.pfm --variant "deep sea"
+cmp there.pfm made.pfm || fail "a variant has not its material"
+draw variants.glb made.pfm --variant "deep sea"
+cmp there.pfm made.pfm || fail "a variant of a .glb has not its material"
+draw order.gltf there.pfm
+draw swapped.gltf made.pfm
+cmp there.pfm made.pfm || fail "the order of materials matters"
+# noted WORDS MODEL [OPTION...]: a warning, and a render
+noted() {
+  "$aureole" render "$2" "${@:3}" --width 4 --height 3 --spp 1 -o no.exr >said 2>&1 && grep -q "warning: $2: $1" said || fail "no warning '$1': $(cat said)"
+}
+# refused WORDS MODEL [OPTION...]
+refused() {
+  "$aureole" render "$2" "${@:3}" --width 4 --height 3 --spp 1 -o no.exr >said 2>&1
+  [ $? = 2 ] && grep -q "$1" said || fail "not refused with '$1': $(cat said)"
+}
+refused "unknown variant 'sea': it has 'night', 'deep sea'" variants.gltf --variant sea
+refused "compressed by meshopt (EXT_meshopt_compression)" odd-meshopt.gltf
+refused "only points and lines" odd-points.gltf
+noted "it has no variants" blue.gltf --variant sea
+noted "1 of 2 primitives are points or lines" odd-lines.gltf
+noted "the model requires the extension 'VENDOR_thing'" odd-unknown.gltf
+noted "1 textures are WebP images" odd-EXT_texture_webp.gltf
+noted "1 textures are KTX2 images" odd-KHR_texture_basisu.gltf
+noted "iridescence (KHR_materials_iridescence) is not supported" odd-film.gltf
+noted "textures of extensions are ignored: clearcoatNormalTexture" odd-coat.gltf
 exit 0

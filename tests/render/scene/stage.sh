@@ -62,6 +62,17 @@ done
 "$aureole" render away.obj -q --spp 64 --width 24 --height 16 -o away.pfm && "$aureole" render one.obj -q --spp 64 --width 24 --height 16 -o near.pfm &&
   /usr/bin/python3 look.py near away.pfm near.pfm 0.05 || fail "a model far from the origin looks different"
 
+# --- an .stl has z upwards, others by --up: the same corners are seen alike
+awk '/^v/ { v[++n] = $2 " " $3 " " $4 } /^f/ { for (i = 4; i <= NF; ++i) {
+  print "facet normal 0 0 0\nouter loop\nvertex " v[$2] "\nvertex " v[$(i - 1)] "\nvertex " v[$i] "\nendloop\nendfacet" } }' one.obj >facets
+{ echo "solid wedge"; cat facets; echo "endsolid wedge"; } >one.stl
+for view in front iso; do
+  "$aureole" render one.stl $depth --width 48 --height 32 --camera $view -o stl.pfm && "$aureole" render one.obj $depth --up z --width 48 --height 32 --camera $view -o up.pfm &&
+    /usr/bin/python3 look.py near stl.pfm up.pfm 1e-5 || fail "--up z is not the .stl seen from $view"
+  "$aureole" render one.stl $depth --up y --width 48 --height 32 --camera $view -o stl.pfm && "$aureole" render one.obj $depth --width 48 --height 32 --camera $view -o up.pfm &&
+    /usr/bin/python3 look.py near stl.pfm up.pfm 1e-5 || fail "--up y is not the .obj seen from $view"
+done
+
 # --- a place and a target are a <lookat>
 scene() { # NAME [ELEMENT...]
   echo '<scene version="3.0.0"><integrator type="path"/><shape type="obj"><string name="filename" value="one.obj"/></shape>' >"$1.xml"
@@ -138,6 +149,8 @@ refused "unknown camera 'fornt'" --camera fornt
 refused "unknown camera '1,2,3'" --camera 1,2,3
 refused 'another point' --camera 1,2,3,1,2,3
 refused 'sky:TURBIDITY' --environment sky:20
+refused "unknown environment 'skyy'; did you mean 'sky'" --environment skyy
+refused "there are: studio, sky, sky:TURBIDITY, none" --environment park
 refused "cannot find 'nothing.exr'" --environment nothing.exr
 refused 'R,G,B' --background 1,2
 refused 'FILE@X,Y,Z' one.obj@1,2

@@ -55,6 +55,12 @@ const cli_option cli_stage_options[] = {
     {CLI_TEXT(cli_stage, stage, "at", "SECONDS", NULL,
               "show a model as its first animation has it at this time; without it at rest"),
      .parse = parse_time},
+    {CLI_TEXT(cli_stage, stage.variant, "variant", "NAME", NULL,
+              "material variant of a glTF model (KHR_materials_variants)")},
+    {CLI_CHOICE(cli_stage, stage.up, "up", "AXIS", "auto",
+                "upward axis for views, environments, the ground and rotations; auto: z for a .stl and "
+                "Radiance files, else y"),
+     .key.words = (const char *const[]){"auto", "y", "z", NULL}},
     {.key = {0}}};
 
 /* Without opening it: to open a pipe would wait for its writer, or take what it holds from the reader. */

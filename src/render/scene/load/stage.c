@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "points/base/array.h"
+#include "points/base/names.h"
 #include "points/base/text.h"
 #include "points/base/vector3d.h"
 
@@ -79,7 +80,8 @@ static aur_result add_sky(stage *self, const char *text) {
     double turbidity = 3.0;
     if (*text == ':' && (!aur_parse_double(text + 1, &turbidity) || turbidity < 1.0 || turbidity > 10.0))
         return aur_fail(self->nodes.error, AUR_ERROR_ARGUMENT,
-                        "the environment sky%s: expected sky:TURBIDITY from 1 (clear) to 10 (hazy)", text);
+                        "--environment: expected sky:TURBIDITY from 1 (clear) to 10 (hazy), not 'sky%s'",
+                        text);
     const double a = SUN_AZIMUTH * AUR_PI / 180.0, e = SUN_ELEVATION * AUR_PI / 180.0;
     const aur_stage_axes *const axes = &self->axes;
     double sun[3], away[3];
@@ -101,12 +103,22 @@ static bool is_sky(const char *name) {
     return strncmp(name, "sky", 3) == 0 && (name[3] == '\0' || name[3] == ':');
 }
 
+/* Names of image files have a point. */
+static aur_result fail_unknown(const char *name, aur_error *error) {
+    static const char *const names[] = {"studio", "sky", "sky:TURBIDITY", "none", "FILE.hdr", "FILE.exr"};
+    size_t index;
+    return aur_names_choose(aur_names_of(sizeof names / sizeof names[0], names), "environment", name,
+                            (aur_location){.file = "--environment"}, &index, error);
+}
+
 static aur_result add_environment(stage *self, const char *name) {
     if (strcmp(name, "studio") == 0) {
         add_studio(self);
     } else if (is_sky(name)) {
         return add_sky(self, name + 3);
     } else if (strcmp(name, "none") != 0) {
+        if (strpbrk(name, "./") == NULL)
+            return fail_unknown(name, self->nodes.error);
         aur_xml_node *const emitter =
             aur_node_object(&self->nodes, self->nodes.tree->root, "emitter", "envmap");
         aur_node_property(&self->nodes, emitter, "string", "filename", "%s", name);
@@ -207,7 +219,7 @@ aur_result aur_stage_set(aur_loader *loader, const aur_scene_options *options) {
     aur_scene *const scene = loader->scene;
     aur_xml_document *const document = &scene->document;
     stage self = {.loader = loader, .options = &options->stage, .model = &document->stage};
-    const bool z_up = document->stage.z_up || document->from_radiance;
+    const bool z_up = aur_xml_is_z_up(document, &options->stage);
     self.nodes =
         (aur_nodes){.tree = &document->tree, .location = {.file = "--environment"}, .error = loader->error};
     document->stage.z_up = z_up;

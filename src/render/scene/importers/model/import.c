@@ -205,13 +205,15 @@ static aur_result start(conversation *self) {
     char time[32] = "";
     if (source->time != NULL)
         aur_format(time, sizeof time, "%.17g", *source->time);
-    const size_t size = version + name + strlen(time) + 1;
+    const char *const variant = source->variant != NULL ? source->variant : "";
+    const size_t size = version + name + strlen(time) + 1 + strlen(variant) + 1;
     char *const text = malloc(size);
     if (text == NULL)
         return aur_fail_memory_at(self->error, source->location);
     memcpy(text, aur_version(), version);
     memcpy(text + version, source->name, name);
     memcpy(text + version + name, time, strlen(time) + 1);
+    memcpy(text + version + name + strlen(time) + 1, variant, strlen(variant) + 1);
     const aur_result result = send(self, AUR_IMPORT_START, (uint32_t)self->first, size, text);
     free(text);
     return result;

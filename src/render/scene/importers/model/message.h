@@ -7,8 +7,8 @@
 
 typedef enum aur_import_kind {
     /* From the library. */
-    AUR_IMPORT_START = 1, /* value: number of the first part; three texts, each with its zero byte: version,
-                             name of the model, time in seconds or "" */
+    AUR_IMPORT_START = 1, /* value: number of the first part; four texts, each with its zero byte: version,
+                             name of the model, time in seconds or "", variant or "" */
     AUR_IMPORT_ANSWER,    /* to OPEN, FIND and PICTURE; value: whether it is there; bytes: what it is */
     /* From the program. */
     AUR_IMPORT_OPEN,    /* a name: asks for the bytes of a file that the model names, or of its own */

@@ -38,6 +38,7 @@ typedef struct aur_model_source {
     const char *data;
     aur_model_stage *stage; /* it is the scene's own file; NULL: a part of a scene */
     const double *time;     /* of its animation, seconds; NULL: at rest */
+    const char *variant;    /* of its materials; NULL: none */
     const aur_warnings *warnings;
     aur_progress progress; /* asked, while the model is read, whether to stop */
     aur_location location;

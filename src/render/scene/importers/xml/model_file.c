@@ -12,6 +12,11 @@ bool aur_xml_is_model(const char *path, size_t size, const char *data) {
     return aur_model_is_name(path) && (size < sizeof start - 1 || memcmp(data, start, sizeof start - 1) != 0);
 }
 
+bool aur_xml_is_z_up(const aur_xml_document *document, const aur_scene_stage *stage) {
+    return stage->up == AUR_SCENE_UP_AUTO ? document->stage.z_up || document->from_radiance
+                                          : stage->up == AUR_SCENE_UP_Z;
+}
+
 /* Files beside a model are found, noted and confined as all that a scene names, but their names are forgiven.
  */
 static aur_result find_part(void *state, const char *name, char **used, char **path, aur_error *error) {
@@ -34,6 +39,7 @@ aur_result aur_xml_read_model(aur_xml_document *document, const aur_scene_option
                                      .data = data,
                                      .stage = included ? NULL : &document->stage,
                                      .time = options->stage.has_time ? &options->stage.time : NULL,
+                                     .variant = options->stage.variant,
                                      .warnings = &options->warnings,
                                      .progress = options->progress,
                                      .location = nodes->location,

@@ -419,8 +419,7 @@ static void place(reading *shared, size_t file, const aur_xml_node *last) {
     for (size_t i = 0; i < stage->placement_count; ++i)
         if (stage->placements[i].file == file && tree->root != NULL)
             aur_nodes_place(&nodes, last != NULL ? last->next : tree->root->first_child,
-                            &stage->placements[i],
-                            shared->document->stage.z_up || shared->document->from_radiance);
+                            &stage->placements[i], aur_xml_is_z_up(shared->document, stage));
 }
 
 /* A file more, as if the scene's own, `path`, included it at its end. */

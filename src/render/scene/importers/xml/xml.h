@@ -78,6 +78,8 @@ aur_result aur_xml_find_set(aur_xml_document *document, aur_location location, c
 /* Whether a file is a model: by its name, unless it begins as a scene does, for XML in memory may go by the
  * name of a mesh that it is about. */
 bool aur_xml_is_model(const char *path, size_t size, const char *data);
+/* Whether +z of the scene points up, by what has been read so far. */
+bool aur_xml_is_z_up(const aur_xml_document *document, const aur_scene_stage *stage);
 
 /* Adds a model's elements to `parent`, and its parts to the document's model files. `included`: in a scene,
  * which has a camera and lights of its own. */
