@@ -49,14 +49,16 @@ class Site:
         self.out, self.reference = out, reference
         self.sections = []  # of the search: page, anchor, title, heading, text
         self.shown = set()  # files and folders that pages point to
-        self.menu = []  # (page, title), in the order of docs/README.md
+        self.menu = []  # (page, title) in the order of docs/README.md; a group of pages has a title alone
         self.template = (HERE / "page.html").read_text()
 
     def write(self, place, title, body):
         """Writes a page with head, menu and search."""
         up = "../" * place.count("/")
         menu = "".join(
-            f'<li><a href="{up}{page}"{" aria-current=page" if page == place else ""}>{html.escape(text)}</a></li>'
+            f'<li><a href="{up}{page}"{" aria-current=page" if page == place else ""}>{html.escape(text.split(":")[0])}</a></li>'
+            if page
+            else f"<li class=group>{html.escape(text)}</li>"
             for page, text in self.menu
         )
         text = self.template.replace("@UP@", up).replace("@TITLE@", html.escape(title)).replace("@MENU@", menu)
@@ -209,8 +211,11 @@ def main():
     site = Site(told.out, told.reference)
     found = (path.relative_to(TREE) for path in TREE.rglob("*.md"))
     sources = sorted(path.as_posix() for path in found if path.parts[0] not in NOT_SOURCES)
-    # The menu is the index's list: each page where it first stands there.
-    for link in re.findall(r"\]\(([^)#]*\.md)[^)]*\)", (TREE / "docs/README.md").read_text()):
+    # The menu is the index's list with its headings: each page once, at its first link.
+    for heading, link in re.findall(r"^## (.*)|\]\(([^)#]*\.md)[^)]*\)", (TREE / "docs/README.md").read_text(), re.MULTILINE):
+        if heading:
+            site.menu.append((None, heading))
+            continue
         path = posixpath.normpath(posixpath.join("docs", link))
         if path in sources and (page_of(path), title_of(path)) not in site.menu:
             site.menu.append((page_of(path), title_of(path)))
