@@ -263,6 +263,8 @@ awk 'BEGIN { print "# hours"; for (i = 0; i < 8760; ++i) print (i % 24 < 8 || i 
 "$aureole" irradiance $yard mixed.epw --up 0,0,1 -n 64 --schedule nights.csv -q -o by-file.csv || fail "--schedule FILE"
 cmp -s at-18-8.csv by-file.csv && ! cmp -s at-8-18.csv by-file.csv || fail "a schedule by file"
 refused "hours like 8-18 or 22-6, or a file expected" $yard mixed.epw --schedule 8-8
+mkfifo hours.pipe
+refused "it is a pipe" $yard mixed.epw --schedule hours.pipe
 head -100 nights.csv >short.csv
 refused "short.csv: 99 hours, and the weather has 8760" $yard mixed.epw --schedule short.csv
 { cat nights.csv; echo 1; } >long.csv

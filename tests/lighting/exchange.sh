@@ -48,7 +48,9 @@ refused "bad.csv:4: a second line of this name (floor)" room.obj --group --surfa
 refused "bad.csv:2: the rows of a mesh have names with --group only (floor)" room.obj --surfaces bad.csv
 printf 'name,reflectance\nfloor,.5\n' >bad.csv
 refused "no line is of row 1, rest of it" room.obj --group --surfaces bad.csv
-refused "cannot be opened" room.obj --surfaces none.csv
+refused "none.csv: cannot read: No such file" room.obj --surfaces none.csv
+mkfifo pipe
+refused "it is a pipe" room.obj --surfaces pipe
 refused "--script-f needs emittances" room.obj --script-f
 refused "--radiosity cannot be used" room.obj --surfaces same.csv --radiosity .5
 

@@ -70,8 +70,16 @@ refused "unknown sky 'cloudy'" irradiance open.rad --sensors points.pts --sky cl
 refused "unknown sky 'cie:16'" irradiance open.rad --sensors points.pts --sky cie:16
 refused "unknown sky 'perez:100'" irradiance open.rad --sensors points.pts --sky perez:100
 refused "needs a date like" irradiance open.rad --sensors points.pts --sky cie-clear
-refused "needs a date like" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T12:00 --location 1,2
-refused "'date'" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-31T12:00 --location 1,2,0
+refused "needs a date like" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T12:00
+refused "expected a location" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T12:00 --location 1,2
+for sky in uniform cie-overcast cie-clear perez:500,100; do
+  for date in 2026-13-21T12:00 2026-00-21T12:00 2026-06-31T12:00 2027-02-29T12:00 2026-06-21T25:00 2026-06-21T12:60 2026-06-21 1949-06-21T12:00 noon; do
+    refused "expected a date and time" irradiance open.rad --sensors points.pts --sky $sky --date $date --location 1,2,0
+  done
+  for place in 91,0,0 0,181,0 0,0,15 1,2 x; do
+    refused "expected a location" irradiance open.rad --sensors points.pts --sky $sky --date 2028-02-29T12:00 --location $place
+  done
+done
 refused "below" irradiance open.rad --sensors points.pts --sky cie-clear --date 2026-06-21T00:00 --location 48,11,1
 refused "--date needs --sky MODEL" irradiance open.rad --sensors points.pts --date 2026-06-21T12:00
 refused "cannot be used with --weather" irradiance open.rad --sensors points.pts --sky uniform --weather no.epw

@@ -3,6 +3,7 @@
 
 #include <aureole/core.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "program/cli/progress.h"
 #include "program/report/report.h"
@@ -16,6 +17,10 @@ int cli_fail(const aur_error *error);
 int cli_status(aur_result result, const aur_error *error);
 /* The same for a mistake in the command line itself; returns CLI_BAD_INPUT. */
 int cli_bad_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Opens an input file without waiting for the writer of a named pipe. Folders, devices and pipes are refused,
+ * except those that the shell passes as /dev/fd/N. NULL if the file cannot be read. Errors: OPEN. */
+FILE *cli_open_input(const char *path, aur_error *error);
 
 /* Warnings go to standard error as "aureole: warning: ..."; nothing when quiet. */
 aur_warnings cli_warnings(bool quiet);

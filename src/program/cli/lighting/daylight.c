@@ -49,11 +49,11 @@ static bool read_hours(const char *text, aur_daylight_options *options) {
 
 /* A number for each hour of the weather, one a line or the first of a line; above 0 it counts. */
 static aur_result read_schedule(const char *path, size_t count, bool *hours, aur_error *error) {
-    FILE *const file = fopen(path, "r");
+    aur_error why;
+    FILE *const file = cli_open_input(path, &why);
     if (file == NULL)
-        return aur_fail(error, AUR_ERROR_OPEN,
-                        "--schedule: hours like 8-18 or 22-6, or a file expected: '%s' cannot be opened",
-                        path);
+        return aur_fail(error, AUR_ERROR_OPEN, "--schedule: hours like 8-18 or 22-6, or a file expected: %s",
+                        why.message);
     char *line = NULL;
     size_t capacity = 0, found = 0, number = 0;
     aur_result result = AUR_OK;

@@ -163,9 +163,10 @@ static bool read_blanks(char *line, size_t count, double *numbers) {
 static int read_lines(const char *path, size_t count, int (*use)(table_reading *, const double *, void *),
                       void *context) {
     table_reading self = {.path = path};
-    FILE *const file = fopen(path, "r");
+    aur_error error;
+    FILE *const file = cli_open_input(path, &error);
     if (file == NULL)
-        return cli_bad_usage("%s: cannot be opened", path);
+        return cli_fail(&error);
     char *line = NULL;
     size_t capacity = 0;
     int status = CLI_SUCCESS;
@@ -249,9 +250,10 @@ int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *
     size_t name;
     if (status != CLI_SUCCESS || is_udales(path, &name))
         return status != CLI_SUCCESS ? status : read_udales(path, name, facets, made);
-    FILE *const file = fopen(path, "r");
+    aur_error error;
+    FILE *const file = cli_open_input(path, &error);
     if (file == NULL)
-        return cli_bad_usage("%s: cannot be opened", path);
+        return cli_fail(&error);
     self.named = calloc(rows + 1, sizeof *self.named);
     if (self.named == NULL)
         status = cli_bad_usage("out of memory");

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "program/cli/points/point_source.h"
 
@@ -106,12 +105,10 @@ static int describe(const cli_info_input *input, size_t size, const char *start,
 
 static int describe_file(const char *path, const cli_info_options *options) {
     char start[START_CAPACITY];
-    struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
-        return cli_bad_usage("%s: cannot read: not a regular file; '-' reads standard input", path);
-    FILE *const file = fopen(path, "rb");
+    aur_error error;
+    FILE *const file = cli_open_input(path, &error);
     if (file == NULL)
-        return cli_bad_usage("%s: cannot read: %s", path, strerror(errno));
+        return cli_fail(&error);
     const size_t size = fread(start, 1, sizeof start, file);
     const int code = ferror(file) ? errno : 0;
     fclose(file);

@@ -47,19 +47,46 @@ static aur_result read_model(const char *text, sky_form *form, aur_error *error)
                     text);
 }
 
-/* Where the sun is: properties of skies and suns. */
+/* A day and a time that exist, such as 2026-06-21T12:00, from 1950 to 2050. */
+static bool is_time(const char *text) {
+    static const uint64_t most[6] = {2050, 12, 31, 23, 59, 59};
+    uint64_t n[6];
+    for (size_t i = 0; i < 6; ++i) {
+        text = aur_read_integer(text, most[i], &n[i]);
+        if (text == NULL || (*text == '\0' && i < 4))
+            return false;
+        if (*text == '\0')
+            break;
+        if (strchr(i < 2 ? "-" : i == 2 ? "T " : ":", *text++) == NULL)
+            return false;
+    }
+    const uint64_t length = n[1] == 2 ? 28 + (n[0] % 4 == 0) : 30 + (n[1] + (n[1] > 7)) % 2;
+    return *text == '\0' && n[0] >= 1950 && n[1] >= 1 && n[2] >= 1 && n[2] <= length;
+}
+
+/* Where the sun is: properties of skies and suns. Date and location are checked for skies without sun too. */
 static aur_result add_place(aur_nodes *nodes, aur_xml_node *emitter, const aur_scene_sky *sky, bool sun) {
     static const char *const names[3] = {"latitude", "longitude", "timezone"};
-    double numbers[3];
-    const char *const split = sky->date != NULL ? strpbrk(sky->date, "T ") : NULL;
+    double numbers[3] = {0.0};
+    if (sky->date != NULL && !is_time(sky->date))
+        return aur_fail(nodes->error, AUR_ERROR_ARGUMENT,
+                        "'%s': expected a date and time such as 2026-06-21T12:00, from 1950 to 2050",
+                        sky->date);
+    if (sky->location != NULL && (!read_list(sky->location, 3, numbers) || fabs(numbers[0]) > 90.0 ||
+                                  fabs(numbers[1]) > 180.0 || fabs(numbers[2]) > 14.0))
+        return aur_fail(nodes->error, AUR_ERROR_ARGUMENT,
+                        "'%s': expected a location LATITUDE,LONGITUDE,TIMEZONE: degrees north (-90 to 90), "
+                        "degrees east (-180 to 180), hours ahead of UTC (-14 to 14)",
+                        sky->location);
     if (!sun)
         return nodes->result;
-    if (split == NULL || sky->location == NULL || !read_list(sky->location, 3, numbers))
+    if (sky->date == NULL || sky->location == NULL)
         return aur_fail(
             nodes->error, AUR_ERROR_ARGUMENT,
             "the sky '%s' needs a date like 2026-06-21T12:00 and a location LATITUDE,LONGITUDE,TIMEZONE "
             "(degrees north, degrees east, hours ahead of UTC)",
             sky->model);
+    const char *const split = strpbrk(sky->date, "T ");
     aur_node_property(nodes, emitter, "string", "date", "%.*s", (int)(split - sky->date), sky->date);
     aur_node_property(nodes, emitter, "string", "time", "%s", split + 1);
     for (size_t i = 0; i < 3; ++i)
