@@ -1,4 +1,4 @@
-"""The numbers on these pages that are values of the lab's kept tables: see scripts/lab_numbers.py."""
+"""The numbers on these pages that are values of the lab's stored tables: see scripts/lab_numbers.py."""
 # ruff: noqa: F821
 SEQUENCES = ("lcg", "icg", "halton", "faure", "sobol")
 SCENES = {"cube": "cube", "living-room": "living room", "office": "office", "teapot": "teapot"}
@@ -24,13 +24,13 @@ line(page, f"means {off[0]}, {off[1]} and {off[2]} % from path tracing")
 
 
 def feature(begin, name, setting, saved=True):
-    form = "{rays_a_pixel} | {rmse} ({rmse_low}-{rmse_high}) | {saved_rays}" + (" ({saved_low}-{saved_high})" if saved else "")
+    form = "{rays_per_pixel} | {rmse} ({rmse_low}-{rmse_high}) | {saved_rays}" + (" ({saved_low}-{saved_high})" if saved else "")
     line(page, f"| {begin} | {cell('keller-1994-features', form, feature=name, setting=setting)} |")
 
 
 feature("light sources, living room | all 368 at each of 16 points", "permuted lights", "all lights", False)
 feature("`light_sampling=permuted`", "permuted lights", "permuted")
-feature("neighbours, office | separate samples", "sharing in a coarse picture", "own samples", False)
+feature("neighbours, office | separate samples", "sharing in a coarse image", "separate samples", False)
 feature("the same, 128 x 96 | `share_neighbours=true`", "neighbour sharing", "shared")
 feature("oversampling, office | 16 Halton points", "oversampling", "16 Halton points", False)
 feature("64 Halton points", "oversampling", "64 Halton points")
@@ -152,7 +152,7 @@ of = {s: [value(t, "over_oswa", exponent=5, share=0.8, set=s, weights=w) for w i
 line(page, f"have {', '.join(of['sobol'])}\n  (Sobol) and {', '.join(of['random'])} (random)")
 most = max(float(row["over_oswa"]) for row in rows(t, set="random", weights="MIS"))
 line(page, f"has {put(most)} at most on average")
-line(page, "one set has " + cell(t, "{set_low} to {set_high}", exponent=5, share=0.8, set="random", weights="MIS") + " there")
+line(page, "one set has " + cell(t, "{set_low} to {set_high}", exponent=5, share=0.8, set="random", weights="MIS"))
 t = "marques-2018-lobes"
 merged = {light: [float(row["over_plain"]) for row in rows(t, light=light, method="OSWA")] for light in ("smooth", "hard edges")}
 line(page, f"RMSE {put(min(merged['smooth']))} to {put(max(merged['smooth']))} of p/q under smooth light, "
@@ -255,17 +255,17 @@ page = "../lighting-accuracy.md"
 t = "irradiance-coverage"
 
 
-def is_asked(text):
+def is_target(text):
     return float(text) > 0
 
 
 for name, case in (("closed room, all light from everywhere | 1 %", "furnace"), ("lamp behind half a screen | .1 %", "screen"),
                    ("uniform sky next to a wall | .5 %", "wall"), ("Cornell box | 2 %", "cornell-box"), ("functional of `aur_estimate` | .5 %", "functional")):
-    line(page, f"| {name} | {value(t, 'held', 100, case=case, asked=0)} % | {value(t, 'held', 100, case=case, asked=is_asked)} % | "
-               f"{value(t, 'directions', case=case, asked=is_asked)} |")
+    line(page, f"| {name} | {value(t, 'held', 100, case=case, target=0)} % | {value(t, 'held', 100, case=case, target=is_target)} % | "
+               f"{value(t, 'directions', case=case, target=is_target)} |")
 line(page, f"| pooled | | {value(t, 'held', 100, case='pooled')} % | {value(t, 'held', 100, case='pooled to errors')} % | |")
 t = "picture-coverage"
-held = [value(t, "held", 100, case="picture's error", asked=asked) for asked in (0, 0.08)]
+held = [value(t, "held", 100, case="image's error", target=target) for target in (0, 0.08)]
 nets = value(t, "held", 100, case="discrepancy of scrambled nets")
 line(page, f"radiosities ({value('factors-coverage', 'held', 100, case='pooled')} %), and `aureole lab run picture-coverage` for the errors that "
            f"`aureole render --error` prints ({held[0]} %; stopped by an error of 8 %: {held[1]} %) and for `aureole measure --seeds 8` ({nets} %)")

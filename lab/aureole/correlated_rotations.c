@@ -211,7 +211,7 @@ const lab_experiment lab_aureole_correlated_rotations = {
     .summary = "what rotations that are correlated between pixels save, before and after a blur",
     .columns = columns,
     .plots = plots,
-    .seconds = 35,
-    .quick_seconds = 0.4,
+    .seconds = 9,
+    .quick_seconds = 0.3,
     .run = run,
 };

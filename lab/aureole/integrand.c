@@ -189,8 +189,8 @@ const lab_experiment lab_aureole_integrand = {
     .summary = "root mean square error of every set on one function, against the number of points",
     .columns = columns,
     .plots = plots,
-    .seconds = 1,
-    .quick_seconds = 1,
+    .seconds = 0.1,
+    .quick_seconds = 0.1,
     .run = run,
     .parameters = parameters,
 };

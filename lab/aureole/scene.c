@@ -160,8 +160,8 @@ const lab_experiment lab_aureole_scene = {
     .summary = "root mean square error of images by every set of directions in one scene",
     .columns = columns,
     .plots = plots,
-    .seconds = 20,
-    .quick_seconds = 2,
+    .seconds = 4,
+    .quick_seconds = 0.3,
     .run = run,
     .parameters = parameters,
 };

@@ -52,7 +52,7 @@ const lab_experiment lab_domains_axes = {
     .summary = "prefixes and shells of 60 axes: energy over that of as many axes at rest",
     .columns = columns,
     .takes_no_set = "the table is of prefixes and shells of axes, which few sets have",
-    .seconds = 2,
+    .seconds = 1,
     .quick_seconds = 0.1,
     .run = run,
 };

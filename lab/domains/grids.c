@@ -41,7 +41,7 @@ const lab_experiment lab_domains_grids = {
     .reproduces = "docs/domains.md",
     .summary = "a grid of rotations that doubles, over a super-Fibonacci spiral of each size",
     .columns = columns,
-    .seconds = 2,
+    .seconds = 0.7,
     .quick_seconds = 0.1,
     .run = run,
 };

@@ -188,7 +188,7 @@ const lab_experiment lab_domains_lifts = {
     .rows = "lift",
     .columns = columns,
     .takes_no_set = "what a lift does with directions is part of it",
-    .seconds = 25,
-    .quick_seconds = 0.4,
+    .seconds = 8,
+    .quick_seconds = 0.1,
     .run = run,
 };

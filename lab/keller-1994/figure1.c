@@ -1,6 +1,7 @@
 /* The three pictures of Keller 1994 (figure 1): living room, office and teapot as the paper renders them, by
- * adaptive termination, Halton points of a pixel and permuted lights, beside path tracing of the same scenes,
- * which is no radiosity and knows no triangles. What is published of them is how many triangles they have. */
+ * adaptive termination, Halton points of a pixel and permuted lights, compared with path tracing of the same
+ * scenes, which is no radiosity and knows no triangles. What is published of them is how many triangles they
+ * have. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -111,21 +112,21 @@ static aur_result run(lab_run *run, aur_error *error) {
             result = render_scene(run, s, &stage, error);
         lab_stage_close(&stage);
     }
-    lab_note(run, "rmse_percent: of the picture's pixels, from two independent path traced pictures, whose "
-                  "own noise drops out");
+    lab_note(run, "rmse_percent: of the image's pixels, from two independent path-traced images, whose "
+                  "noise drops out");
     return result;
 }
 
 const lab_experiment lab_keller_1994_figure1 = {
     .name = "keller-1994-figure1",
     .reproduces = "Keller 1994, figure 1",
-    .summary = "the living room, the office and the teapot, beside path tracing",
+    .summary = "the living room, the office and the teapot, compared with path tracing",
     .columns = columns,
     .measured = "triangles",
     .published = "published",
     .factor = 1.5,
-    .takes_no_set = "it makes pictures",
-    .seconds = 30,
-    .quick_seconds = 1,
+    .takes_no_set = "it renders images",
+    .seconds = 16,
+    .quick_seconds = 0.2,
     .run = run,
 };

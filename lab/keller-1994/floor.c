@@ -296,7 +296,7 @@ const lab_experiment lab_keller_1994_floor = {
     .published = "published",
     .factor = 1.5,
     .plots = plots,
-    .seconds = 30,
+    .seconds = 42,
     .quick_seconds = 1,
     .run = run,
 };

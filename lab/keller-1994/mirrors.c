@@ -127,10 +127,9 @@ static aur_result run(lab_run *run, aur_error *error) {
               "without, from %.4f to "
               "%.5f, and from %.4f to %.5f without",
               found[0][0], found[0][last], found[1][0], found[1][last]);
-    lab_note(
-        run,
-        "picture of a room with a mirror: the mean is %+.2f %% off path tracing's, whose noise is %.2f %%",
-        off[0], off[1]);
+    lab_note(run,
+             "image of a room with a mirror: the mean is %+.2f %% off path tracing's, whose noise is %.2f %%",
+             off[0], off[1]);
     return AUR_OK;
 }
 
@@ -148,11 +147,11 @@ static const report_plot plots[] = {
 const lab_experiment lab_keller_1994_mirrors = {
     .name = "keller-1994-mirrors",
     .reproduces = "Keller 1994, mirrors (section 4)",
-    .summary = "the analytic answer beside a mirror, and a picture with one",
+    .summary = "the analytic answer next to a mirror, and an image with one",
     .columns = columns,
     .plots = plots,
     .takes_no_set = "it compares walls",
-    .seconds = 15,
-    .quick_seconds = 0.6,
+    .seconds = 6,
+    .quick_seconds = 0.7,
     .run = run,
 };

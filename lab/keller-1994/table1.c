@@ -135,7 +135,7 @@ const lab_experiment lab_keller_1994_table1 = {
     .published = "published",
     .factor = 1.5,
     .plots = plots,
-    .seconds = 480,
-    .quick_seconds = 2.1,
+    .seconds = 190,
+    .quick_seconds = 1,
     .run = run_table,
 };

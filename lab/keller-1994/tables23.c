@@ -217,8 +217,8 @@ const lab_experiment lab_keller_1994_table2 = {
     .published = "published",
     .factor = 1.5,
     .plots = plots,
-    .seconds = 300,
-    .quick_seconds = 2.8,
+    .seconds = 170,
+    .quick_seconds = 1,
     .run = run_plain,
 };
 
@@ -233,7 +233,7 @@ const lab_experiment lab_keller_1994_table3 = {
     .published = "published",
     .factor = 1.5,
     .plots = plots,
-    .seconds = 300,
-    .quick_seconds = 2.8,
+    .seconds = 180,
+    .quick_seconds = 1,
     .run = run_weighted,
 };

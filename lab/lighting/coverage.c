@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-const char *const lab_tally_of_directions[] = {"case", "asked",     "runs",       "held",
+const char *const lab_tally_of_directions[] = {"case", "target",    "runs",       "held",
                                                "bias", "error_rms", "directions", NULL};
-const char *const lab_tally_of_rays[] = {"case", "asked", "runs", "held", "bias", "error_rms", "rays", NULL};
-const char *const lab_tally_of_samples[] = {"case", "asked",     "runs",    "held",
+const char *const lab_tally_of_rays[] = {"case", "target", "runs", "held", "bias", "error_rms", "rays", NULL};
+const char *const lab_tally_of_samples[] = {"case", "target",    "runs",    "held",
                                             "bias", "error_rms", "samples", NULL};
 
 void lab_tally_count(lab_tally *tally, double value, double half_width, double truth, double work) {

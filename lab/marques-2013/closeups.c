@@ -266,7 +266,7 @@ const lab_experiment lab_marques_2013_closeups = {
     .summary = "close-ups and error images of four sets under two maps at the paper's directions",
     .rows = "scene",
     .columns = columns,
-    .seconds = 200,
-    .quick_seconds = 2,
+    .seconds = 80,
+    .quick_seconds = 1,
     .run = run,
 };

@@ -139,7 +139,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "ratio",
-     .title = "Over spherical Fibonacci points, against directions a pixel",
+     .title = "Over spherical Fibonacci points, against directions per pixel",
      .x = "directions",
      .y = "ratio",
      .low = "low",
@@ -161,7 +161,7 @@ const lab_experiment lab_marques_2013_fig1 = {
     .published = "published",
     .factor = LAB_RATIO_FACTOR,
     .plots = plots,
-    .seconds = 60,
-    .quick_seconds = 0.8,
+    .seconds = 25,
+    .quick_seconds = 0.2,
     .run = run,
 };

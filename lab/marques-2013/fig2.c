@@ -168,7 +168,7 @@ const lab_experiment lab_marques_2013_fig2 = {
     .summary = "512 points of four sets in the square and under two maps, and their nearest distances",
     .columns = columns,
     .plots = plots,
-    .seconds = 1,
+    .seconds = 0.1,
     .quick_seconds = 0.1,
     .run = run,
 };

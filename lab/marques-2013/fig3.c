@@ -159,7 +159,7 @@ const lab_experiment lab_marques_2013_fig3 = {
     .summary = "energy and smallest distance of four sets under two maps against N, with slopes",
     .columns = columns,
     .plots = plots,
-    .seconds = 20,
+    .seconds = 2,
     .quick_seconds = 0.1,
     .run = run,
 };

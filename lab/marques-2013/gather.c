@@ -19,7 +19,7 @@ typedef struct gather_study {
     size_t reference_directions;
     size_t scrambles; /* independent randomisations */
     size_t count_count;
-    size_t counts[4];    /* directions a pixel */
+    size_t counts[4];    /* directions per pixel */
     size_t path_samples; /* a pixel, of the path-traced picture that the bias is measured against */
     size_t set_count;
     const char *sets[SET_CAPACITY];
@@ -171,7 +171,7 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
             return result;
     }
     lab_note(study->run,
-             "bias of finalgather against path (%zu samples a pixel): mean %+.2f %%, RMSE of 8x8 means "
+             "bias of finalgather against path (%zu samples per pixel): mean %+.2f %%, RMSE of 8x8 means "
              "%.2f %% of the mean",
              study->path_samples, 100.0 * (values[GATHERED] / values[TRACED] - 1.0),
              100.0 * values[RMSE] / values[TRACED]);
@@ -203,7 +203,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE of the indirect light against directions a pixel",
+     .title = "RMSE of the indirect light against directions per pixel",
      .x = "directions",
      .y = "rmse",
      .low = "rmse_low",
@@ -222,7 +222,7 @@ const lab_experiment lab_marques_2013_gather = {
                "path tracing",
     .columns = columns,
     .plots = plots,
-    .seconds = 300,
-    .quick_seconds = 2.1,
+    .seconds = 130,
+    .quick_seconds = 1,
     .run = run,
 };

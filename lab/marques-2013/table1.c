@@ -262,7 +262,7 @@ const lab_experiment lab_marques_2013_table1 = {
     .published = "published_ratio",
     .factor = LAB_RATIO_FACTOR,
     .plots = plots,
-    .seconds = 3600,
-    .quick_seconds = 2.4,
+    .seconds = 1700,
+    .quick_seconds = 1,
     .run = run,
 };

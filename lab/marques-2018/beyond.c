@@ -268,7 +268,7 @@ const lab_experiment lab_marques_2018_beyond = {
     .reproduces = "Marques 2018, beyond it",
     .summary = "sum constraint, optimal density, lobes clipped at the horizon, tables: what each is worth",
     .columns = columns,
-    .seconds = 10,
-    .quick_seconds = 1,
+    .seconds = 5,
+    .quick_seconds = 0.4,
     .run = run,
 };

@@ -139,7 +139,7 @@ const lab_experiment lab_marques_2018_gains = {
     .high = "ratio_high",
     .published = "published",
     .factor = LAB_RATIO_FACTOR,
-    .seconds = 4,
-    .quick_seconds = 0.3,
+    .seconds = 6,
+    .quick_seconds = 0.2,
     .run = run,
 };

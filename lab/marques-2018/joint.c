@@ -253,10 +253,10 @@ static aur_result run(lab_run *run, aur_error *error) {
 const lab_experiment lab_marques_2018_joint = {
     .name = "marques-2018-joint",
     .reproduces = "Marques 2018, section 7: points by eq. 15",
-    .summary = "points and weights of a lobe optimised together, beside weights of given points",
+    .summary = "points and weights of a lobe optimised together, compared with weights of given points",
     .columns = columns,
-    .takes_no_set = "its points are moved from their places",
-    .seconds = 20,
+    .takes_no_set = "it moves its points",
+    .seconds = 7,
     .quick_seconds = 1,
     .run = run,
 };

@@ -264,11 +264,11 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_marques_2018_learned = {
     .name = "marques-2018-learned",
-    .reproduces = "Marques 2018, section 7: s and places learned from samples",
+    .reproduces = "Marques 2018, section 7: s and positions learned from samples",
     .summary =
         "the smoothness of each light by its likelihood, and samples placed by the spread of earlier ones",
     .columns = columns,
-    .seconds = 20,
-    .quick_seconds = 0.5,
+    .seconds = 3,
+    .quick_seconds = 0.1,
     .run = run,
 };

@@ -275,7 +275,7 @@ const lab_experiment lab_marques_2018_lobes = {
     .summary =
         "merged weights of two to four lobes, cos^m and GGX, and of levels of one grid, under random lights",
     .columns = columns,
-    .seconds = 10,
-    .quick_seconds = 0.3,
+    .seconds = 9,
+    .quick_seconds = 0.1,
     .run = run,
 };

@@ -199,11 +199,11 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_marques_2018_metal = {
     .name = "marques-2018-metal",
-    .reproduces = "Marques 2018, for GGX lobes, in pictures",
+    .reproduces = "Marques 2018, for GGX lobes, in images",
     .summary = "rough metals gathered with weights p/q and with optimal ones from tables, and against path",
     .columns = columns,
     .takes_no_set = "it compares weights, not sets",
-    .seconds = 300,
-    .quick_seconds = 4,
+    .seconds = 90,
+    .quick_seconds = 0.9,
     .run = run,
 };

@@ -136,7 +136,7 @@ const lab_experiment lab_marques_2018_sensitivity = {
     .summary = "how much the smoothness and the regularisation of weights matter",
     .columns = columns,
     .plots = plots,
-    .seconds = 3,
-    .quick_seconds = 0.2,
+    .seconds = 0.3,
+    .quick_seconds = 0.1,
     .run = run,
 };

@@ -105,11 +105,11 @@ static const report_plot plots[] = {
 
 const lab_experiment lab_marques_2018_slopes = {
     .name = "marques-2018-slopes",
-    .reproduces = "none: worst-case errors; fig. 7 is of pictures",
+    .reproduces = "none: worst-case errors; fig. 7 is of images",
     .summary = "worst-case error against N: random samples gain a rate, nets a constant",
     .columns = columns,
     .seconds = 33,
-    .quick_seconds = 0.5,
+    .quick_seconds = 0.2,
     .plots = plots,
     .run = run,
 };

@@ -1,4 +1,4 @@
-/* Weights in rendered pictures: the glossy Cornell box by final gathering with 40 + 20 directions a pixel, a
+/* Weights in rendered images: the glossy Cornell box by final gathering with 40 + 20 directions a pixel, a
  * figure and a sphere under the sky with 50 + 25 and 64 + 32 (Marques 2018, table 1 and figs 1, 6 and 9).
  *
  * A way to weigh is judged by the RMSE of its pictures against the same estimator with very many directions,
@@ -138,7 +138,7 @@ static aur_result measure(picture_study *study, const char *set, way w, double *
             seconds += study->gather.seconds / (double)study->scrambles;
         }
         char what[240];
-        snprintf(what, sizeof what, "%s, a picture", key);
+        snprintf(what, sizeof what, "%s, an image", key);
         lab_time(study->run, what, seconds);
         if (result == AUR_OK)
             result = lab_keep(study->run, key, study->scrambles + 1, values, error);
@@ -200,14 +200,14 @@ static aur_result run(lab_run *run, aur_error *error) {
 const lab_experiment lab_marques_2018_table1 = {
     .name = "marques-2018-table1",
     .reproduces = "Marques 2018, table 1, figs 1, 6, 9",
-    .summary = "equal weights, MIS, OSW and OSWA in rendered pictures at the paper's counts",
+    .summary = "equal weights, MIS, OSW and OSWA in rendered images at the paper's counts",
     .columns = columns,
     .measured = "over_oswa",
     .low = "set_low",
     .high = "set_high",
     .published = "published",
     .factor = LAB_RATIO_FACTOR,
-    .seconds = 1200,
-    .quick_seconds = 6.7,
+    .seconds = 320,
+    .quick_seconds = 3,
     .run = run,
 };

@@ -92,10 +92,9 @@ static aur_result study_published(adaptive_study *study, const char *criterion, 
     if (result != AUR_OK)
         return result;
     const double places = lobe->published[0] + lobe->published[1] + lobe->published[2];
-    lab_note(study->run,
-             "%s, %s: %.1f directions a gather are published, and threshold %.4g is made to take as many",
-             lobe->name, criterion, published_mean(lobe), way.threshold);
-    add_row(study, &way, "directions a gather", found.mean, NAN);
+    lab_note(study->run, "%s, %s: threshold %.4g is fitted to the published %.1f directions per gather",
+             lobe->name, criterion, way.threshold, published_mean(lobe));
+    add_row(study, &way, "directions per gather", found.mean, NAN);
     for (size_t l = 0; l < 3; ++l)
         add_row(study, &way, what[l], found.shares[l], lobe->published[l] / places);
     add_way(study, &way, table, &found, &ratio);
@@ -201,7 +200,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "ways",
-     .title = "RMSE against directions a gather",
+     .title = "RMSE against directions per gather",
      .table = "ways",
      .x = "directions",
      .y = "rmse",
@@ -226,7 +225,7 @@ const lab_experiment lab_marques_2019_adaptive = {
     .published = "published",
     .factor = LAB_RATIO_FACTOR,
     .plots = plots,
-    .seconds = 250,
-    .quick_seconds = 3,
+    .seconds = 53,
+    .quick_seconds = 1,
     .run = run,
 };

@@ -132,7 +132,7 @@ const lab_experiment lab_marques_2019_discrepancy = {
     .summary = "spherical cap discrepancy of E-SFG, spherical Fibonacci, Sobol and Faure, with slopes",
     .columns = columns,
     .plots = plots,
-    .seconds = 1,
+    .seconds = 0.1,
     .quick_seconds = 0.1,
     .run = run,
 };

@@ -169,7 +169,7 @@ const lab_experiment lab_marques_2019_lattice = {
     .columns = columns,
     .plots = plots,
     .takes_no_set = "the statements are on Fibonacci grids alone",
-    .seconds = 1,
-    .quick_seconds = 0.5,
+    .seconds = 0.7,
+    .quick_seconds = 0.2,
     .run = run,
 };

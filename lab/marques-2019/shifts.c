@@ -130,7 +130,7 @@ const lab_experiment lab_marques_2019_shifts = {
     .columns = columns,
     .plots = plots,
     .takes_no_set = "the table is of keys that other sets do not have",
-    .seconds = 1,
+    .seconds = 0.4,
     .quick_seconds = 0.1,
     .run = run,
 };

@@ -222,7 +222,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE against directions a pixel",
+     .title = "RMSE against directions per pixel",
      .x = "directions",
      .y = "rmse",
      .low = "rmse_low",
@@ -255,7 +255,7 @@ const lab_experiment lab_marques_2019_statue = {
     .published = "published",
     .factor = LAB_RATIO_FACTOR,
     .plots = plots,
-    .seconds = 60,
-    .quick_seconds = 2,
+    .seconds = 26,
+    .quick_seconds = 0.8,
     .run = run,
 };

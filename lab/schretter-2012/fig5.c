@@ -81,7 +81,7 @@ static aur_result compare(const aur_image *reference, const aur_image *image, do
 /* The view of pictures of as many samples, with the reference. */
 static void name_view(const occlusion_form *form, char view[64]) {
     snprintf(view, 64, "%zu samples, randomised for each %s", form->samples,
-             form->each_pixel ? "pixel" : "picture");
+             form->each_pixel ? "pixel" : "image");
 }
 
 static aur_result draw(const occlusion_study *study, const occlusion_form *form, aur_error *error) {
@@ -139,7 +139,7 @@ static aur_result add_row(occlusion_study *study, const occlusion_form *form, co
     lab_run *const run = study->run;
     lab_text(run, form->set->name);
     lab_number(run, (double)form->samples);
-    lab_text(run, form->each_pixel ? "pixel" : "picture");
+    lab_text(run, form->each_pixel ? "pixel" : "image");
     lab_number(run, sqrt(*mse));
     lab_number(run, sqrt(fmax(0.0, *mse - half)));
     lab_number(run, sqrt(*mse + half));
@@ -188,7 +188,7 @@ static aur_result study_all(occlusion_study *study, aur_error *error) {
             }
             if (result == AUR_OK)
                 lab_note(study->run, "%zu samples, randomised for each %s: least RMSE by %s", counts[n],
-                         each == 1 ? "pixel" : "picture", winner);
+                         each == 1 ? "pixel" : "image", winner);
         }
     aur_image_destroy(study->reference);
     return result;
@@ -229,7 +229,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 static const report_plot plots[] = {
     {.name = "rmse",
-     .title = "RMSE of ambient occlusion against directions a pixel",
+     .title = "RMSE of ambient occlusion against directions per pixel",
      .x = "samples",
      .y = "rmse",
      .low = "rmse_low",
@@ -247,7 +247,7 @@ const lab_experiment lab_schretter_2012_fig5 = {
     .summary = "ambient occlusion by random, Hammersley, blue noise, golden and spherical Fibonacci sets",
     .columns = columns,
     .plots = plots,
-    .seconds = 190,
-    .quick_seconds = 1.5,
+    .seconds = 85,
+    .quick_seconds = 0.7,
     .run = run,
 };

@@ -169,7 +169,7 @@ const lab_experiment lab_schretter_2012_gaps = {
     .columns = columns,
     .plots = plots,
     .takes_no_set = "the two sequences are of one dimension, which few sets have",
-    .seconds = 0.6,
-    .quick_seconds = 0.3,
+    .seconds = 0.3,
+    .quick_seconds = 0.2,
     .run = run,
 };

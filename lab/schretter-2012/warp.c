@@ -194,7 +194,7 @@ const lab_experiment lab_schretter_2012_warp = {
     .summary = "points that follow a ramp and two Gaussians, and how well they do",
     .columns = columns,
     .plots = plots,
-    .seconds = 0.6,
-    .quick_seconds = 0.5,
+    .seconds = 0.2,
+    .quick_seconds = 0.1,
     .run = run,
 };

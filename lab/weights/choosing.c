@@ -177,7 +177,7 @@ const lab_experiment lab_weights_choosing = {
     .summary =
         "equal, optimal, Voronoi and exact weights for smooth, clipped, discontinuous and spiky integrands",
     .columns = columns,
-    .seconds = 10,
+    .seconds = 5,
     .quick_seconds = 0.1,
     .plots = plots,
     .run = run,

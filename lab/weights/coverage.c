@@ -101,8 +101,8 @@ const lab_experiment lab_integrate_coverage = {
         "how often intervals of integrals to a tolerance hold, and how often a wrong one has no warning",
     .rows = "function",
     .columns = columns,
-    .takes_no_set = "it judges aur_integrate, which has its own points",
+    .takes_no_set = "it judges aur_integrate, which chooses its points",
     .seconds = 1300,
-    .quick_seconds = 13,
+    .quick_seconds = 10,
     .run = run,
 };

@@ -56,7 +56,7 @@ static int refuse_command(const char *name) {
 static int finish(int status) {
     cli_progress_clear();
     if (fflush(stdout) != 0 || ferror(stdout)) {
-        if (status == CLI_SUCCESS)
+        if (status != CLI_FAILURE) /* which has its message */
             fprintf(stderr, "aureole: cannot write standard output\n");
         return CLI_FAILURE;
     }

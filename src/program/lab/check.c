@@ -25,7 +25,7 @@ static void differ(comparing *c, double by, const char *what, const char *before
     if (c->found->where[0] != '\0' && !(by > c->found->largest))
         return;
     c->found->largest = by;
-    snprintf(c->found->where, sizeof c->found->where, "%.80s: %.60s: '%.40s' was kept, '%.40s' now", c->file,
+    snprintf(c->found->where, sizeof c->found->where, "%.80s: %.60s: '%.40s' stored, '%.40s' now", c->file,
              what, before, now);
 }
 

@@ -84,7 +84,7 @@ static void end_row(lab_run *run) {
     if (now - run->saved < SAVE_EVERY || aur_ranks_count() > 1) /* ranks write at the same time */
         return;
     run->saved = now;
-    lab_run_save(run, table, NULL, "unfinished: the same command goes on", false, NULL);
+    lab_run_save(run, table, NULL, "unfinished: the same command continues", false, NULL);
 }
 
 static void cell_done(lab_run *run) {

@@ -98,7 +98,7 @@ static void put_verdicts(const publication *p, const publication_tally *sum) {
         fprintf(p->page, "Of %zu published values %zu agree, %zu more are within the factor, %zu differ. ",
                 published, v[LAB_AGREES], v[LAB_WITHIN], v[LAB_DIFFERS]);
     if (sum->claims > 0)
-        fprintf(p->page, "Of %zu claims in words %zu hold.", sum->claims, sum->hold);
+        fprintf(p->page, "%zu of %zu claims hold.", sum->hold, sum->claims);
     fputs("</p>\n", p->page);
 }
 

@@ -104,7 +104,8 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
         char path[2 * AUR_ERROR_FILE_CAPACITY];
         const char *const file = report_cell(list, row, PLACE);
         if (strchr(file, '/') != NULL)
-            return aur_fail(error, AUR_ERROR_FORMAT, "%s: '%s' is no name of a picture", of->name, file);
+            return aur_fail(error, AUR_ERROR_FORMAT, "%s: '%s' is not the file name of an image", of->name,
+                            file);
         snprintf(path, sizeof path, "%s/%s/%s", p->results, of->name, file);
         result = read_picture(p, path, &images[count], &reduced, error);
         pictures[count] =
@@ -133,7 +134,7 @@ static aur_result put_pictures(const publication *p, const lab_experiment *of, a
         return AUR_OK;
     aur_result result = report_load(path, &list, NULL, error);
     if (result == AUR_OK && report_columns(list) != 5)
-        result = aur_fail(error, AUR_ERROR_FORMAT, "%s: not a list of pictures of the lab", path);
+        result = aur_fail(error, AUR_ERROR_FORMAT, "%s: not a list of images of the lab", path);
     size_t views = 0, left_out = 0;
     for (size_t row = 0; result == AUR_OK && row < report_rows(list); ++row) {
         const char *const view = report_cell(list, row, 0);

@@ -83,5 +83,5 @@ aur_result report_load(const char *path, report_table **table, char **notes, aur
         *notes = NULL;
     }
     return fail_in(path, number, AUR_ERROR_FORMAT,
-                   "not a row of a table of the lab: as many cells as columns are wanted", error);
+                   "not a row of a table of the lab: expected as many cells as columns", error);
 }

@@ -29,7 +29,7 @@ if [ -z "${AUREOLE_SHORT_TESTS:-}" ]; then
   done
   # What is finished is kept.
   "$aureole" lab run --all --quick -q --format csv --scenes "$source/scenes" -o results >summary.csv || fail "the second run"
-  awk -F, 'NR > 1 && $2 != "kept" { bad = 1 } END { exit bad }' summary.csv || fail "$(cat summary.csv)"
+  awk -F, 'NR > 1 && $2 != "stored" { bad = 1 } END { exit bad }' summary.csv || fail "$(cat summary.csv)"
 fi
 # Nothing is left of how results came about.
 ls results/*/*unfinished* >left.txt 2>/dev/null && fail "left over: $(cat left.txt)"

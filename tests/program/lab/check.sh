@@ -32,6 +32,14 @@ said 0 '^marques-2013-fig1  *identical' marques-2013-fig1
 column=$(head -1 results/domains-grids/domains-grids.csv | tr , '\n' | tail -1)
 change domains-grids "$column" 1.0000000001
 said 1 "^domains-grids  *DIFFERS .*row 1, $column" domains-grids
+# A standard output that takes nothing is an error with a message, whatever the tables say; check.csv has the summary.
+grep -q '^domains-grids,DIFFERS,' checked/check.csv || fail "check.csv: $(cat checked/check.csv)"
+for output in full closed; do
+  check=("$aureole" lab check domains-grids --quick -q --kept kept -o checked)
+  if [ $output = closed ]; then "${check[@]}" 2>said.txt >&-; elif [ -w /dev/full ]; then "${check[@]}" 2>said.txt >/dev/full; else continue; fi
+  [ $? -eq 3 ] || fail "$output standard output: not exit status 3"
+  grep -q 'standard output' said.txt || fail "$output standard output: $(cat said.txt)"
+done
 change marques-2013-fig1 its_own 1.001
 said 0 '^marques-2013-fig1  *within tolerance' marques-2013-fig1
 change marques-2013-fig1 its_own 1.5
@@ -41,11 +49,11 @@ sed '$d' results/domains-grids/domains-grids.csv >kept/domains-grids/quick/domai
 said 1 '^domains-grids  *DIFFERS' domains-grids
 cp results/domains-grids/domains-grids.csv kept/domains-grids/quick
 echo '# one more note' >>kept/domains-grids/quick/domains-grids.csv
-said 1 "note: 'one more note' was kept" domains-grids
+said 1 "note: 'one more note' stored" domains-grids
 cp results/domains-grids/domains-grids.csv kept/domains-grids/quick
 cp results/domains-grids/domains-grids.csv kept/domains-grids/quick/domains-grids-more.csv
-said 1 "domains-grids-more.csv: the table: 'one' was kept, 'none' now" domains-grids
-said 1 '^domains-axes  *not kept' domains-axes
+said 1 "domains-grids-more.csv: the table: 'one' stored, 'none' now" domains-grids
+said 1 '^domains-axes  *not stored' domains-axes
 "$aureole" lab check domains-axes --set sobol -o checked >said.txt 2>&1
 [ $? -eq 2 ] || fail "--set is accepted: $(cat said.txt)"
 

@@ -95,7 +95,7 @@ static int list(report_format format) {
 /* The page of the results in a folder, and its plots for print. */
 static int report(const char *results, const char *folder, bool small) {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", folder, strerror(errno));
+        fprintf(stderr, "aureole: %s: cannot create the folder: %s\n", folder, strerror(errno));
         return CLI_FAILURE;
     }
     char path[AUR_ERROR_FILE_CAPACITY];

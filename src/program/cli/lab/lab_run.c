@@ -3,6 +3,7 @@
 #include <aureole/ranks.h>
 #include <aureole/sphere.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <glob.h>
 #include <math.h>
 #include <stdlib.h>
@@ -115,7 +116,7 @@ static int check_one(schedule *plan, const lab_experiment *experiment, const lab
                             &error);
     const bool missing = result->notes != NULL && strstr(result->notes, "scripts/scenes.sh") != NULL;
     report_text(plan->summary, experiment->name);
-    report_text(plan->summary, status != CLI_SUCCESS    ? "not kept"
+    report_text(plan->summary, status != CLI_SUCCESS    ? "not stored"
                                : found.where[0] == '\0' ? "identical"
                                : found.same             ? "within tolerance"
                                : missing                ? "meshes missing"
@@ -132,7 +133,7 @@ static int run_one(schedule *plan, const lab_experiment *experiment) {
     lab_result result = {0};
     aur_error error = {0};
     if (is_kept(plan, experiment)) {
-        summarize(plan, experiment, &result, "kept");
+        summarize(plan, experiment, &result, "stored");
         return CLI_SUCCESS;
     }
     const aur_result outcome = lab_run_experiment(experiment, &command->lab, &result, &error);
@@ -162,6 +163,15 @@ static int run_all(schedule *plan) {
         worst = status > worst ? status : worst;
     }
     return worst;
+}
+
+/* Hours of work are not lost with a full standard output. */
+static int save_summary(const schedule *plan, int status) {
+    char path[AUR_ERROR_FILE_CAPACITY];
+    aur_error error = {0};
+    snprintf(path, sizeof path, "%s/check.csv", plan->command->lab.folder);
+    const int saved = cli_status(report_save(plan->summary, NULL, path, &error), &error);
+    return saved > status ? saved : status;
 }
 
 /* Whether there is a file of any size of file:NAME-%d.csv; of a folder nothing is said. */
@@ -248,8 +258,12 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
     lab_options *const lab = &command->lab;
     schedule plan = {.command = command};
     int status = choose(&plan, count, names);
+    if (status == CLI_SUCCESS && fcntl(STDOUT_FILENO, F_GETFL) < 0) { /* before hours of work */
+        fputs("aureole: standard output is closed\n", stderr);
+        status = CLI_FAILURE;
+    }
     if (status == CLI_SUCCESS && aur_ranks_rank() == 0 && mkdir(lab->folder, 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab->folder, strerror(errno));
+        fprintf(stderr, "aureole: %s: cannot create the folder: %s\n", lab->folder, strerror(errno));
         status = CLI_FAILURE;
     }
     lab->threads = command->common.threads;
@@ -264,6 +278,8 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
                        : summed       ? report_create(sizeof columns / sizeof columns[0], columns)
                                       : NULL;
         status = run_all(&plan);
+        if (command->check && aur_ranks_rank() == 0)
+            status = save_summary(&plan, status);
         const int printed = summed ? cli_finish(plan.summary, command->common.format) : CLI_SUCCESS;
         status = status == CLI_SUCCESS ? printed : status;
     }

@@ -47,7 +47,7 @@ awk -F, '!/^#/ && NR > 1 { ++rows; if ($10 != 1 || $7 > 15 || $7 < -15) bad = 1 
 # Permuted lights take fewer rays, sharing takes few more, adaptive oversampling fewer for .03; and a mirror changes nothing.
 awk -F, '!/^#/ && NR > 1 { rays[$1 $3] = $5; ++rows }
      END { exit !(rows == 13 && rays["permuted lightspermuted"] < 0.3 * rays["permuted lightsall lights"] &&
-                  rays["neighbour sharingshared"] < 1.5 * rays["neighbour sharingown samples"] &&
+                  rays["neighbour sharingshared"] < 1.5 * rays["neighbour sharingseparate samples"] &&
                   rays["oversamplingadaptive to .03"] < rays["oversamplingadaptive to .01"]) }' \
   "$results/keller-1994-features/keller-1994-features.csv" || fail "Keller, the features"
 awk -F, '/^# claim.*: holds$/ { said = 1 } $1 == "mirror" && $2 == 100000 { found = $3 } END { exit !(said && found > 0 && found < 6e-4) }' \
