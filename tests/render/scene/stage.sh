@@ -105,6 +105,19 @@ cmp back-0,0,0.pfm back-1,1,1.pfm || fail "a background lights the scene"
 # --- the floor of the studio has the colour of its background; what stands on it darkens it
 "$aureole" render one.obj -q --camera 1,30,1,1,0,1,20 --width 32 --height 24 --spp 1024 -o floor.pfm || fail "no studio"
 /usr/bin/python3 look.py corner floor.pfm | awk '!($1 > .615 && $1 < .625) { bad = 1 } END { exit bad }' || fail "the floor is no background: $(/usr/bin/python3 look.py corner floor.pfm | xargs)"
+# The ground takes no samples from lamps of a model: in a box with a lamp one finds the same error with it and without it.
+printf 'newmtl wall\nKd .5 .5 .5\nnewmtl lamp\nKe 100 100 100\n' >box.mtl
+{ echo 'mtllib box.mtl'
+  printf 'v %s\n' '0 0 0' '1 0 0' '1 1 0' '0 1 0' '0 0 1' '1 0 1' '1 1 1' '0 1 1' '.4 .95 .4' '.6 .95 .4' '.6 .95 .6' '.4 .95 .6'
+  printf 'usemtl wall\nf 1 2 3 4\nf 1 2 6 5\nf 1 4 8 5\nf 2 3 7 6\nf 3 4 8 7\nusemtl lamp\nf 9 10 11 12\n'; } >box.obj
+for ground in none shadow; do
+  for samples in 16 1024; do
+    "$aureole" render box.obj -q --environment studio --ground $ground --camera .5,.4,.9,.5,.3,0,60 --width 16 --height 12 --filter box --samples $samples -o box-$samples.pfm || fail "no box"
+  done
+  "$aureole" compare box-1024.pfm box-16.pfm --metric relative-rmse --format csv >error-$ground
+done
+paste -d, <(sed -n 2p error-none) <(sed -n 2p error-shadow) | awk -F, '!($(NF / 2 + 2) < 1.5 * $2) { bad = 1 } END { exit bad || NR != 1 }' ||
+  fail "the ground makes a lamp noisy: $(cat error-none error-shadow)"
 for pair in "studio auto" "studio none" "sky auto" "sky:6 none" "none auto"; do
   read -r environment ground <<<"$pair"
   "$aureole" render one.obj -q --environment $environment --ground $ground --width 48 --height 16 --spp 4 --camera 0,50 --integrator depth -o ground.pfm || fail "no $pair"

@@ -13,6 +13,8 @@
 /* Sides of the sun in an environment "sky": to the left of the camera, degrees, and up. White in that sun is
  * about 1 by these scales. */
 static const double SUN_AZIMUTH = -55.0, SUN_ELEVATION = 38.0, SKY_SCALE = 3.0;
+/* The ground of the sky goes to the horizon. */
+static const double WIDE = 3.0, ENDLESS = 1000.0;
 
 typedef struct stage {
     aur_loader *loader;
@@ -20,6 +22,7 @@ typedef struct stage {
     const aur_model_stage *model;
     aur_nodes nodes;
     aur_stage_axes axes;
+    double ground; /* half a side of the ground by the scene's diagonal; 0: there is none */
 } stage;
 
 bool aur_stage_replaces(const aur_scene_stage *options, const aur_xml_node *node) {
@@ -68,11 +71,20 @@ static void add_to_world(stage *self, aur_xml_node *parent, const double *x, con
 
 /* --- environments */
 
+/* Far lights are chosen by the power that they bring to all of the scene. The ground widens it, but not the
+ * part that shows details: without the weight, lamps of a model would get next to no samples. */
+static void add_weight(stage *self, aur_xml_node *emitter) {
+    const double wider = 2.0 * sqrt(2.0) * self->ground; /* radius with the ground by that without */
+    if (wider > 1.0)
+        aur_node_property(&self->nodes, emitter, "float", "sampling_weight", "%.9g", 1.0 / (wider * wider));
+}
+
 static void add_studio(stage *self) {
     size_t size = 0;
     char *const lights = aur_studio_lights(&size);
     aur_xml_node *const emitter = aur_node_object(&self->nodes, self->nodes.tree->root, "emitter", "envmap");
     add_file(self, emitter, size, lights);
+    add_weight(self, emitter);
     add_to_world(self, emitter, self->axes.right, self->axes.up, self->axes.toward, NULL);
 }
 
@@ -94,6 +106,7 @@ static aur_result add_sky(stage *self, const char *text) {
     aur_node_property(&self->nodes, emitter, "float", "sky_scale", "%.17g", SKY_SCALE);
     aur_node_property(&self->nodes, emitter, "float", "sun_scale", "%.17g", SKY_SCALE);
     aur_node_numbers(&self->nodes, emitter, "vector", "sun_direction", 3, sun);
+    add_weight(self, emitter);
     add_to_world(self, emitter, axes->right, away, axes->up, NULL);
     return self->nodes.result;
 }
@@ -132,7 +145,8 @@ static aur_result add_environment(stage *self, const char *name) {
 
 /* A square in the height of the lowest point, beneath the middle. It fades away at its edges, or goes to the
  * horizon. */
-static void add_ground(stage *self, const double lower[3], const double upper[3], bool endless) {
+static void add_ground(stage *self, const double lower[3], const double upper[3]) {
+    const bool endless = self->ground > WIDE;
     const aur_stage_axes *const axes = &self->axes;
     const size_t up = axes->up[2] > 0.5 ? 2 : 1;
     double place[3], squared = 0.0, right[3], away[3];
@@ -140,7 +154,7 @@ static void add_ground(stage *self, const double lower[3], const double upper[3]
         place[d] = d == up ? lower[d] : 0.5 * lower[d] + 0.5 * upper[d];
         squared += (upper[d] - lower[d]) * (upper[d] - lower[d]);
     }
-    const double half = (endless ? 1000.0 : 3.0) * sqrt(squared);
+    const double half = self->ground * sqrt(squared);
     place[up] -= 1e-4 * sqrt(squared); /* what stands flat on it stays seen */
     for (size_t d = 0; d < 3; ++d) {
         right[d] = half * axes->right[d];
@@ -231,17 +245,18 @@ aur_result aur_stage_set(aur_loader *loader, const aur_scene_options *options) {
     const bool sky = environment != NULL && is_sky(environment);
     const aur_scene_ground ground = self.options->ground;
     self.axes = aur_stage_axes_of(scene, z_up);
-    if (environment != NULL)
-        result = add_environment(&self, environment);
     double lower[3], upper[3];
     const bool there = aur_stage_bounds(scene, lower, upper);
     for (size_t d = 0; d < 3 && there; ++d)
         scene->middle[d] = 0.5 * lower[d] + 0.5 * upper[d];
-    if (result == AUR_OK && there && is_above(scene, lower, self.axes.up) &&
-        (ground == AUR_SCENE_GROUND_SHADOW || (ground == AUR_SCENE_GROUND_AUTO && (studio || sky)))) {
-        add_ground(&self, lower, upper, sky);
-        scene->has_ground = true;
-    }
+    if (there && is_above(scene, lower, self.axes.up) &&
+        (ground == AUR_SCENE_GROUND_SHADOW || (ground == AUR_SCENE_GROUND_AUTO && (studio || sky))))
+        self.ground = sky ? ENDLESS : WIDE;
+    if (environment != NULL)
+        result = add_environment(&self, environment);
+    scene->has_ground = result == AUR_OK && self.ground > 0.0;
+    if (scene->has_ground)
+        add_ground(&self, lower, upper);
     scene->has_background = self.options->has_background || studio;
     for (size_t d = 0; d < 3; ++d)
         scene->background[d] =
