@@ -58,6 +58,8 @@ typedef struct lab_experiment {
 
     const lab_parameter *parameters; /* NULL: none */
     void *user;                      /* of the experiment's own: lab_run_user */
+    const char *takes_no_scene;      /* why --scene is refused where no parameter is named "scene"; NULL: it
+                                        renders none */
 } lab_experiment;
 
 /* A function whose integral over the domain is estimated, as the mean over uniform points: the experiment
@@ -201,8 +203,9 @@ typedef struct lab_stage {
     aur_renderer *renderer; /* NULL: there are no meshes for the scene */
 } lab_stage;
 
-/* A scene that can be rendered. One whose meshes were not made leaves no renderer and a note, and AUR_OK is
- * returned. The stage is to be closed, also after an error. */
+/* A scene that can be rendered: that of the parameter "scene" where the experiment has one and it is given,
+ * without the definitions; published values are then not compared. One whose meshes were not made leaves no
+ * renderer and a note, and AUR_OK is returned. The stage is to be closed, also after an error. */
 AUR_EXPERIMENTAL aur_result lab_stage_open(lab_run *run, const char *path, size_t definition_count,
                                            const aur_definition *definitions, lab_stage *stage,
                                            aur_error *error);

@@ -179,4 +179,5 @@ const lab_experiment lab_analytical_cases = {
     .seconds = 9,
     .quick_seconds = 1,
     .run = run,
+    .takes_no_scene = "its answers are known for given scenes only",
 };

@@ -214,4 +214,5 @@ const lab_experiment lab_aureole_correlated_rotations = {
     .seconds = 9,
     .quick_seconds = 0.3,
     .run = run,
+    .parameters = lab_scene_parameters,
 };

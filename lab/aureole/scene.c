@@ -12,7 +12,7 @@ static const char *const columns[] = {"set", "directions", "rmse", "low", "high"
 
 typedef struct study {
     lab_run *run;
-    aur_renderer *renderer;
+    lab_stage stage;
     size_t width, sizes, repeats;
     aur_image *references[2];
     double random[MOST_SIZES];
@@ -40,7 +40,7 @@ static aur_result render(const study *s, const char *set, size_t count, uint64_t
                          aur_error *error) {
     char integrator[1024];
     name_integrator(s, set, count, integrator);
-    const lab_rendering how = {.renderer = s->renderer,
+    const lab_rendering how = {.renderer = s->stage.renderer,
                                .integrator = integrator,
                                .width = s->width,
                                .height = s->width,
@@ -102,15 +102,6 @@ static aur_result add_set(study *s, const char *set, aur_error *error) {
     return AUR_OK;
 }
 
-static aur_result open_scene(study *s, aur_scene **scene, aur_error *error) {
-    const char *const path = lab_parameter_text(s->run, "scene");
-    const aur_scene_options options = {.size = sizeof options, .warnings = lab_run_options(s->run)->warnings};
-    const aur_result result = path != NULL
-                                  ? aur_scene_load(path, &options, scene, error)
-                                  : lab_load_scene(s->run, "cornell-box/glossy.xml", 0, NULL, scene, error);
-    return result == AUR_OK ? aur_renderer_create(*scene, &s->renderer, error) : result;
-}
-
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
     const double width = lab_parameter_number(run, "width");
@@ -120,16 +111,14 @@ static aur_result run(lab_run *run, aur_error *error) {
                .width = options->quick ? 32 : (size_t)width};
     if (!(width >= 1.0 && width <= 4096.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "width must be 1 to 4096");
-    aur_scene *scene = NULL;
-    aur_result result = open_scene(&s, &scene, error);
+    aur_result result = lab_stage_open(run, "cornell-box/glossy.xml", 0, NULL, &s.stage, error);
     const char *const sets[] = {"random", "sobol", "halton", "r2", "spherical-fibonacci", options->set};
     for (size_t i = 0; i < sizeof sets / sizeof sets[0] && result == AUR_OK; ++i)
         if (sets[i] != NULL)
             result = add_set(&s, sets[i], error);
     aur_image_destroy(s.references[0]);
     aur_image_destroy(s.references[1]);
-    aur_renderer_destroy(s.renderer);
-    aur_scene_destroy(scene);
+    lab_stage_close(&s.stage);
     return result;
 }
 

@@ -224,4 +224,5 @@ const lab_experiment lab_keller_1994_boxes = {
     .seconds = 120,
     .quick_seconds = 0.8,
     .run = run,
+    .takes_no_scene = "its answer is known for closed boxes only",
 };

@@ -226,4 +226,5 @@ const lab_experiment lab_keller_1994_features = {
     .seconds = 9,
     .quick_seconds = 0.8,
     .run = run,
+    .takes_no_scene = "its rows are Keller's scenes",
 };

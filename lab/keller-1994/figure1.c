@@ -129,4 +129,5 @@ const lab_experiment lab_keller_1994_figure1 = {
     .seconds = 16,
     .quick_seconds = 0.2,
     .run = run,
+    .takes_no_scene = "its images are of Keller's scenes",
 };

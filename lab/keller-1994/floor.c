@@ -299,4 +299,5 @@ const lab_experiment lab_keller_1994_floor = {
     .seconds = 42,
     .quick_seconds = 1,
     .run = run,
+    .takes_no_scene = "its causes are of two of Keller's rooms",
 };

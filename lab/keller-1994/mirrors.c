@@ -154,4 +154,5 @@ const lab_experiment lab_keller_1994_mirrors = {
     .seconds = 6,
     .quick_seconds = 0.7,
     .run = run,
+    .takes_no_scene = "its answer is known for one cube only",
 };

@@ -138,4 +138,5 @@ const lab_experiment lab_keller_1994_table1 = {
     .seconds = 190,
     .quick_seconds = 1,
     .run = run_table,
+    .takes_no_scene = "its rows are Keller's scenes",
 };

@@ -220,6 +220,7 @@ const lab_experiment lab_keller_1994_table2 = {
     .seconds = 170,
     .quick_seconds = 1,
     .run = run_plain,
+    .takes_no_scene = "its rows are Keller's scenes",
 };
 
 const lab_experiment lab_keller_1994_table3 = {
@@ -236,4 +237,5 @@ const lab_experiment lab_keller_1994_table3 = {
     .seconds = 180,
     .quick_seconds = 1,
     .run = run_weighted,
+    .takes_no_scene = "its rows are Keller's scenes",
 };

@@ -197,4 +197,5 @@ const lab_experiment lab_factors_coverage = {
     .seconds = 6,
     .quick_seconds = 0.7,
     .run = run,
+    .takes_no_scene = "its answers are known for given scenes only",
 };

@@ -192,4 +192,5 @@ const lab_experiment lab_irradiance_coverage = {
     .seconds = 250,
     .quick_seconds = 13,
     .run = run,
+    .takes_no_scene = "its answers are known for given scenes only",
 };

@@ -163,4 +163,5 @@ const lab_experiment lab_picture_coverage = {
     .seconds = 51,
     .quick_seconds = 2,
     .run = run,
+    .takes_no_scene = "its answers are known for given scenes only",
 };

@@ -269,4 +269,5 @@ const lab_experiment lab_marques_2013_closeups = {
     .seconds = 80,
     .quick_seconds = 1,
     .run = run,
+    .takes_no_scene = "its close-ups are of the paper's scenes",
 };

@@ -164,4 +164,5 @@ const lab_experiment lab_marques_2013_fig1 = {
     .seconds = 25,
     .quick_seconds = 0.2,
     .run = run,
+    .parameters = lab_scene_parameters,
 };

@@ -214,4 +214,5 @@ const lab_experiment lab_marques_2013_fig4 = {
     .seconds = 200,
     .quick_seconds = 0.4,
     .run = run,
+    .takes_no_scene = "it compares the paper's scenes",
 };

@@ -225,4 +225,5 @@ const lab_experiment lab_marques_2013_gather = {
     .seconds = 130,
     .quick_seconds = 1,
     .run = run,
+    .parameters = lab_scene_parameters,
 };

@@ -265,4 +265,5 @@ const lab_experiment lab_marques_2013_table1 = {
     .seconds = 1700,
     .quick_seconds = 1,
     .run = run,
+    .takes_no_scene = "its rows are the paper's scenes",
 };

@@ -181,4 +181,5 @@ const lab_experiment lab_marques_2018_box = {
     .seconds = 130,
     .quick_seconds = 1,
     .run = run,
+    .takes_no_scene = "it varies the materials of one box",
 };

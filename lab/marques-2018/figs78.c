@@ -271,6 +271,7 @@ const lab_experiment lab_marques_2018_fig7 = {
     .seconds = 25,
     .quick_seconds = 0.2,
     .run = run7,
+    .parameters = lab_scene_parameters,
 };
 
 const lab_experiment lab_marques_2018_fig8 = {
@@ -287,4 +288,5 @@ const lab_experiment lab_marques_2018_fig8 = {
     .seconds = 17,
     .quick_seconds = 0.1,
     .run = run8,
+    .parameters = lab_scene_parameters,
 };

@@ -206,4 +206,5 @@ const lab_experiment lab_marques_2018_metal = {
     .seconds = 90,
     .quick_seconds = 0.9,
     .run = run,
+    .takes_no_scene = "its room has metals of three roughnesses",
 };

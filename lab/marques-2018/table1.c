@@ -210,4 +210,5 @@ const lab_experiment lab_marques_2018_table1 = {
     .seconds = 320,
     .quick_seconds = 3,
     .run = run,
+    .takes_no_scene = "its rows are the paper's scenes",
 };

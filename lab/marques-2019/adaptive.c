@@ -228,4 +228,5 @@ const lab_experiment lab_marques_2019_adaptive = {
     .seconds = 53,
     .quick_seconds = 1,
     .run = run,
+    .parameters = lab_scene_parameters,
 };

@@ -258,4 +258,5 @@ const lab_experiment lab_marques_2019_statue = {
     .seconds = 26,
     .quick_seconds = 0.8,
     .run = run,
+    .parameters = lab_scene_parameters,
 };

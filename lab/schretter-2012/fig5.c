@@ -250,4 +250,5 @@ const lab_experiment lab_schretter_2012_fig5 = {
     .seconds = 85,
     .quick_seconds = 0.7,
     .run = run,
+    .takes_no_scene = "its scene is that of the figure",
 };

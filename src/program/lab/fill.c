@@ -68,6 +68,8 @@ static void end_row(lab_run *run) {
         double values[4];
         for (size_t i = 0; i < 4; ++i)
             values[i] = report_value(table, row, report_find(table, names[i]));
+        if (lab_parameter_text(run, "scene") != NULL) /* another one than the published scene */
+            values[3] = NAN;
         const lab_verdict verdict = lab_judge(values[0], values[1], values[2], values[3], of->factor);
         char text[64];
         lab_verdict_text(verdict, of->factor, text);

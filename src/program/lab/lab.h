@@ -11,6 +11,9 @@
 size_t lab_experiment_count(void);
 const lab_experiment *lab_experiment_at(size_t index); /* NULL beyond the table */
 
+/* Of experiments in one scene, which lab_stage_open replaces by that of --scene. */
+extern const lab_parameter lab_scene_parameters[2];
+
 /* How plots and tables of papers look. */
 typedef struct lab_paper_style {
     double width, height; /* of plots, in cm */

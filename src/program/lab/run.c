@@ -54,6 +54,12 @@ static aur_result check_parameters(const lab_run *run, aur_error *error) {
         for (; p != NULL && p->name != NULL && strcmp(p->name, name) != 0; ++p)
             snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s",
                      known[0] != '\0' ? ", " : "", p->name);
+        if ((p == NULL || p->name == NULL) && strcmp(name, "scene") == 0)
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "experiment '%s' takes no scene: %s (aureole-scene takes any)",
+                            run->experiment->name,
+                            run->experiment->takes_no_scene != NULL ? run->experiment->takes_no_scene
+                                                                    : "it renders none");
         if (p == NULL || p->name == NULL)
             return aur_fail(error, AUR_ERROR_NAME, "experiment '%s': unknown parameter '%s': expected %s",
                             run->experiment->name, name, known[0] != '\0' ? known : "no parameters");

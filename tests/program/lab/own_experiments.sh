@@ -49,4 +49,14 @@ awk -F, '$1 == "spherical-fibonacci" && $2 == 256 { good = $3 < 1e-3 } END { exi
 grep '^r2 ' run.txt | sort | uniq -c | awk '$1 != 2 { bad = 1 } END { exit bad || NR != 3 }' || fail "r2 twice: $(grep '^r2 ' run.txt)"
 "$aureole" lab run aureole-scene --scene none.xml -o results >run.txt 2>&1 && fail "no scene"
 "$aureole" lab run marques-2019-shifts --quick --scene none.xml -o results >run.txt 2>&1 && fail "an experiment that takes no scene"
+# The scene of an experiment by its name: the same numbers, of which none is judged by what is published.
+glossy=$source/scenes/cornell-box/glossy.xml
+"$aureole" lab run marques-2013-fig1 --quick -q --scenes "$source/scenes" -o named >run.txt 2>&1 || fail "$(cat run.txt)"
+"$aureole" lab run marques-2013-fig1 --quick -q --scene "$glossy" -o given >run.txt 2>&1 || fail "$(cat run.txt)"
+for folder in named given; do grep -v '^#' $folder/marques-2013-fig1/marques-2013-fig1.csv | cut -d, -f1-8 >$folder.csv; done
+cmp named.csv given.csv || fail "another scene by its name"
+grep -v '^#' given/marques-2013-fig1/marques-2013-fig1.csv | tail -n +2 | grep -qv 'not published$' && fail "verdicts on another scene"
+grep -q '^# scene .*published values are not compared$' given/marques-2013-fig1/marques-2013-fig1.csv || fail "no note of the scene"
+"$aureole" lab run marques-2013-fig4 --quick --scene "$glossy" -o results >run.txt 2>&1 && fail "a scene in place of several"
+grep -q "takes no scene: it compares the paper's scenes" run.txt || fail "$(cat run.txt)"
 exit $status
