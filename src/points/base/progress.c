@@ -19,8 +19,10 @@ int aur_progress_tell(const aur_progress *progress, const char *what, aur_progre
     s->done += more;
     s->share += all > 0.0 ? (1.0 - s->share) * more / all : 0.0;
     const bool known = left < INFINITY;
+    const double most = 1.0 - 1e-9; /* the work is not over */
     return progress->function(progress->user, what,
-                              known ? (uint64_t)((double)whole * fmin(s->share, 1.0)) : 0, known ? whole : 0);
+                              known ? (uint64_t)((double)whole * fmin(s->share, most)) : 0,
+                              known ? whole : 0);
 }
 
 aur_progress aur_progress_within(aur_progress_span *span) {

@@ -191,6 +191,19 @@ int aur_format_list(char *text, size_t capacity, const char *format, va_list arg
     return length;
 }
 
+char *aur_new_text(const char *format, ...) {
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    const int length = aur_format_list(NULL, 0, format, arguments);
+    char *const text = length >= 0 ? malloc((size_t)length + 1) : NULL;
+    if (text != NULL)
+        aur_format_list(text, (size_t)length + 1, format, again);
+    va_end(arguments);
+    va_end(again);
+    return text;
+}
+
 int aur_format(char *text, size_t capacity, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

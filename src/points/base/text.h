@@ -37,6 +37,9 @@ AUR_INTERNAL const char *aur_read_integer(const char *text, uint64_t maximum, ui
  * when a piece is not a number. Infinities are numbers, NaN is not. */
 AUR_INTERNAL size_t aur_parse_doubles(const char *text, double *values, size_t capacity);
 
+/* A new text, as aur_format writes it; NULL: out of memory. */
+AUR_INTERNAL char *aur_new_text(const char *format, ...) AUR_PRINTF(1, 2);
+
 /* vsnprintf whose numbers have a decimal point under every locale. */
 AUR_INTERNAL int aur_format_list(char *text, size_t capacity, const char *format, va_list arguments)
     AUR_PRINTF(3, 0);

@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "points/base/error.h"
+#include "points/base/text.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
+#include "render/image/error_halves.h"
 
 static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
     if (!(target->error >= 0.0 && target->error <= 1.0))
@@ -42,69 +44,34 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
     return AUR_OK;
 }
 
-/* --- progress: one bar over all rounds and replicas, up to the predicted stopping point */
+/* --- progress */
 
-/* Rays, of all integrators that are tried; infinitely many left: nobody knows. */
-typedef struct rays_on_the_way {
-    double done, left;
-} rays_on_the_way;
-
-/* On the way to an error, where `part` of a step is done. */
-static double left_to_error(const aur_candidate *candidate, double part) {
-    const double before = candidate->finished;
-    const double now = before + (candidate->begun ? part * (candidate->samples - before) : 0.0);
-    if (!(before > 0.0 && candidate->whole > 0.0))
-        return INFINITY;
-    /* A round that is planned is rendered to its end. */
-    const double whole = fmax(candidate->whole, candidate->begun ? candidate->samples : 0.0);
-    return aur_candidate_rays(candidate) * fmax(whole / now - 1.0, 0.0);
-}
-
-/* By what the race found; without the maps, which are made first. It may be that the samples tell of more. */
-static double left_by_race(const aur_adaptive *adaptive) {
-    const aur_race *const race = &adaptive->race;
-    const double need = race->entries[adaptive->races ? AUR_RACE_MIDDLE : adaptive->row].need;
-    if (adaptive->races || !(need > 0.0))
-        return need > 0.0 ? need : INFINITY;
-    const double maps = aur_photon_work(adaptive->photons * adaptive->target.replicas);
-    return fmax(need - maps - aur_candidate_rays(&adaptive->candidate), 0.0);
-}
-
-static double left_to_target(const aur_adaptive *adaptive, double part) {
-    const double left = adaptive->races ? INFINITY : left_to_error(&adaptive->candidate, part);
-    if (!adaptive->races && adaptive->row == AUR_RACE_PATH)
-        return left;
-    const double by_race = left_by_race(adaptive);
-    const double samples = left < INFINITY && by_race < INFINITY ? fmax(left, by_race) : fmin(left, by_race);
-    return samples + aur_adaptive_corrections_left(adaptive);
-}
-
-/* What is left by whatever ends the work first. */
-static rays_on_the_way find_rays(const aur_adaptive *adaptive, double done) {
+/* The rays that are left, where these are known to a factor of two: of a budget, and of a round that is
+ * planned to be the last. How many rounds follow others nobody knows, nor what a bias takes that is not yet
+ * bounded; INFINITY then. `part` of a replica's step is done. */
+static double rays_left(const aur_adaptive *adaptive, const aur_spent *spent, double part) {
     const aur_adaptive_options *const target = &adaptive->target;
     const aur_candidate *const candidate = &adaptive->candidate;
-    const double part = ((double)candidate->replica + done) / fmax((double)candidate->replicas.count, 1.0);
-    aur_render_statistics spent;
-    aur_candidate_spent(candidate, &spent);
-    const uint64_t others = adaptive->races ? adaptive->race.spent.rays : adaptive->others.rays;
-    rays_on_the_way rays = {aur_candidate_rays(candidate) + (double)others, INFINITY};
-    if (target->error > 0.0)
-        rays.left = left_to_target(adaptive, part);
-    double share = 0.0;
+    const aur_goal goal = aur_adaptive_goal(adaptive);
+    const double room = aur_adaptive_bias_room(adaptive);
+    const bool bounded =
+        adaptive->corrections.replicas.count == 0 ||
+        (adaptive->corrections.steps > 0 && adaptive->bias[target->measure].high <= room * room);
+    const bool last = (aur_candidate_ends(candidate, &goal) && bounded) ||
+                      (target->rounds > 0 && candidate->rounds + 1 == target->rounds);
+    const double share = ((double)candidate->replica + part) / fmax((double)candidate->replicas.count, 1.0);
+    const bool begun = !adaptive->races && candidate->begun && candidate->rounds > 0;
+    const double more = aur_replicas_rays(&candidate->replicas) - candidate->rays_before;
+    const double rest = begun ? (1.0 - share) * (more + (1.0 - share) * candidate->rays_planned) : 0.0;
+    double left = last && begun ? rest : INFINITY;
     if (target->rays > 0)
-        share = (aur_candidate_rays(candidate) +
-                 (double)(candidate->shared + candidate->alone + aur_adaptive_other_rays(adaptive))) /
-                (double)target->rays;
-    if (target->seconds > 0.0)
-        share = fmax(share, (spent.prepare_seconds + spent.render_seconds + adaptive->others.prepare_seconds +
-                             adaptive->others.render_seconds) /
-                                target->seconds);
-    if (target->rounds > 0)
-        share = fmax(share, ((double)candidate->rounds + part) / (double)target->rounds);
-    if (share > 0.0)
-        rays.left = fmin(rays.left, rays.done * fmax(1.0 / share - 1.0, 0.0));
-    rays.left = fmax(rays.left, 0.01 * rays.done); /* no estimate is surer than that */
-    return rays;
+        left = fmin(left, fmax(rest, (double)target->rays - (double)(spent->budget + adaptive->uses.rays)));
+    if (target->seconds > 0.0) {
+        const double rate =
+            (double)spent->all.rays / fmax(spent->all.prepare_seconds + spent->all.render_seconds, 1e-9);
+        left = fmin(left, fmax(rest, target->seconds * rate - (double)spent->all.rays));
+    }
+    return fmax(left, 0.01 * (double)spent->all.rays); /* no estimate is surer than that */
 }
 
 static int report(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -117,29 +84,25 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     if (prepares && adaptive->share.share == 0.0) /* nothing is known yet */
         return adaptive->progress.function(adaptive->progress.user, what, 0, 0);
     const double part = prepares || total == 0 ? 0.0 : (double)done / (double)total;
-    const rays_on_the_way rays = find_rays(adaptive, part);
+    const aur_spent spent = aur_adaptive_spent(adaptive);
     const bool renders = !adaptive->races && adaptive->candidate.rounds > 0;
     return aur_progress_tell(&adaptive->progress, renders ? "rendering" : "planning", &adaptive->share,
-                             rays.done, rays.left);
+                             (double)spent.all.rays, rays_left(adaptive, &spent, part));
 }
 
 /* --- making */
 
 static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
                                 const aur_render_options *options, aur_error *error) {
-    char *render, target[200];
+    char *render;
     const aur_adaptive_options *const w = &adaptive->target;
     const aur_result result = aur_render_identify(scene, options, &render, error);
     if (result != AUR_OK)
         return result;
-    snprintf(target, sizeof target,
-             "error %.15g %s\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
-             "\nbias %.15g\nconfidence %.15g\nreplicas %zu\n",
-             w->error, aur_error_measure_name(w->measure), w->seconds, w->rays, w->rounds, w->bias,
-             w->confidence, w->replicas);
-    adaptive->identity = malloc(strlen(render) + strlen(target) + 1);
-    if (adaptive->identity != NULL)
-        strcat(strcpy(adaptive->identity, target), render);
+    adaptive->identity = aur_new_text("error %.15g %s\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
+                                      "\nbias %.15g\nconfidence %.15g\nreplicas %zu\n%s",
+                                      w->error, aur_error_measure_name(w->measure), w->seconds, w->rays,
+                                      w->rounds, w->bias, w->confidence, w->replicas, render);
     free(render);
     return adaptive->identity != NULL ? AUR_OK : aur_fail_memory(error);
 }
@@ -171,7 +134,7 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
     adaptive->progress = own.progress;
     own.progress = (aur_progress){report, adaptive};
     own.integrator = adaptive->candidate.integrator;
-    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
+    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX; /* in the identity */
     if (own.sampler == NULL)
         own.sampler = "sobol";
     if (own.shard_count != 0)
@@ -249,18 +212,11 @@ void aur_adaptive_destroy(aur_adaptive *adaptive) {
 
 /* --- rounds */
 
-static void count_spent(const aur_adaptive *adaptive, aur_render_statistics *sum) {
-    aur_candidate_spent(&adaptive->candidate, sum);
-    sum->rays += adaptive->others.rays;
-    sum->prepare_seconds += adaptive->others.prepare_seconds;
-    sum->render_seconds += adaptive->others.render_seconds;
-    sum->cpu_seconds += adaptive->others.cpu_seconds;
-}
-
 /* How far the upper end moves towards the one at which rendering stops, half of the way in squares: where
  * rounds go on until the error looks small, the last one alone sees too little more often than too much. */
 static double bound_part(const aur_adaptive *adaptive) {
-    const double high = adaptive->candidate.interval.high, bound = adaptive->candidate.bound;
+    const double high = adaptive->candidate.intervals[adaptive->target.measure].high;
+    const double bound = adaptive->candidate.bound;
     const bool stops = adaptive->target.error > 0.0 && high > 0.0 && bound < INFINITY;
     return stops && bound > high ? sqrt(0.5 + 0.5 * (bound / high) * (bound / high)) : 1.0;
 }
@@ -279,25 +235,13 @@ static aur_error_interval whole_error(const aur_adaptive *adaptive, size_t measu
 
 static bool is_met(const aur_adaptive *adaptive) {
     const aur_adaptive_options *const target = &adaptive->target;
-    aur_render_statistics spent;
-    count_spent(adaptive, &spent);
+    const aur_candidate *const candidate = &adaptive->candidate;
+    const aur_render_statistics spent = aur_adaptive_spent(adaptive).all;
     const aur_goal goal = aur_adaptive_goal(adaptive);
-    return (target->error > 0.0 && adaptive->candidate.looked_at &&
-            adaptive->candidate.bound <= aur_goal_noise(&goal)) ||
+    return (target->error > 0.0 && candidate->looked_at && candidate->bound <= goal.noise) ||
            (target->seconds > 0.0 && spent.prepare_seconds + spent.render_seconds >= target->seconds) ||
-           (target->rays > 0 && aur_candidate_rays(&adaptive->candidate) >= (double)goal.rays) ||
-           (target->rounds > 0 && adaptive->candidate.rounds >= target->rounds) ||
-           aur_candidate_is_black(&adaptive->candidate);
-}
-
-static double next_factor(const aur_adaptive *adaptive) {
-    const aur_goal goal = aur_adaptive_goal(adaptive);
-    return aur_candidate_factor(&adaptive->candidate, &goal);
-}
-
-static void look_ahead(aur_adaptive *adaptive) {
-    const aur_goal goal = aur_adaptive_goal(adaptive);
-    aur_candidate_look_ahead(&adaptive->candidate, &goal);
+           (target->rays > 0 && aur_replicas_rays(&candidate->replicas) >= (double)goal.rays) ||
+           (target->rounds > 0 && candidate->rounds >= target->rounds) || aur_candidate_is_black(candidate);
 }
 
 /* Rounds until the target of the noise is met, or another candidate has taken this one's place. */
@@ -308,10 +252,10 @@ static aur_result render_rounds(aur_adaptive *adaptive, bool *again, aur_error *
     if (adaptive->unchecked) /* which was interrupted */
         result = aur_adaptive_check_bias(adaptive, false, again, error);
     while (result == AUR_OK && !*again && (candidate->rounds == 0 || candidate->begun || !is_met(adaptive))) {
-        if (!candidate->begun)
-            look_ahead(adaptive);
+        const aur_goal goal = aur_adaptive_goal(adaptive);
         if (!candidate->begun &&
-            !aur_candidate_plan(candidate, candidate->rounds > 0 ? next_factor(adaptive) : 1.0))
+            !aur_candidate_plan(candidate,
+                                candidate->rounds > 0 ? aur_candidate_factor(candidate, &goal) : 1.0))
             break;
         result = aur_candidate_render(candidate, adaptive->target.confidence, &adaptive->cancelled, error);
         if (result == AUR_OK)
@@ -350,15 +294,24 @@ aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_re
                                .replicas = adaptive->candidate.replicas.count,
                                .candidate_rays = aur_adaptive_other_rays(adaptive),
                                .bias_high = sqrt(adaptive->bias[adaptive->target.measure].high)};
-    own.candidate_rays += adaptive->target.rays > 0 ? aur_adaptive_reserve(adaptive)
-                                                    : (uint64_t)aur_corrections_rays(&adaptive->corrections);
-    own.bias_room = adaptive->target.error > 0.0 ? aur_adaptive_goal(adaptive).bias : own.bias_high;
+    own.candidate_rays += adaptive->target.rays > 0
+                              ? aur_adaptive_reserve(adaptive)
+                              : (uint64_t)aur_replicas_rays(&adaptive->corrections.replicas);
+    own.bias_room = adaptive->target.error > 0.0 ? aur_adaptive_bias_room(adaptive) : own.bias_high;
     own.race_count = adaptive->race.order_count > 0 ? AUR_RACE_ROWS : 0;
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
         const aur_error_interval one = whole_error(adaptive, m);
         own.errors[m] = (aur_error_figures){.error = one.estimate, .low = one.low, .high = one.high};
     }
-    count_spent(adaptive, &own.statistics);
+    aur_spent spent = {.budget = 0};
+    aur_candidate_add_spent(&adaptive->candidate, &spent);
+    own.statistics = spent.all; /* of others only rays and times */
+    spent = aur_adaptive_spent(adaptive);
+    own.statistics.rays = spent.all.rays;
+    own.statistics.prepare_seconds = spent.all.prepare_seconds;
+    own.statistics.render_seconds = spent.all.render_seconds;
+    own.statistics.cpu_seconds = spent.all.cpu_seconds;
+    own.statistics.size = sizeof own.statistics;
     return aur_description_write(&own, sizeof own, out, "aur_adaptive_report", error);
 }
 
@@ -369,7 +322,7 @@ aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index
     const aur_race_entry *const entry = &adaptive->race.entries[index];
     aur_adaptive_candidate own = {.name = aur_race_name(index),
                                   .taken = index == adaptive->row,
-                                  .pixels = entry->blocks * AUR_RACE_BLOCK * AUR_RACE_BLOCK,
+                                  .pixels = entry->blocks * AUR_BLOCK_PIXELS,
                                   .rays = entry->rays,
                                   .need = entry->need,
                                   .reason = entry->reason};
@@ -386,7 +339,30 @@ const char *aur_adaptive_integrator(const aur_adaptive *adaptive) {
 
 aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                 aur_error *error) {
-    return aur_replicas_develop(&adaptive->candidate.replicas, errors, image, error);
+    return aur_replicas_develop(&adaptive->candidate.replicas, 0, 1, errors, image, error);
+}
+
+aur_result aur_adaptive_develop_half(const aur_adaptive *adaptive, size_t half, aur_image **image,
+                                     aur_error *error) {
+    return half < 2
+               ? aur_replicas_develop(&adaptive->candidate.replicas, half, 2, true, image, error)
+               : aur_fail(error, AUR_ERROR_ARGUMENT, "there is no half %zu: 0 and 1 are the halves", half);
+}
+
+aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive, const aur_image *const made[2],
+                                       aur_error_figures *figures, aur_error *error) {
+    aur_image *halves[2] = {NULL, NULL};
+    aur_result result = aur_adaptive_develop_half(adaptive, 0, &halves[0], error);
+    if (result == AUR_OK)
+        result = aur_adaptive_develop_half(adaptive, 1, &halves[1], error);
+    aur_error_interval interval = {.estimate = 0.0};
+    if (result == AUR_OK)
+        result = aur_error_of_halves((const aur_image *const *)halves, made, adaptive->target.measure,
+                                     adaptive->target.confidence, &interval, error);
+    *figures = (aur_error_figures){interval.estimate, interval.low, interval.high};
+    aur_image_destroy(halves[0]);
+    aur_image_destroy(halves[1]);
+    return result;
 }
 
 aur_result aur_adaptive_options_init(aur_adaptive_options *options, aur_error *error) {

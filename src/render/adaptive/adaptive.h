@@ -18,7 +18,7 @@ struct aur_adaptive {
     aur_progress_share share;
     char *identity;          /* where the image is resumable; else NULL */
     aur_candidate candidate; /* what the image is made of */
-    aur_spent others;        /* what the race, rejected candidates and corrections cost */
+    aur_spent others;        /* what the race, rejected candidates and their corrections cost */
     aur_cache_uses uses;     /* of all of them */
     atomic_bool cancelled;
     bool open;  /* the integrator is still to be chosen */
@@ -38,22 +38,25 @@ struct aur_adaptive {
 aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted, char **integrator,
                                       bool *open, aur_error *error);
 
+/* What the bias of a candidate may be, in the units of the target error. */
+double aur_adaptive_bias_room(const aur_adaptive *adaptive);
 /* The target of the rounds. What is spent otherwise and counts is taken from the rays. */
 aur_goal aur_adaptive_goal(const aur_adaptive *adaptive);
-/* Rays that count besides the candidate's samples. */
+/* Rays that count besides those of the candidate and its corrections. */
 uint64_t aur_adaptive_other_rays(const aur_adaptive *adaptive);
 /* Rays that are kept for corrections of a candidate with bias, where the target is a number of rays. */
 uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive);
+/* All that was rendered. */
+aur_spent aur_adaptive_spent(const aur_adaptive *adaptive);
 
-/* The candidate of a row, from nothing, with its corrections. Errors: those of aur_render_create. */
-aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons, aur_error *error);
-/* A candidate by `integrator`, a new text, in place of the one there is. */
+/* A candidate by `integrator`, a new text, in place of the one there is, with corrections by a row of the
+ * table that has a bias. Errors: those of aur_render_create. */
 aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_error *error);
+/* The candidate of a row, from nothing. Errors: those of aur_render_create. */
+aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons, aur_error *error);
 /* Runs the race and takes the winner. Errors: CANCELLED, after which it begins again; MEMORY and others. */
 aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
 
-/* Rays of corrections that are expected to be needed still, to bound the bias. */
-double aur_adaptive_corrections_left(const aur_adaptive *adaptive);
 /* Computes `bias` from the corrections. */
 void aur_adaptive_bound_bias(aur_adaptive *adaptive);
 /* To be called after each round; `last`: the noise has come to its target. Renders corrections, bounds the

@@ -1,27 +1,37 @@
 /* An image to a target in a file: the state that the next round depends on, and the replicas' films. */
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "points/base/error.h"
-#include "points/base/words.h"
 #include "render/adaptive/adaptive.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-/* Numbers of eight bytes each, which are saved and loaded as they are. */
-typedef struct field {
-    size_t offset, bytes;
-} field;
+/* Words that are written, or read; `word` NULL: only counted. */
+typedef struct transfer {
+    bool reads;
+    uint64_t *word;
+    size_t count;
+} transfer;
+
+static void transfer_bytes(transfer *to, void *data, size_t bytes) {
+    const size_t words = (bytes + sizeof(uint64_t) - 1) / sizeof(uint64_t);
+    if (to->word != NULL && to->reads)
+        memcpy(data, to->word + to->count, bytes);
+    else if (to->word != NULL)
+        memcpy(to->word + to->count, data, bytes);
+    to->count += words;
+}
 
 #define FIELD(name)                                                                                          \
     { offsetof(aur_adaptive, name), sizeof(((aur_adaptive *)NULL)->name) }
 
-static const field fields[] = {
+static const struct field {
+    size_t offset, bytes;
+} fields[] = {
     FIELD(place),
-    FIELD(others.rays),
-    FIELD(others.prepare_seconds),
-    FIELD(others.render_seconds),
-    FIELD(others.cpu_seconds),
+    FIELD(others.all),
     FIELD(race.order_count),
     FIELD(race.order),
     FIELD(race.entries[AUR_RACE_PATH].need),
@@ -31,22 +41,33 @@ static const field fields[] = {
     FIELD(race.entries[AUR_RACE_LONG].need),
     FIELD(candidate.rate),
     FIELD(candidate.finished),
+    FIELD(candidate.rays_before),
+    FIELD(candidate.rays_planned),
     FIELD(candidate.measure.mean),
     FIELD(candidate.bound),
     FIELD(candidate.intervals),
     FIELD(candidate.rounds),
 };
-enum { FIELD_COUNT = sizeof fields / sizeof fields[0] };
 
 /* Words before them. */
 enum { ROW, PHOTONS, STEPS, FLAGS, BUDGET, TRACED, FIRST_FIELD };
 
+/* From a file into `adaptive`, or of it, which does not change then. */
+static void transfer_state(transfer *to, aur_adaptive *adaptive) {
+    aur_candidate *const candidate = &adaptive->candidate;
+    to->count = FIRST_FIELD;
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i)
+        transfer_bytes(to, (char *)adaptive + fields[i].offset, fields[i].bytes);
+    transfer_bytes(to, candidate->targets, candidate->value_count * sizeof *candidate->targets);
+    transfer_bytes(to, candidate->earlier, candidate->value_count * sizeof *candidate->earlier);
+    transfer_bytes(to, candidate->variances, candidate->value_count * sizeof *candidate->variances);
+    transfer_bytes(to, candidate->pixels, candidate->replicas.pixel_count * sizeof *candidate->pixels);
+}
+
 static size_t word_count(const aur_adaptive *adaptive) {
-    size_t count = FIRST_FIELD;
-    for (size_t i = 0; i < FIELD_COUNT; ++i)
-        count += fields[i].bytes / sizeof(uint64_t);
-    return count + 3 * adaptive->candidate.value_count + 2 * adaptive->candidate.replicas.pixel_count +
-           adaptive->candidate.replicas.count * AUR_SPENT_WORDS;
+    transfer counted = {.word = NULL};
+    transfer_state(&counted, (aur_adaptive *)adaptive);
+    return counted.count + adaptive->candidate.replicas.count * AUR_SPENT_WORDS;
 }
 
 aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur_error *error) {
@@ -57,34 +78,25 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
     if (adaptive->open) /* races are short, and begin again */
         return AUR_OK;
     const size_t count = word_count(adaptive);
-    uint64_t *const words = malloc(count * sizeof *words), *word = words + FIRST_FIELD;
-    if (words == NULL)
+    transfer to = {.word = calloc(count, sizeof *to.word)};
+    if (to.word == NULL)
         return aur_fail_memory(error);
-    words[ROW] = adaptive->path != NULL ? adaptive->row : AUR_RACE_PATH;
-    words[PHOTONS] = adaptive->photons;
-    words[STEPS] = adaptive->corrections.steps;
-    words[FLAGS] =
+    to.word[ROW] = adaptive->path != NULL ? adaptive->row : AUR_RACE_PATH;
+    to.word[PHOTONS] = adaptive->photons;
+    to.word[STEPS] = adaptive->corrections.steps;
+    to.word[FLAGS] =
         (uint64_t)candidate->begun + 2 * (uint64_t)candidate->looked_at + 4 * (uint64_t)adaptive->unchecked;
-    words[BUDGET] = aur_adaptive_other_rays(adaptive);
-    words[TRACED] = candidate->traced;
-    for (size_t i = 0; i < FIELD_COUNT; word += fields[i++].bytes / sizeof *word)
-        memcpy(word, (const char *)adaptive + fields[i].offset, fields[i].bytes);
-    for (size_t i = 0; i < candidate->value_count; ++i) {
-        *word++ = candidate->targets[i];
-        *word++ = candidate->earlier[i];
-        *word++ = aur_word_of_double(candidate->variances[i]);
-    }
-    const size_t spreads = candidate->replicas.pixel_count * sizeof *candidate->pixels;
-    memcpy(word, candidate->pixels, spreads);
-    word += spreads / sizeof *word;
+    to.word[BUDGET] = aur_adaptive_other_rays(adaptive);
+    to.word[TRACED] = candidate->traced;
+    transfer_state(&to, (aur_adaptive *)adaptive);
     const aur_film *films[AUR_REPLICAS_MAX];
-    for (size_t r = 0; r < candidate->replicas.count; ++r, word += AUR_SPENT_WORDS) {
+    for (size_t r = 0; r < candidate->replicas.count; ++r) {
         films[r] = aur_render_film(candidate->replicas.renders[r]);
-        aur_render_put_spent(candidate->replicas.renders[r], word);
+        aur_render_put_spent(candidate->replicas.renders[r], to.word + to.count + r * AUR_SPENT_WORDS);
     }
-    const aur_result result =
-        aur_checkpoint_save(path, adaptive->identity, count, words, candidate->replicas.count, films, error);
-    free(words);
+    const aur_result result = aur_checkpoint_save(path, adaptive->identity, count, to.word,
+                                                  candidate->replicas.count, films, error);
+    free(to.word);
     return result;
 }
 
@@ -95,47 +107,30 @@ static bool is_damaged(const aur_adaptive *adaptive) {
     return damaged;
 }
 
-static aur_result take_candidate(aur_candidate *candidate, const uint64_t *word, const char *path,
-                                 const aur_checkpoint *saved, aur_error *error) {
-    for (size_t i = 0; i < candidate->value_count; ++i) {
-        candidate->targets[i] = (uint32_t)*word++;
-        candidate->earlier[i] = (uint32_t)*word++;
-        candidate->variances[i] = aur_double_of_word(*word++);
-    }
-    const size_t spreads = candidate->replicas.pixel_count * sizeof *candidate->pixels;
-    memcpy(candidate->pixels, word, spreads);
-    word += spreads / sizeof *word;
-    aur_result result = AUR_OK;
-    for (size_t r = 0; r < candidate->replicas.count && result == AUR_OK; ++r, word += AUR_SPENT_WORDS) {
-        aur_render *const render = candidate->replicas.renders[r];
-        aur_render_take_spent(render, word);
-        result = aur_fail_in(error, aur_render_merge(render, saved->films[r], error), path);
-    }
-    return result;
-}
-
 static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_checkpoint *saved,
                             aur_error *error) {
-    const uint64_t *const words = saved->words, *word = words + FIRST_FIELD;
+    const uint64_t *const words = saved->words;
     aur_candidate *const candidate = &adaptive->candidate;
     aur_result result = AUR_OK;
     if (adaptive->path != NULL && words[ROW] < AUR_RACE_ROWS && words[ROW] != AUR_RACE_PATH)
         result = aur_adaptive_take(adaptive, words[ROW], words[PHOTONS], error);
     if (result != AUR_OK)
         return result;
-    for (size_t i = 0; i < FIELD_COUNT; word += fields[i++].bytes / sizeof *word)
-        memcpy((char *)adaptive + fields[i].offset, word, fields[i].bytes);
+    transfer from = {.reads = true, .word = saved->words};
+    transfer_state(&from, adaptive);
     if (words[ROW] >= AUR_RACE_ROWS || is_damaged(adaptive))
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "a damaged checkpoint");
     adaptive->open = false;
-    candidate->samples = candidate->before = candidate->finished;
-    candidate->interval = candidate->intervals[adaptive->target.measure];
     candidate->begun = (words[FLAGS] & 1) != 0;
     candidate->looked_at = (words[FLAGS] & 2) != 0;
     adaptive->unchecked = (words[FLAGS] & 4) != 0;
     adaptive->others.budget = words[BUDGET] - (adaptive->uses.rays - candidate->shared);
     candidate->traced += words[TRACED];
-    result = take_candidate(candidate, word, path, saved, error);
+    for (size_t r = 0; r < candidate->replicas.count && result == AUR_OK; ++r) {
+        aur_render_take_spent(candidate->replicas.renders[r], words + from.count + r * AUR_SPENT_WORDS);
+        result = aur_fail_in(error, aur_render_merge(candidate->replicas.renders[r], saved->films[r], error),
+                             path);
+    }
     if (result == AUR_OK && words[STEPS] > 0 && adaptive->row != AUR_RACE_PATH) {
         aur_candidate_look(candidate);
         result = aur_corrections_repeat(&adaptive->corrections, words[STEPS], &adaptive->cancelled, error);

@@ -5,17 +5,16 @@
 #include <stdlib.h>
 
 #include "points/base/error.h"
-#include "render/adaptive/race.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
+#include "render/film/integrator.h"
 
-enum { PIXELS = AUR_RACE_BLOCK * AUR_RACE_BLOCK, FIRST_BLOCKS = 54 };
+enum { FIRST_BLOCKS = 54 };
 
-/* Sums over blocks. */
+/* Over blocks. */
 typedef struct bias_sums {
-    double products, squares;          /* of a block's mean product, and its square */
-    double replicas[AUR_REPLICAS_MAX]; /* of products of each replica with the others */
-    size_t blocks;
+    aur_moments products;              /* of a block's mean product */
+    double replicas[AUR_REPLICAS_MAX]; /* sums of products of each replica with the others */
 } bias_sums;
 
 /* The mean over a block's pixels of the differences in each replica: d[replica][channel]. Differences are
@@ -51,9 +50,7 @@ static void add_block(size_t count, double d[AUR_REPLICAS_MAX][3], bias_sums *su
         sums->replicas[r] += product;
         products += product / (double)count;
     }
-    sums->products += products;
-    sums->squares += products * products;
-    ++sums->blocks;
+    aur_moments_add(&sums->products, products);
 }
 
 static bool has_samples(const aur_replicas *replicas, size_t count, const size_t *pixels) {
@@ -65,21 +62,17 @@ static bool has_samples(const aur_replicas *replicas, size_t count, const size_t
 }
 
 static aur_bias finish(const bias_sums *sums, size_t replica_count, size_t all, double confidence) {
-    const double blocks = (double)sums->blocks, count = (double)replica_count;
-    const double probability = 0.5 * (1.0 + confidence), mean = sums->products / blocks;
-    double spread = 0.0;
+    const double blocks = (double)sums->products.count, count = (double)replica_count;
+    aur_moments replicas = {0};
     for (size_t r = 0; r < replica_count; ++r)
-        spread += pow(sums->replicas[r] / blocks - mean, 2.0);
+        aur_moments_add(&replicas, sums->replicas[r] / blocks);
+    const double left_out = fmax(1.0 - blocks / (double)all, 0.0); /* of the image's blocks */
     /* Leaving out replica r changes the mean to (count mean - 2 T_r) / (count - 2), of its products T_r. */
     const double change = 2.0 / (count - 2.0);
-    const double jackknife = (count - 1.0) / count * change * change * spread;
-    const double left_out = fmax(1.0 - blocks / (double)all, 0.0); /* of the image's blocks */
-    const double of_blocks =
-        sums->blocks > 1 ? fmax(sums->squares / blocks - mean * mean, 0.0) / (blocks - 1.0) * left_out : 0.0;
-    aur_bias bias = {.estimate = mean / 3.0};
-    bias.of_replicas = aur_student_quantile(replica_count - 1, probability) * sqrt(jackknife) / 3.0;
-    if (sums->blocks > 1)
-        bias.of_blocks = aur_student_quantile(sums->blocks - 1, probability) * sqrt(of_blocks) / 3.0;
+    aur_bias bias = {.estimate = sums->products.mean / 3.0,
+                     .of_replicas =
+                         (count - 1.0) * change * aur_moments_interval(&replicas, confidence) / 3.0,
+                     .of_blocks = sqrt(left_out) * aur_moments_interval(&sums->products, confidence) / 3.0};
     const double half = fmax(bias.of_replicas, bias.of_blocks);
     bias.low = fmax(bias.estimate - half, 0.0);
     bias.high = fmax(bias.estimate, 0.0) + half;
@@ -89,20 +82,21 @@ static aur_bias finish(const bias_sums *sums, size_t replica_count, size_t all, 
 aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weighing weighing,
                            const double (*values)[3], double confidence) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
-    const size_t all =
-        (width + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK * ((height + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK);
-    bias_sums sums = {.blocks = 0};
-    for (size_t block = 0; block < all && layout->channel_count >= first + 3; ++block) {
-        size_t pixels[PIXELS];
+    const size_t side = AUR_BLOCK_SIDE, width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
+    const aur_blocks blocks = {width, height, ((width + side - 1) / side) * ((height + side - 1) / side),
+                               NULL};
+    bias_sums sums = {.products = {0}};
+    for (size_t block = 0; block < blocks.count && layout->channel_count >= first + 3; ++block) {
+        size_t pixels[AUR_BLOCK_PIXELS];
         double d[AUR_REPLICAS_MAX][3];
-        const size_t count = aur_race_pixels(width, height, block, pixels);
+        const size_t count = aur_blocks_pixels(&blocks, block, pixels);
         if (!has_samples(replicas, count, pixels))
             continue;
         differences_of(replicas, first, weighing, values, count, pixels, d);
         add_block(replicas->count, d, &sums);
     }
-    return sums.blocks > 0 ? finish(&sums, replicas->count, all, confidence) : (aur_bias){.estimate = 0.0};
+    return sums.products.count > 0 ? finish(&sums, replicas->count, blocks.count, confidence)
+                                   : (aur_bias){.estimate = 0.0};
 }
 
 aur_bias aur_bias_of_both(aur_bias a, aur_bias b) {
@@ -119,52 +113,44 @@ aur_result aur_corrections_create(aur_renderer *renderer, const aur_render_optio
                                   const char *integrator, size_t replica_count, aur_corrections *corrections,
                                   aur_error *error) {
     aur_render_options own = *options;
-    own.integrator = integrator;
-    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     own.warnings = (aur_warnings){0};
-    aur_result result = aur_replicas_create(renderer, &own, replica_count, &corrections->replicas, error);
+    aur_result result =
+        aur_replicas_create(renderer, &own, integrator, replica_count, &corrections->replicas, error);
     if (result != AUR_OK)
         return result;
     const aur_film_layout *const layout = &aur_render_film(corrections->replicas.renders[0])->layout;
-    corrections->width = layout->x1 - layout->x0;
-    corrections->height = layout->y1 - layout->y0;
-    corrections->all = corrections->replicas.pixel_count;
-    corrections->all =
-        aur_race_blocks(corrections->width, corrections->height, corrections->all, &corrections->order);
-    corrections->targets = calloc(corrections->replicas.pixel_count, sizeof *corrections->targets);
     const uint32_t pattern = aur_render_integrator(corrections->replicas.renders[0])->samples_a_pattern;
-    corrections->pattern = pattern > 0 ? pattern : 1;
-    return corrections->all > 0 && corrections->targets != NULL ? AUR_OK : aur_fail_memory(error);
+    corrections->samples = pattern > 0 ? pattern : 1;
+    corrections->targets = calloc(corrections->replicas.pixel_count, sizeof *corrections->targets);
+    result = aur_blocks_create(layout->x1 - layout->x0, layout->y1 - layout->y0, &corrections->blocks, error);
+    return corrections->targets == NULL ? aur_fail_memory(error) : result;
 }
 
 void aur_corrections_release(aur_corrections *corrections) {
     aur_replicas_release(&corrections->replicas);
-    free(corrections->order);
+    aur_blocks_release(&corrections->blocks);
     free(corrections->targets);
-    *corrections = (aur_corrections){.blocks = 0};
+    *corrections = (aur_corrections){.steps = 0};
 }
 
 aur_result aur_corrections_grow(aur_corrections *corrections, bool more_samples, const atomic_bool *cancelled,
                                 aur_error *error) {
     const bool first = corrections->steps == 0;
-    size_t blocks = first ? FIRST_BLOCKS : corrections->blocks * (more_samples ? 1 : 2);
-    const uint32_t samples = first ? corrections->pattern : corrections->samples * (more_samples ? 2 : 1);
-    blocks = blocks < corrections->all ? blocks : corrections->all;
+    const size_t all = corrections->blocks.count;
+    const size_t wanted = first ? FIRST_BLOCKS : corrections->rendered * (more_samples ? 1 : 2);
+    const size_t blocks = wanted < all ? wanted : all;
+    const uint32_t samples = corrections->samples * (!first && more_samples ? 2 : 1);
     for (size_t b = 0; b < blocks; ++b) {
-        size_t pixels[PIXELS];
-        const size_t count =
-            aur_race_pixels(corrections->width, corrections->height, corrections->order[b], pixels);
+        size_t pixels[AUR_BLOCK_PIXELS];
+        const size_t count = aur_blocks_pixels(&corrections->blocks, corrections->blocks.order[b], pixels);
         for (size_t p = 0; p < count; ++p)
             corrections->targets[pixels[p]] = samples;
     }
-    aur_result result = AUR_OK;
-    for (size_t r = 0; r < corrections->replicas.count && result == AUR_OK; ++r)
-        result = atomic_load(cancelled)
-                     ? AUR_ERROR_CANCELLED
-                     : aur_render_step_pixels(corrections->replicas.renders[r],
-                                              corrections->replicas.pixel_count, corrections->targets, error);
+    size_t done;
+    const aur_result result =
+        aur_replicas_step(&corrections->replicas, corrections->targets, 0, &done, cancelled, error);
     if (result == AUR_OK) {
-        corrections->blocks = blocks;
+        corrections->rendered = blocks;
         corrections->samples = samples;
         corrections->steps = first ? 1 : 2 * corrections->steps + more_samples;
     }
@@ -173,18 +159,7 @@ aur_result aur_corrections_grow(aur_corrections *corrections, bool more_samples,
 
 aur_result aur_corrections_repeat(aur_corrections *corrections, uint64_t steps, const atomic_bool *cancelled,
                                   aur_error *error) {
-    int last = 0;
-    while (steps >> last > 1)
-        ++last;
-    aur_result result = AUR_OK;
-    for (int bit = last; bit >= 0 && result == AUR_OK; --bit)
-        result = aur_corrections_grow(corrections, (steps >> bit & 1) != 0, cancelled, error);
-    return result;
-}
-
-double aur_corrections_rays(const aur_corrections *corrections) {
-    uint64_t rays = 0;
-    for (size_t r = 0; r < corrections->replicas.count; ++r)
-        rays += aur_film_counted(aur_render_film(corrections->replicas.renders[r])).rays;
-    return (double)rays;
+    const aur_result result =
+        steps > 1 ? aur_corrections_repeat(corrections, steps >> 1, cancelled, error) : AUR_OK;
+    return result == AUR_OK ? aur_corrections_grow(corrections, (steps & 1) != 0, cancelled, error) : result;
 }

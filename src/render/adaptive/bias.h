@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "render/adaptive/replicas.h"
+#include "render/film/blocks.h"
 
 /* Squares of root mean square errors in the units of a measure. */
 typedef struct aur_bias {
@@ -30,13 +31,11 @@ aur_bias aur_bias_of_both(aur_bias a, aur_bias b);
 /* Images of corrections in some blocks of the image: what paths find over what the map has. */
 typedef struct aur_corrections {
     aur_replicas replicas;
-    size_t width, height, all; /* of the film, and its blocks */
-    size_t *order;             /* [all] */
-    uint32_t *targets;         /* [pixels] */
-    uint32_t pattern;          /* samples of a pattern */
-    size_t blocks;             /* that are rendered */
-    uint32_t samples;          /* of their pixels in each replica */
-    uint64_t steps; /* how they grew: 1, then a bit for each step, 1 for more samples; 0: none yet */
+    aur_blocks blocks;
+    uint32_t *targets; /* [pixels] */
+    uint32_t samples;  /* of a pixel in each replica */
+    size_t rendered;   /* blocks */
+    uint64_t steps;    /* how they grew: 1, then a bit for each step, 1 for more samples; 0: none yet */
 } aur_corrections;
 
 /* To be released in every case; zero: there are none. Errors: those of aur_render_create. */
@@ -50,5 +49,3 @@ aur_result aur_corrections_grow(aur_corrections *corrections, bool more_samples,
 /* The same steps again. */
 aur_result aur_corrections_repeat(aur_corrections *corrections, uint64_t steps, const atomic_bool *cancelled,
                                   aur_error *error);
-/* The rays of its samples. */
-double aur_corrections_rays(const aur_corrections *corrections);

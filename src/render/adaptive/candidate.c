@@ -28,37 +28,12 @@ static aur_result find_lamps(aur_candidate *candidate, const aur_scene *scene, u
     return AUR_OK;
 }
 
-aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
-                                size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
-                                aur_error *error) {
-    aur_render_options own = *options;
-    candidate->error_measure = measure;
-    own.integrator = candidate->integrator;
-    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
-    candidate->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
-    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
-        candidate->intervals[m] = candidate->interval;
-    candidate->bound = INFINITY;
-    candidate->rate = 1.0;
-    aur_cache *const cache = aur_renderer_cache(renderer);
-    aur_cache_uses uses = {.outer = aur_cache_count(cache, NULL)};
-    const uint64_t before = aur_rays_traced;
-    aur_cache_count(cache, &uses);
-    const aur_result result = aur_replicas_create(renderer, &own, replica_count, &candidate->replicas, error);
-    aur_cache_count(cache, uses.outer);
-    candidate->traced = aur_rays_traced - before;
-    candidate->shared = uses.rays;
-    aur_cache_uses_release(&uses);
-    if (result != AUR_OK)
-        return result;
-    const size_t pattern = aur_render_integrator(candidate->replicas.renders[0])->samples_a_pattern;
-    candidate->pattern_samples = pattern > 0 ? pattern : 1;
-    const size_t pixels = candidate->replicas.pixel_count;
-    candidate->value_count = replica_count * pixels;
-    candidate->targets = calloc(candidate->value_count, sizeof *candidate->targets);
-    candidate->earlier = calloc(candidate->value_count, sizeof *candidate->earlier);
-    candidate->variances = calloc(candidate->value_count, sizeof *candidate->variances);
-    candidate->measured = calloc(candidate->value_count, sizeof *candidate->measured);
+static aur_result allocate(aur_candidate *candidate, aur_error *error) {
+    const size_t pixels = candidate->replicas.pixel_count, values = candidate->value_count;
+    candidate->targets = calloc(values, sizeof *candidate->targets);
+    candidate->earlier = calloc(values, sizeof *candidate->earlier);
+    candidate->variances = calloc(values, sizeof *candidate->variances);
+    candidate->measured = calloc(values, sizeof *candidate->measured);
     candidate->pixels = calloc(pixels, sizeof *candidate->pixels);
     candidate->spreads = calloc(pixels, sizeof *candidate->spreads);
     candidate->scratch = calloc(2 * pixels, sizeof *candidate->scratch);
@@ -68,13 +43,38 @@ aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options
                       candidate->earlier != NULL && candidate->variances != NULL &&
                       candidate->measured != NULL && candidate->pixels != NULL &&
                       candidate->spreads != NULL && candidate->scratch != NULL;
-    if (!made)
-        return aur_fail_memory(error);
+    return made ? AUR_OK : aur_fail_memory(error);
+}
+
+aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
+                                size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
+                                aur_error *error) {
+    candidate->error_measure = measure;
+    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
+        candidate->intervals[m] = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
+    candidate->bound = INFINITY;
+    candidate->rate = 1.0;
+    aur_cache *const cache = aur_renderer_cache(renderer);
+    aur_cache_uses uses = {.outer = aur_cache_count(cache, NULL)};
+    const uint64_t before = aur_rays_traced;
+    aur_cache_count(cache, &uses);
+    aur_result result = aur_replicas_create(renderer, options, candidate->integrator, replica_count,
+                                            &candidate->replicas, error);
+    aur_cache_count(cache, uses.outer);
     const uint64_t prepared = aur_rays_traced;
-    const aur_result found = find_lamps(candidate, aur_renderer_scene(renderer), options->seed, error);
+    candidate->shared = uses.rays;
+    aur_cache_uses_release(&uses);
+    if (result == AUR_OK) {
+        const size_t pattern = aur_render_integrator(candidate->replicas.renders[0])->samples_a_pattern;
+        candidate->pattern_samples = pattern > 0 ? pattern : 1;
+        candidate->value_count = replica_count * candidate->replicas.pixel_count;
+        result = allocate(candidate, error);
+    }
+    if (result == AUR_OK)
+        result = find_lamps(candidate, aur_renderer_scene(renderer), options->seed, error);
     candidate->alone = aur_rays_traced - prepared;
-    candidate->traced += candidate->alone;
-    return found;
+    candidate->traced = aur_rays_traced - before;
+    return result;
 }
 
 void aur_candidate_release(aur_candidate *candidate) {
@@ -93,61 +93,27 @@ void aur_candidate_release(aur_candidate *candidate) {
     *candidate = (aur_candidate){0};
 }
 
-void aur_candidate_spent(const aur_candidate *candidate, aur_render_statistics *sum) {
-    *sum = (aur_render_statistics){.size = sizeof *sum,
-                                   .rays = candidate->traced + (uint64_t)aur_candidate_rays(candidate)};
-    for (size_t r = 0; r < candidate->replicas.count; ++r) {
-        aur_render_statistics one = {.size = sizeof one};
-        aur_render_get_statistics(candidate->replicas.renders[r], &one, NULL);
-        sum->samples += one.samples;
-        sum->invalid_samples += one.invalid_samples;
-        sum->cut_paths += one.cut_paths;
-        sum->unsolved_weights += one.unsolved_weights;
-        for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
-            sum->levels[l] += one.levels[l];
-        sum->prepare_seconds += one.prepare_seconds;
-        sum->render_seconds += one.render_seconds;
-        sum->cpu_seconds += one.cpu_seconds;
-    }
-}
-
 void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum) {
-    aur_render_statistics one;
-    aur_candidate_spent(candidate, &one);
-    sum->rays += one.rays;
-    sum->budget += one.rays - candidate->traced + candidate->alone;
-    sum->prepare_seconds += one.prepare_seconds;
-    sum->render_seconds += one.render_seconds;
-    sum->cpu_seconds += one.cpu_seconds;
-}
-
-double aur_candidate_rays(const aur_candidate *candidate) {
-    uint64_t rays = 0;
-    for (size_t r = 0; r < candidate->replicas.count; ++r)
-        rays += aur_film_counted(aur_render_film(candidate->replicas.renders[r])).rays;
-    return (double)rays;
-}
-
-double aur_goal_noise(const aur_goal *goal) {
-    return sqrt(fmax(goal->error * goal->error - goal->bias * goal->bias, 0.0));
+    aur_spent_add(sum, &candidate->replicas, candidate->traced);
+    sum->budget += candidate->alone;
 }
 
 /* The bound for the planning of the next round, whose variances take half the place of those of all before:
  * of what these are above the ones seen now, half is left. */
 static double bound_expected(const aur_candidate *candidate) {
-    const double high = candidate->interval.high, bound = candidate->bound;
+    const double high = candidate->intervals[candidate->error_measure].high, bound = candidate->bound;
     return bound > high && high > 0.0 ? sqrt(0.5 * (high * high + bound * bound)) : bound;
 }
 
 /* Where the error's square falls as samples^-rate. */
-static double factor_to_error(const aur_candidate *candidate, double error, double rate) {
+static double factor_to_error(const aur_candidate *candidate, double error) {
     if (!(candidate->bound < INFINITY))
         return 1.0 / AUR_MOST_GROWTH;
-    const aur_error_interval *const seen = &candidate->interval;
+    const aur_error_interval *const seen = &candidate->intervals[candidate->error_measure];
     const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
     const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
     const double wanted = fmin(margin * error / bound_expected(candidate), 1.0 - least_fall);
-    return pow(wanted * wanted, 1.0 / rate);
+    return pow(wanted * wanted, 1.0 / candidate->rate);
 }
 
 /* In units of the target error, where rounds lead first: variances from few samples are known too badly to
@@ -158,42 +124,20 @@ double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal
     const double growth = 1.5, first = FIRST_ERROR * goal->error;
     double factor = 1.0 / growth;
     if (goal->error > 0.0)
-        factor = factor_to_error(candidate, candidate->bound > first ? first : aur_goal_noise(goal),
-                                 candidate->rate);
+        factor = factor_to_error(candidate, candidate->bound > first ? first : goal->noise);
     if (goal->rays > 0)
-        factor = fmax(factor, fmin(aur_candidate_rays(candidate) / (double)goal->rays, 1.0));
+        factor = fmax(factor, fmin(aur_replicas_rays(&candidate->replicas) / (double)goal->rays, 1.0));
     return factor;
 }
 
-/* The first samples may make the error fall faster than it does later: by the rate of six samples per pixel
- * the statue to 4 % seemed to need a fifth of the samples that it takes. */
-double aur_candidate_growth(const aur_candidate *candidate, double error) {
-    const double most =
-        1.25; /* of path tracing by Sobol' points in the bundled scenes (bench/adaptive_speed.c) */
-    const double factor = factor_to_error(candidate, error, fmin(candidate->rate, most));
-    return aur_growth_to(candidate->value_count, candidate->variances, fmin(factor, 1.0), candidate->targets);
+bool aur_candidate_ends(const aur_candidate *candidate, const aur_goal *goal) {
+    return candidate->looked_at && candidate->bound <= FIRST_ERROR * goal->error;
 }
 
-void aur_candidate_look_ahead(aur_candidate *candidate, const aur_goal *goal) {
-    const double noise = aur_goal_noise(goal);
-    const aur_integrator *const integrator = aur_render_integrator(candidate->replicas.renders[0]);
-    const bool lawful = !integrator->whole_tiles && candidate->pattern_samples == 1;
-    candidate->whole = 0.0;
-    if (candidate->bound < INFINITY && noise > 0.0 && lawful)
-        candidate->whole = candidate->samples * aur_candidate_growth(candidate, noise);
-}
-
-/* What the variances are thought to be with the samples that are planned. */
-static void predict(aur_candidate *candidate) {
-    for (size_t i = 0; i < candidate->value_count; ++i)
-        if (candidate->targets[i] > candidate->earlier[i])
-            candidate->variances[i] *=
-                pow((double)candidate->earlier[i] / (double)candidate->targets[i], candidate->rate);
-}
-
+/* The nearest number of whole patterns to a target; or the next one, where `more` is almost a pattern. */
 static uint32_t whole_patterns(const aur_candidate *candidate, size_t i, size_t more) {
-    const size_t rounded =
-        (candidate->targets[i] + more) / candidate->pattern_samples * candidate->pattern_samples;
+    const size_t pattern = candidate->pattern_samples;
+    const size_t rounded = (candidate->targets[i] + more) / pattern * pattern;
     return (uint32_t)fmin(fmax((double)rounded, candidate->earlier[i]), AUR_SAMPLES_PER_PIXEL_MAX);
 }
 
@@ -214,37 +158,41 @@ bool aur_candidate_is_black(const aur_candidate *candidate) {
     return candidate->rounds > 0 && !(candidate->bound > 0.0) && !(candidate->measure.mean > 0.0);
 }
 
-void aur_candidate_plan_evenly(aur_candidate *candidate, uint32_t samples) {
-    memcpy(candidate->earlier, candidate->targets, candidate->value_count * sizeof *candidate->targets);
-    for (size_t i = 0; i < candidate->value_count; ++i)
-        candidate->targets[i] = samples;
-    predict(candidate);
-    candidate->begun = candidate->looked_at = true;
-}
-
 bool aur_candidate_plan(aur_candidate *candidate, double factor) {
-    if (candidate->rounds == 0) {
-        aur_candidate_plan_evenly(candidate, (uint32_t)candidate->pattern_samples);
-        return true;
-    }
     const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
     memcpy(candidate->earlier, candidate->targets, candidate->value_count * sizeof *candidate->targets);
     candidate->looked_at = rounds == 1.0;
-    candidate->begun =
-        aur_raise_targets(candidate->value_count, candidate->variances, pow(factor, 1.0 / rounds),
-                          AUR_SAMPLES_PER_PIXEL_MAX, candidate->targets);
-    round_to_patterns(candidate);
-    predict(candidate);
+    candidate->begun = candidate->rounds == 0;
+    if (candidate->begun)
+        for (size_t i = 0; i < candidate->value_count; ++i)
+            candidate->targets[i] = (uint32_t)candidate->pattern_samples;
+    else {
+        candidate->begun =
+            aur_raise_targets(candidate->value_count, candidate->variances, pow(factor, 1.0 / rounds),
+                              AUR_SAMPLES_PER_PIXEL_MAX, candidate->targets);
+        round_to_patterns(candidate);
+    }
+    double before = 0.0, after = 0.0;
+    for (size_t i = 0; i < candidate->value_count; ++i) {
+        before += candidate->earlier[i];
+        after += candidate->targets[i];
+        if (candidate->targets[i] > candidate->earlier[i]) /* what the variances are expected to be then */
+            candidate->variances[i] *=
+                pow((double)candidate->earlier[i] / (double)candidate->targets[i], candidate->rate);
+    }
+    candidate->rays_before = aur_replicas_rays(&candidate->replicas);
+    candidate->rays_planned = before > 0.0 ? candidate->rays_before * (after / before - 1.0) : 0.0;
     return candidate->begun;
 }
 
 /* The rate at which the square error falls with samples, from the last round: 1 for random numbers, up to 2
  * where quasi-Monte Carlo points do better. Rounds that added little tell little. */
-static void learn_rate(aur_candidate *candidate, double earlier_error) {
-    const double growth = log(candidate->samples / candidate->before);
+static void learn_rate(aur_candidate *candidate, double earlier_error, double earlier_samples) {
+    const double growth = log(candidate->finished / earlier_samples);
     if (!(earlier_error < INFINITY) || growth < log(1.5))
         return;
-    const double rate = 2.0 * log(earlier_error / candidate->interval.estimate) / growth;
+    const double rate =
+        2.0 * log(earlier_error / candidate->intervals[candidate->error_measure].estimate) / growth;
     candidate->rate = fmin(fmax(rate, 1.0), 2.0);
 }
 
@@ -314,7 +262,8 @@ static double bound_of(const aur_candidate *candidate, const variance_sums *sums
     if (!(candidate->measure.mean > 0.0))
         return sums->visible > 0.0 ? INFINITY : 0.0;
     if (sums->measured > 0.0)
-        return candidate->interval.high * sqrt(fmax(sums->pooled / sums->measured, 1.0));
+        return candidate->intervals[candidate->error_measure].high *
+               sqrt(fmax(sums->pooled / sums->measured, 1.0));
     const double count = (double)candidate->replicas.count; /* each replica has one part of the mean */
     return sqrt(sums->pooled / (count * 3.0 * (double)candidate->value_count));
 }
@@ -350,59 +299,46 @@ void aur_candidate_look(aur_candidate *candidate) {
 static void measure(aur_candidate *candidate, double confidence) {
     const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_candidate_look(candidate);
-    for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
-        if (m != candidate->error_measure)
-            candidate->intervals[m] = measure_by(candidate, (aur_error_measure)m, confidence, NULL);
-    candidate->interval = measure_by(candidate, candidate->error_measure, confidence, &pixels);
-    candidate->intervals[candidate->error_measure] = candidate->interval;
+    for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) {
+        const size_t m = (candidate->error_measure + k) % AUR_ERROR_MEASURE_COUNT;
+        const bool last = k == AUR_ERROR_MEASURE_COUNT;
+        candidate->intervals[m] =
+            measure_by(candidate, (aur_error_measure)m, confidence, last ? &pixels : NULL);
+    }
 }
 
-static void plan_samples(aur_candidate *candidate) {
-    double sum = 0.0;
-    for (size_t i = 0; i < candidate->value_count; ++i)
-        sum += candidate->targets[i];
-    candidate->before = candidate->samples;
-    candidate->samples = sum / (double)candidate->replicas.pixel_count;
-}
-
-/* Lets variances of pixels be those of what gets samples as a whole. */
+/* Variances of single samples become those of the replicas' values, averaged over what gets samples together.
+ */
 static void smooth(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
-    const size_t cell = aur_render_film(replicas->renders[0])->layout.cell;
-    if (aur_render_integrator(replicas->renders[0])->whole_tiles) {
-        aur_replicas_average(replicas, AUR_TILE_SIZE, candidate->targets, candidate->measured);
-        return;
-    }
-    aur_replicas_smooth(replicas, candidate->targets, candidate->measured, candidate->scratch);
+    const bool tiles = aur_render_integrator(replicas->renders[0])->whole_tiles;
+    const size_t cell = tiles ? AUR_TILE_SIZE : aur_render_film(replicas->renders[0])->layout.cell;
+    if (!tiles)
+        aur_replicas_smooth(replicas, candidate->measured, candidate->scratch);
+    for (size_t i = 0; i < candidate->value_count; ++i)
+        candidate->measured[i] /= candidate->targets[i];
     if (cell > 0)
-        aur_replicas_average(replicas, cell, NULL, candidate->measured);
+        aur_replicas_average(replicas, cell, candidate->measured);
 }
 
 aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
                                 aur_error *error) {
-    const double earlier_error = candidate->interval.estimate;
-    aur_replicas *const replicas = &candidate->replicas;
-    plan_samples(candidate);
-    for (candidate->replica = 0; candidate->replica < replicas->count; ++candidate->replica) {
-        aur_result result = atomic_load(cancelled) ? AUR_ERROR_CANCELLED : AUR_OK;
-        if (result == AUR_OK)
-            result = aur_render_step_pixels(replicas->renders[candidate->replica], replicas->pixel_count,
-                                            candidate->targets + candidate->replica * replicas->pixel_count,
-                                            error);
-        if (result != AUR_OK) {
-            candidate->samples = candidate->before;
-            return result;
-        }
-    }
+    const double earlier_error = candidate->intervals[candidate->error_measure].estimate;
+    const double earlier_samples = candidate->finished;
+    const aur_result result =
+        aur_replicas_step(&candidate->replicas, candidate->targets, candidate->replicas.pixel_count,
+                          &candidate->replica, cancelled, error);
+    if (result != AUR_OK)
+        return result;
     candidate->begun = false;
     ++candidate->rounds;
-    aur_render_statistics spent;
-    aur_candidate_spent(candidate, &spent);
-    candidate->samples = candidate->finished = (double)spent.samples / (double)replicas->pixel_count;
+    aur_spent spent = {.budget = 0};
+    aur_spent_add(&spent, &candidate->replicas, 0);
+    candidate->finished = (double)spent.all.samples / (double)candidate->replicas.pixel_count;
     measure(candidate, confidence);
     smooth(candidate);
     const variance_sums sums = pool_variances(candidate);
     candidate->bound = bound_of(candidate, &sums);
-    learn_rate(candidate, earlier_error);
+    learn_rate(candidate, earlier_error, earlier_samples);
     return AUR_OK;
 }

@@ -16,9 +16,9 @@ typedef struct aur_candidate {
     size_t value_count; /* replicas x pixels */
     uint32_t *targets;  /* [value_count] samples of each replica's pixels after the round planned last */
     uint32_t *earlier;  /* [value_count] before it */
-    double *variances;  /* [value_count] of the replicas' pixels, as the other replicas tell in all rounds */
+    double *variances;  /* [value_count] of the replicas' pixels, by the other replicas in all rounds */
     double *measured;   /* the same of the last round alone */
-    aur_pixel_spread *pixels;     /* [pixel_count] as all rounds tell */
+    aur_pixel_spread *pixels;     /* [pixel_count] by all rounds */
     double *spreads;              /* [pixel_count] of the last round alone */
     double *scratch;              /* [2 x pixel_count] */
     aur_visible_emitters visible; /* where the integrator shows them */
@@ -27,51 +27,40 @@ typedef struct aur_candidate {
     aur_error_measure error_measure;
     aur_replica_measure measure;
     aur_error_interval intervals[AUR_ERROR_MEASURE_COUNT];
-    aur_error_interval interval; /* of error_measure */
     double bound;           /* of the error, by the rounds before too: at least the interval's upper end */
     double rate;            /* the error's square falls as samples^-rate */
-    double samples;         /* a pixel, all replicas together */
-    double finished;        /* the same after the last whole round */
-    double before;          /* the same before the round that is planned or rendered */
+    double finished;        /* samples per pixel of all replicas after the last whole round */
+    double rays_before;     /* of the samples before the round that is planned or rendered */
+    double rays_planned;    /* of that round, where samples cost what the ones before did */
     size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
-    double whole;           /* and in the end, as aur_candidate_look_ahead thought last; 0: nobody knows */
     uint64_t rounds;
     uint64_t traced; /* rays that prepared it */
     uint64_t shared; /* what it shares with other candidates took so many, for whichever was first */
     uint64_t alone;  /* and what it does not share */
     bool begun;      /* a round is planned and not all rendered */
-    bool looked_at;  /* the round planned last was to end where it leads, and may be the last of all */
+    bool looked_at;  /* the round planned last leads to the target, and may be the last of all */
     size_t replica;  /* replicas done of this round */
 } aur_candidate;
 
-/* `options` as for aur_render_create; the candidate's integrator takes the place of theirs, and their samples
- * a pixel are without meaning. The candidate is to be released in every case. Errors as there. */
+/* `options` as for aur_replicas_create, by the candidate's integrator. The candidate is to be released in
+ * every case. Errors as there. */
 aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
                                 size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
                                 aur_error *error);
 void aur_candidate_release(aur_candidate *candidate);
 
-/* What all replicas have cost together. */
-void aur_candidate_spent(const aur_candidate *candidate, aur_render_statistics *sum);
+/* Adds what a candidate has cost, which may not have been created. */
+void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
 /* Computes `values` from the films, as each round does. */
 void aur_candidate_look(aur_candidate *candidate);
 /* Sets `weights` to those of a measure, by the values of the last round. */
 void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
 
-typedef struct aur_spent {
-    uint64_t rays;   /* traced */
-    uint64_t budget; /* of them, those that count whatever was there before: without what candidates share */
-    double prepare_seconds, render_seconds, cpu_seconds;
-} aur_spent;
-
-/* Adds what a candidate has cost, which may not have been created. */
-void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
-
 /* Stopping target; all zero: none. */
 typedef struct aur_goal {
-    double error, bias; /* the noise must leave room for the bias */
-    uint64_t rays;      /* for this candidate's samples */
+    double error, noise; /* of the error, what its bias leaves */
+    uint64_t rays;       /* for this candidate's samples */
 } aur_goal;
 
 /* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
@@ -81,27 +70,17 @@ typedef struct aur_goal {
  * many samples again are taken, or fewer where the rays are spent then. It depends on the candidate and its
  * goal alone, so that a chosen candidate can be rendered again by itself. */
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal);
-/* How many times as many samples, in all, a round that leads to an error is thought to leave. */
-double aur_candidate_growth(const aur_candidate *candidate, double error);
-/* What the bias leaves of the error. */
-double aur_goal_noise(const aur_goal *goal);
-/* Of its samples alone. */
-double aur_candidate_rays(const aur_candidate *candidate);
 
-/* Finds for progress what the candidate will have come to in the end, from what it has before a round is
- * planned. Of final gathering nobody knows: rounds that were each thought to be the last took three to six
- * times the samples in the public Cornell box. */
-void aur_candidate_look_ahead(aur_candidate *candidate, const aur_goal *goal);
+/* The round planned last leads to the error of the goal, and is seldom followed by another. */
+bool aur_candidate_ends(const aur_candidate *candidate, const aur_goal *goal);
 
 /* No sample has met light, and none that the camera sees is known of. */
 bool aur_candidate_is_black(const aur_candidate *candidate);
 
-/* Plans the samples of a round; the first is one sample per pixel. Where more than one is needed to the
+/* Plans the samples of a round; the first is one pattern per pixel. Where more than one is needed to the
  * factor, all grow alike, so that the last one is not a small one that sees nearly what the one before has
  * seen. False when all pixels have all that they can have. */
 bool aur_candidate_plan(aur_candidate *candidate, double factor);
-/* Plans so many samples in all for every pixel, which none has more than yet. */
-void aur_candidate_plan_evenly(aur_candidate *candidate, uint32_t samples);
 /* Renders what is planned. Errors: CANCELLED, after which another call goes on with the round. */
 aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
                                 aur_error *error);
@@ -118,7 +97,3 @@ enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
  * 32 samples. False when no target was raised: all pixels have `most` samples or no variance. */
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);
-
-/* How many times as many samples it takes in all to make the sum of variances `factor` in (0,1] of what it
- * is, where they are spent best. */
-double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets);

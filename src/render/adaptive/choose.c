@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "points/base/error.h"
+#include "points/base/text.h"
 #include "render/adaptive/adaptive.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
@@ -39,15 +40,12 @@ aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted
         return AUR_OK;
     *open = wanted == NULL && !aur_scene_has_media(scene);
     const char *const depth = wanted == NULL ? depth_of(own) : NULL;
-    const char *const text = wanted != NULL ? wanted : aur_scene_has_media(scene) ? "volpath" : "path";
-    const char *const key = depth != NULL ? ":max_depth=" : "";
-    const char *const more = depth != NULL ? depth : "";
-    const size_t capacity = strlen(text) + strlen(key) + strlen(more) + 1;
-    *integrator = malloc(capacity);
-    if (*integrator == NULL)
-        return aur_fail_memory(error);
-    snprintf(*integrator, capacity, "%s%s%s", text, key, more);
-    return AUR_OK;
+    *integrator = aur_new_text("%s%s%s",
+                               wanted != NULL               ? wanted
+                               : aur_scene_has_media(scene) ? "volpath"
+                                                            : "path",
+                               depth != NULL ? ":max_depth=" : "", depth != NULL ? depth : "");
+    return *integrator != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
 /* --- targets */
@@ -68,39 +66,48 @@ uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive) {
     return corrects ? (uint64_t)(CORRECTIONS_PART * (double)rays_left(adaptive)) : 0;
 }
 
+double aur_adaptive_bias_room(const aur_adaptive *adaptive) {
+    const aur_adaptive_options *const target = &adaptive->target;
+    return adaptive->row != AUR_RACE_PATH ? BIAS_PART * target->error : target->bias;
+}
+
 aur_goal aur_adaptive_goal(const aur_adaptive *adaptive) {
     const aur_adaptive_options *const target = &adaptive->target;
+    const double room = aur_adaptive_bias_room(adaptive);
     return (aur_goal){.error = target->error,
-                      .bias = adaptive->row != AUR_RACE_PATH ? BIAS_PART * target->error : target->bias,
+                      .noise = sqrt(fmax(target->error * target->error - room * room, 0.0)),
                       .rays = target->rays > 0 ? rays_left(adaptive) - aur_adaptive_reserve(adaptive) : 0};
+}
+
+aur_spent aur_adaptive_spent(const aur_adaptive *adaptive) {
+    aur_spent sum = adaptive->races ? adaptive->race.spent : adaptive->others;
+    aur_spent_add(&sum, &adaptive->corrections.replicas, 0);
+    aur_candidate_add_spent(&adaptive->candidate, &sum);
+    return sum;
 }
 
 /* --- candidates */
 
 aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_error *error) {
     aur_candidate_release(&adaptive->candidate);
+    aur_corrections_release(&adaptive->corrections);
     adaptive->candidate.integrator = integrator;
     aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
     aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
-    const aur_result result =
+    aur_result result =
         aur_candidate_create(adaptive->renderer, &adaptive->options, adaptive->target.replicas,
                              adaptive->target.measure, &adaptive->candidate, error);
-    aur_cache_count(cache, before);
-    return result;
-}
-
-static aur_result begin_corrections(aur_adaptive *adaptive, aur_error *error) {
-    char *const text = aur_race_correction(adaptive->row, adaptive->path, adaptive->photons);
-    aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
-    aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
-    const uint64_t traced = aur_rays_traced;
-    const aur_result result =
-        text != NULL ? aur_corrections_create(adaptive->renderer, &adaptive->options, text,
+    if (result == AUR_OK && adaptive->row != AUR_RACE_PATH) {
+        const uint64_t traced = aur_rays_traced;
+        char *const text = aur_race_correction(adaptive->row, adaptive->path, adaptive->photons);
+        result = text != NULL
+                     ? aur_corrections_create(adaptive->renderer, &adaptive->options, text,
                                               adaptive->target.replicas, &adaptive->corrections, error)
                      : aur_fail_memory(error);
-    adaptive->others.rays += aur_rays_traced - traced;
+        adaptive->others.all.rays += aur_rays_traced - traced;
+        free(text);
+    }
     aur_cache_count(cache, before);
-    free(text);
     return result;
 }
 
@@ -108,20 +115,17 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
     char *const text = aur_race_integrator(row, adaptive->path, photons, 0);
     adaptive->row = row;
     adaptive->photons = photons;
-    adaptive->open = true; /* nothing is saved while replicas and their maps are made */
-    aur_corrections_release(&adaptive->corrections);
     memset(adaptive->bias, 0, sizeof adaptive->bias);
     if (text == NULL)
         return aur_fail_memory(error);
-    aur_result result = aur_adaptive_begin(adaptive, text, error);
-    if (result == AUR_OK && row != AUR_RACE_PATH)
-        result = begin_corrections(adaptive, error);
+    adaptive->open = true; /* nothing is saved while replicas and their maps are made */
+    const aur_result result = aur_adaptive_begin(adaptive, text, error);
     adaptive->open = result != AUR_OK;
-    if (result == AUR_ERROR_MEMORY)
-        result =
-            aur_fail(error, result, "out of memory: '%s' was chosen; '--integrator %s' takes less memory",
-                     adaptive->candidate.integrator, adaptive->path);
-    return result;
+    return result != AUR_ERROR_MEMORY
+               ? result
+               : aur_fail(error, result,
+                          "out of memory: '%s' was chosen; '--integrator %s' takes less memory",
+                          adaptive->candidate.integrator, adaptive->path);
 }
 
 /* Goes on with the candidate at `place` in the race's order. */
@@ -129,8 +133,7 @@ static aur_result take_place(aur_adaptive *adaptive, size_t place, aur_error *er
     const aur_race *const race = &adaptive->race;
     const size_t row = race->order[place];
     const double work = adaptive->target.rays > 0 ? (double)adaptive->target.rays : race->entries[row].need;
-    aur_candidate_add_spent(&adaptive->candidate, &adaptive->others);
-    adaptive->others.budget += (uint64_t)aur_corrections_rays(&adaptive->corrections);
+    adaptive->others = aur_adaptive_spent(adaptive);
     adaptive->place = place;
     return aur_adaptive_take(
         adaptive, row, row == AUR_RACE_PATH ? 0 : aur_race_photons(work, adaptive->target.replicas), error);
@@ -151,14 +154,14 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
                        .budget = (double)adaptive->target.rays,
                        .seconds = adaptive->target.seconds,
                        .cancelled = &adaptive->cancelled,
-                       .spent.rays = adaptive->others.rays};
+                       .spent.all = adaptive->others.all};
     aur_cache *const cache = aur_renderer_cache(adaptive->renderer);
     aur_cache_uses *const before = aur_cache_count(cache, &adaptive->uses);
     adaptive->races = true;
     const aur_result result = aur_race_run(race, error);
     adaptive->races = false;
     aur_cache_count(cache, before);
-    adaptive->others = race->spent;
+    adaptive->others = race->spent; /* also of one that was interrupted */
     aur_race_release(race);
     return result == AUR_OK ? take_place(adaptive, 0, error) : result;
 }
@@ -188,31 +191,21 @@ void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
 static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     aur_corrections *const corrections = &adaptive->corrections;
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const double before = aur_corrections_rays(corrections);
-    const bool more_samples = bias->of_blocks <= bias->of_replicas || corrections->blocks == corrections->all;
+    const bool more_samples =
+        bias->of_blocks <= bias->of_replicas || corrections->rendered == corrections->blocks.count;
     const aur_result result = aur_corrections_grow(corrections, more_samples, &adaptive->cancelled, error);
-    const double rays = aur_corrections_rays(corrections) - before;
-    adaptive->others.rays += (uint64_t)rays;
     aur_adaptive_bound_bias(adaptive);
     return result;
 }
 
-/* The rays at which more corrections are not worth it: half of those of path tracing, or as many as the image
- * has where these are not known. */
-static double most_corrections(const aur_adaptive *adaptive) {
-    const double path = adaptive->race.entries[AUR_RACE_PATH].need;
-    return fmax(0.5 * path, aur_candidate_rays(&adaptive->candidate));
-}
-
-/* Where products of noise make the interval, it shrinks as one over the rays. */
-double aur_adaptive_corrections_left(const aur_adaptive *adaptive) {
-    const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
-    const double room = pow(BIAS_PART * adaptive->target.error, 2.0), seen = fmax(bias->estimate, 0.0);
-    const double most = 4.0; /* times the rays so far: two steps */
-    const double growth = room > seen ? fmin((bias->high - seen) / (room - seen), most) : most;
-    return adaptive->corrections.steps > 0 && bias->high > room
-               ? (growth - 1.0) * aur_corrections_rays(&adaptive->corrections)
-               : 0.0;
+/* The rays at which more corrections are not worth it: a part of the candidate's; and in the end, half of
+ * those of path tracing, or as many as the image has where these are not known. */
+static double most_corrections(const aur_adaptive *adaptive, bool last) {
+    const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
+    if (last)
+        return fmax(0.5 * adaptive->race.entries[AUR_RACE_PATH].need, rays);
+    const double reserve = adaptive->target.rays > 0 ? (double)aur_adaptive_reserve(adaptive) : INFINITY;
+    return fmin(CORRECTIONS_PART * rays, reserve);
 }
 
 static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *error) {
@@ -239,14 +232,9 @@ aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *agai
         return AUR_OK;
     }
     for (bool first = adaptive->corrections.steps == 0;; first = false) {
-        const double rays = aur_corrections_rays(&adaptive->corrections);
-        double most = CORRECTIONS_PART * aur_candidate_rays(&adaptive->candidate);
-        if (adaptive->target.rays > 0)
-            most = fmin(most, (double)aur_adaptive_reserve(adaptive));
         const bool done = bounded && !first && bias->high <= room;
-        if (bounded && last && !done)
-            most = most_corrections(adaptive);
-        if (!first && (done || 2.0 * rays > most))
+        const double most = most_corrections(adaptive, bounded && last && !done);
+        if (!first && (done || 2.0 * aur_replicas_rays(&adaptive->corrections.replicas) > most))
             break;
         const aur_result result = correct(adaptive, error);
         if (result != AUR_OK)

@@ -11,7 +11,7 @@
 #include "render/film/film.h"
 
 enum {
-    PIXELS = AUR_RACE_BLOCK * AUR_RACE_BLOCK,
+    PIXELS = AUR_BLOCK_PIXELS,
     FIRST_BLOCKS = 18, /* 288 pixels */
     MAP_PHOTONS = 50000,
     RESAMPLINGS = 300
@@ -33,10 +33,23 @@ static void say(aur_race_entry *entry, bool out, const char *reason) {
     snprintf(entry->reason, sizeof entry->reason, "%.95s", reason);
 }
 
+static bool is_measured(const aur_race_entry *entry, size_t blocks) {
+    return !entry->out && entry->blocks >= blocks && blocks > 0;
+}
+
+/* The pixels of block `b` of the order. */
+static size_t pixels_of(const aur_race *race, size_t b, size_t pixels[PIXELS]) {
+    return aur_blocks_pixels(&race->blocks, race->blocks.order[b], pixels);
+}
+
 /* --- rendering */
 
+static float *values_at(const aur_race *race, const aur_race_entry *entry, size_t block, size_t pixel) {
+    return entry->values + (block * PIXELS + pixel) * race->replica_count * 3;
+}
+
 static aur_result copy_values(const aur_race *race, const aur_replicas *replicas, size_t count,
-                              const size_t *order, aur_race_entry *entry, aur_error *error) {
+                              aur_race_entry *entry, aur_error *error) {
     const size_t stride = PIXELS * replicas->count * 3;
     float *const values = realloc(entry->values, count * stride * sizeof *values);
     if (values == NULL)
@@ -45,32 +58,13 @@ static aur_result copy_values(const aur_race *race, const aur_replicas *replicas
     memset(values + entry->blocks * stride, 0, (count - entry->blocks) * stride * sizeof *values);
     for (size_t b = entry->blocks; b < count; ++b) {
         size_t pixels[PIXELS];
-        const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
-        for (size_t p = 0; p < pixel_count; ++p)
-            for (size_t r = 0; r < replicas->count; ++r)
-                for (size_t c = 0; c < 3; ++c)
-                    values[b * stride + (p * replicas->count + r) * 3 + c] =
-                        (float)aur_replicas_value(replicas, r, pixels[p], c);
+        const size_t pixel_count = pixels_of(race, b, pixels);
+        for (size_t i = 0; i < pixel_count * replicas->count * 3; ++i)
+            values_at(race, entry, b, 0)[i] = (float)aur_replicas_value(
+                replicas, i / 3 % replicas->count, pixels[i / 3 / replicas->count], i % 3);
     }
     entry->blocks = count;
     return AUR_OK;
-}
-
-static void add_spent(const aur_replicas *replicas, uint64_t prepared, aur_race_entry *entry,
-                      aur_spent *spent) {
-    spent->rays += prepared;
-    for (size_t r = 0; r < replicas->count; ++r) {
-        aur_render_statistics one = {.size = sizeof one};
-        aur_render_get_statistics(replicas->renders[r], &one, NULL);
-        const uint64_t rays = aur_film_counted(aur_render_film(replicas->renders[r])).rays;
-        entry->rays += (double)rays;
-        entry->samples += (double)one.samples;
-        spent->rays += rays;
-        spent->budget += rays;
-        spent->prepare_seconds += one.prepare_seconds;
-        spent->render_seconds += one.render_seconds;
-        spent->cpu_seconds += one.cpu_seconds;
-    }
 }
 
 /* Films whose pixels share samples give cells alone, to all candidates alike. */
@@ -82,42 +76,42 @@ static bool reads_neighbours(size_t row, const aur_replicas *replicas) {
 static void set_targets(const aur_race *race, size_t block, size_t border, uint32_t samples,
                         uint32_t *targets) {
     size_t pixels[PIXELS];
-    const size_t count = aur_race_pixels(race->width, race->height, block, pixels);
-    for (size_t p = 0; p < count; ++p) {
-        const size_t x = pixels[p] % race->width, y = pixels[p] / race->width;
-        for (size_t j = y > border ? y - border : 0; j <= y + border && j < race->height; ++j)
-            for (size_t i = x > border ? x - border : 0; i <= x + border && i < race->width; ++i)
-                targets[j * race->width + i] = samples;
-    }
+    const size_t count = pixels_of(race, block, pixels);
+    const size_t x0 = pixels[0] % race->width, x1 = pixels[count - 1] % race->width;
+    const size_t y0 = pixels[0] / race->width, y1 = pixels[count - 1] / race->width;
+    for (size_t j = y0 > border ? y0 - border : 0; j <= y1 + border && j < race->height; ++j)
+        for (size_t i = x0 > border ? x0 - border : 0; i <= x1 + border && i < race->width; ++i)
+            targets[j * race->width + i] = samples;
 }
 
-/* Renders the blocks of `order` from those that the candidate has up to `count`. */
-static aur_result render_blocks(aur_race *race, size_t row, size_t count, const size_t *order,
-                                aur_error *error) {
+/* Renders the blocks from those that the candidate has up to `count`. */
+static aur_result render_blocks(aur_race *race, size_t row, size_t count, aur_error *error) {
     aur_race_entry *const entry = &race->entries[row];
     char *const text =
         aur_race_integrator(row, race->path, MAP_PHOTONS, (race->options->seed & UINT32_MAX) + 1);
     uint32_t *const targets = calloc(race->width * race->height, sizeof *targets);
     aur_replicas replicas = {0};
     aur_render_options own = *race->options;
-    own.integrator = text;
-    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     own.warnings = (aur_warnings){0};
     const uint64_t before = aur_rays_traced;
-    aur_result result = text != NULL && targets != NULL
-                            ? aur_replicas_create(race->renderer, &own, race->replica_count, &replicas, error)
-                            : aur_fail_memory(error);
+    aur_result result =
+        text != NULL && targets != NULL
+            ? aur_replicas_create(race->renderer, &own, text, race->replica_count, &replicas, error)
+            : aur_fail_memory(error);
     const uint64_t prepared = aur_rays_traced - before;
     const bool around = result == AUR_OK && reads_neighbours(row, &replicas);
     for (size_t b = entry->blocks; b < count && result == AUR_OK; ++b)
-        set_targets(race, order[b], around ? 1 : 0, samples_of[row], targets);
-    for (size_t r = 0; r < replicas.count && result == AUR_OK; ++r)
-        result = atomic_load(race->cancelled)
-                     ? AUR_ERROR_CANCELLED
-                     : aur_render_step_pixels(replicas.renders[r], replicas.pixel_count, targets, error);
+        set_targets(race, b, around ? 1 : 0, samples_of[row], targets);
+    size_t done;
     if (result == AUR_OK)
-        result = copy_values(race, &replicas, count, order, entry, error);
-    add_spent(&replicas, prepared, entry, &race->spent);
+        result = aur_replicas_step(&replicas, targets, 0, &done, race->cancelled, error);
+    if (result == AUR_OK)
+        result = copy_values(race, &replicas, count, entry, error);
+    aur_spent spent = race->spent;
+    aur_spent_add(&spent, &replicas, prepared);
+    entry->rays += (double)(spent.budget - race->spent.budget);
+    entry->samples += (double)(spent.all.samples - race->spent.all.samples);
+    race->spent = spent;
     aur_replicas_release(&replicas);
     free(targets);
     free(text);
@@ -126,54 +120,44 @@ static aur_result render_blocks(aur_race *race, size_t row, size_t count, const 
 
 /* --- scores */
 
-static const float *values_at(const aur_race *race, const aur_race_entry *entry, size_t block, size_t pixel) {
-    return entry->values + ((block * PIXELS + pixel) * race->replica_count) * 3;
-}
-
 static void mean_of_pixel(const aur_race *race, const float *values, double mean[3]) {
-    for (size_t c = 0; c < 3; ++c) {
-        mean[c] = 0.0;
-        for (size_t r = 0; r < race->replica_count; ++r)
-            mean[c] += (double)values[3 * r + c] / (double)race->replica_count;
-    }
+    mean[0] = mean[1] = mean[2] = 0.0;
+    for (size_t i = 0; i < 3 * race->replica_count; ++i)
+        mean[i % 3] += (double)values[i] / (double)race->replica_count;
 }
 
 /* Over the candidates. */
-static void mean_of_blocks(const aur_race *race, const size_t *order, size_t blocks, double (*means)[3]) {
+static void mean_of_blocks(const aur_race *race, size_t blocks, double (*means)[3]) {
     for (size_t b = 0; b < blocks; ++b) {
         size_t pixels[PIXELS], count = 0;
-        const size_t pixel_count = aur_race_pixels(race->width, race->height, order[b], pixels);
-        double sum[3] = {0.0};
+        const size_t pixel_count = pixels_of(race, b, pixels);
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
             for (size_t p = 0; p < pixel_count && race->entries[i].blocks >= blocks; ++p, ++count) {
                 double mean[3];
                 mean_of_pixel(race, values_at(race, &race->entries[i], b, p), mean);
                 for (size_t c = 0; c < 3; ++c)
-                    sum[c] += mean[c];
+                    means[b][c] += mean[c];
             }
         for (size_t c = 0; c < 3; ++c)
-            means[b][c] = sum[c] / (double)count;
+            means[b][c] /= (double)count;
     }
 }
 
 /* The root of the mean over a block's pixels of the variance of one sample. */
-static double root_variance(const aur_race *race, const size_t *order, size_t row, size_t block,
-                            const aur_error_weight *weight) {
+static double root_variance(const aur_race *race, size_t row, size_t block, const aur_error_weight *weight) {
     size_t pixels[PIXELS];
-    const size_t pixel_count = aur_race_pixels(race->width, race->height, order[block], pixels);
+    const size_t pixel_count = pixels_of(race, block, pixels);
     const double others = (double)(race->replica_count - 1);
     double sum = 0.0;
     for (size_t p = 0; p < pixel_count; ++p) {
         const float *const values = values_at(race, &race->entries[row], block, p);
         double mean[3], d[3][AUR_REPLICAS_MAX];
         mean_of_pixel(race, values, mean);
-        for (size_t r = 0; r < race->replica_count; ++r)
-            for (size_t c = 0; c < 3; ++c)
-                d[c][r] = (double)values[3 * r + c] - mean[c];
+        for (size_t i = 0; i < 3 * race->replica_count; ++i)
+            d[i % 3][i / 3] = (double)values[i] - mean[i % 3];
         aur_replicas_weigh(race->replica_count, (aur_weighing){race->measure, weight}, 0, mean, d);
-        for (size_t r = 0; r < race->replica_count; ++r)
-            for (size_t c = 0; c < 3; ++c)
-                sum += d[c][r] * d[c][r];
+        for (size_t i = 0; i < 3 * race->replica_count; ++i)
+            sum += d[i % 3][i / 3] * d[i % 3][i / 3];
     }
     return sqrt(sum * (double)samples_of[row] / (others * (double)pixel_count));
 }
@@ -181,10 +165,6 @@ static double root_variance(const aur_race *race, const size_t *order, size_t ro
 /* Work of a sample. */
 static double price(const aur_race_entry *entry, size_t row) {
     return entry->rays / entry->samples * (row == AUR_RACE_PATH ? 1.0 : GATHER_PRICE);
-}
-
-static bool is_measured(const aur_race_entry *entry, size_t blocks) {
-    return !entry->out && entry->blocks >= blocks && blocks > 0;
 }
 
 /* Of a whole pattern in each pixel and replica, and the smallest maps. */
@@ -210,12 +190,12 @@ static double work_of(const aur_race *race, size_t row, double mean_root) {
 }
 
 /* Sets what each candidate needs by all of its blocks, and its roots. */
-static aur_result measure(aur_race *race, const size_t *order, size_t blocks, aur_error *error) {
+static aur_result measure(aur_race *race, size_t blocks, aur_error *error) {
     double(*const means)[3] = calloc(blocks, sizeof *means);
     aur_error_weight *const weights = calloc(blocks, sizeof *weights);
     bool made = means != NULL && weights != NULL;
     if (made) {
-        mean_of_blocks(race, order, blocks, means);
+        mean_of_blocks(race, blocks, means);
         aur_error_weigh(race->measure, blocks, (const double(*)[3])means, (const double(*)[3])means, weights);
     }
     for (size_t i = 0; i < AUR_RACE_ROWS && made; ++i) {
@@ -225,7 +205,7 @@ static aur_result measure(aur_race *race, const size_t *order, size_t blocks, au
         double *const roots = realloc(race->entries[i].roots, blocks * sizeof *roots);
         made = roots != NULL;
         for (size_t b = 0; b < blocks && made; ++b)
-            sum += roots[b] = root_variance(race, order, i, b, &weights[b]);
+            sum += roots[b] = root_variance(race, i, b, &weights[b]);
         race->entries[i].roots = made ? roots : race->entries[i].roots;
         race->entries[i].need = work_of(race, i, sum / (double)blocks);
     }
@@ -278,9 +258,8 @@ static double whole_work(const aur_race *race, size_t best) {
         return fmin(race->entries[best].need, most);
     if (most < INFINITY)
         return most;
-    const double rays_per_second =
-        (double)race->spent.rays / fmax(race->spent.prepare_seconds + race->spent.render_seconds, 1e-9);
-    return race->seconds * rays_per_second;
+    const aur_render_statistics *const all = &race->spent.all;
+    return race->seconds * (double)all->rays / fmax(all->prepare_seconds + all->render_seconds, 1e-9);
 }
 
 /* Without the photon map, which the first blocks pay for whatever follows. */
@@ -300,7 +279,7 @@ static double first_rung(const aur_race *race, size_t row) {
 
 /* Other rows render the first blocks, those that differ most first, while their work is small next to that of
  * the image. */
-static aur_result run_others(aur_race *race, const size_t *order, size_t blocks, aur_error *error) {
+static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
     static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_LONG, AUR_RACE_LIGHTS};
     const double most = FIRST_PART * whole_work(race, AUR_RACE_MIDDLE);
     /* Where a first pattern and its photons are most of the work, path tracing may need less than they do. */
@@ -309,7 +288,7 @@ static aur_result run_others(aur_race *race, const size_t *order, size_t blocks,
     for (size_t k = 0; k < sizeof others / sizeof others[0] && result == AUR_OK; ++k) {
         const size_t row = others[k];
         if (spent_work(race) + first_rung(race, row) <= most || (path && row == AUR_RACE_PATH))
-            result = render_blocks(race, row, blocks, order, error);
+            result = render_blocks(race, row, blocks, error);
         else
             say(&race->entries[row], true, "not tried: its first blocks cost more than 10 % of the image");
     }
@@ -317,25 +296,23 @@ static aur_result run_others(aur_race *race, const size_t *order, size_t blocks,
 }
 
 /* Rungs of twice as many blocks each, until one candidate is left or the next one costs too much. */
-static aur_result run_rungs(aur_race *race, const size_t *order, size_t all, size_t blocks,
-                            aur_error *error) {
+static aur_result run_rungs(aur_race *race, size_t blocks, aur_error *error) {
     for (;;) {
-        aur_result result = measure(race, order, blocks, error);
+        aur_result result = measure(race, blocks, error);
         const size_t best = best_of(race, blocks);
         const size_t left = result == AUR_OK && best < AUR_RACE_ROWS ? drop(race, blocks, best) : 0;
         double next = 0.0;
         for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
             next += race->entries[i].out ? 0.0 : race->entries[i].rays;
-        if (result != AUR_OK || left <= 1 || blocks == all ||
+        if (result != AUR_OK || left <= 1 || blocks == race->blocks.count ||
             spent_work(race) + next > PART * whole_work(race, best))
             return result;
-        const size_t more = 2 * blocks < all ? 2 * blocks : all;
+        blocks = 2 * blocks < race->blocks.count ? 2 * blocks : race->blocks.count;
         for (size_t i = 0; i < AUR_RACE_ROWS && result == AUR_OK; ++i)
             if (!race->entries[i].out)
-                result = render_blocks(race, i, more, order, error);
+                result = render_blocks(race, i, blocks, error);
         if (result != AUR_OK)
             return result;
-        blocks = more;
     }
 }
 
@@ -366,43 +343,48 @@ static void sort(aur_race *race) {
         race->order[race->order_count++] = AUR_RACE_PATH;
 }
 
-aur_result aur_race_run(aur_race *race, aur_error *error) {
-    size_t *order, all = (race->width + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK *
-                         ((race->height + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK);
-    all = aur_race_blocks(race->width, race->height, all, &order);
-    if (all == 0)
-        return aur_fail_memory(error);
-    const size_t blocks = all < FIRST_BLOCKS ? all : FIRST_BLOCKS;
+/* The middle row first, by which the work of the others is estimated. */
+static aur_result run(aur_race *race, aur_error *error) {
+    const size_t blocks = race->blocks.count < FIRST_BLOCKS ? race->blocks.count : FIRST_BLOCKS;
     aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
     aur_error refused = {0};
-    const double least_map = aur_race_least_map(race->replica_count);
-    const bool worth = (race->budget == 0.0 || race->budget * AUR_RACE_MAP_PART > least_map) &&
-                       (race->seconds == 0.0 || race->seconds > LEAST_SECONDS);
-    aur_result result = worth ? render_blocks(race, AUR_RACE_MIDDLE, blocks, order, &refused) : AUR_OK;
-    if (!worth)
+    if ((race->budget > 0.0 && race->budget * AUR_RACE_MAP_PART <= aur_race_least_map(race->replica_count)) ||
+        (race->seconds > 0.0 && race->seconds <= LEAST_SECONDS)) {
         say(middle, true, "not tried: its photons cost more than a quarter of the request");
-    else if (result != AUR_OK && result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED) {
-        say(middle, true, refused.message); /* final gathering is not for this scene */
-        result = AUR_OK;
-    } else if (result == AUR_OK && is_black(race, middle)) {
+        return AUR_OK;
+    }
+    aur_result result = render_blocks(race, AUR_RACE_MIDDLE, blocks, &refused);
+    if (result == AUR_ERROR_MEMORY || result == AUR_ERROR_CANCELLED) {
+        if (error != NULL)
+            *error = refused;
+        return result;
+    }
+    if (result != AUR_OK) { /* final gathering is not for this scene */
+        say(middle, true, refused.message);
+        return AUR_OK;
+    }
+    if (is_black(race, middle)) {
         middle->blocks = 0;
         say(middle, true, "no light was found in the first blocks");
-    } else if (result == AUR_OK) {
-        result = measure(race, order, blocks, error);
-        if (result == AUR_OK)
-            result = run_others(race, order, blocks, error);
-        if (result == AUR_OK)
-            result = run_rungs(race, order, all, blocks, error);
-    } else if (error != NULL) {
-        *error = refused;
+        return AUR_OK;
     }
-    free(order);
+    result = measure(race, blocks, error);
+    if (result == AUR_OK)
+        result = run_others(race, blocks, error);
+    return result == AUR_OK ? run_rungs(race, blocks, error) : result;
+}
+
+aur_result aur_race_run(aur_race *race, aur_error *error) {
+    aur_result result = aur_blocks_create(race->width, race->height, &race->blocks, error);
+    if (result == AUR_OK)
+        result = run(race, error);
     if (result == AUR_OK)
         sort(race);
     return result;
 }
 
 void aur_race_release(aur_race *race) {
+    aur_blocks_release(&race->blocks);
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {
         free(race->entries[i].values);
         free(race->entries[i].roots);

@@ -5,18 +5,17 @@
 
 #include <aureole-render/adaptive.h>
 
-#include "render/adaptive/candidate.h"
 #include "render/adaptive/replicas.h"
+#include "render/film/blocks.h"
 
 /* The rows of the table of candidates: path tracing first, and the one that is taken without a race. */
 enum { AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_MIDDLE, AUR_RACE_LIGHTS, AUR_RACE_LONG, AUR_RACE_ROWS };
 
 /* How a candidate is rendered: an integrator's text, allocated with malloc; NULL: out of memory. `path` is
- * "path[:key=value...]", whose keys go on. Photons are each replica's own; `seed` other than 0 makes one map
- * for all replicas. */
+ * "path[:key=value...]", whose keys go on. Each replica has its own photons, or with a `seed` other than 0
+ * all have one map. */
 char *aur_race_integrator(size_t row, const char *path, size_t photons, uint64_t seed);
-/* What paths find at the ends of its gather rays over what the photon map has there. NULL also for path
- * tracing. */
+/* What paths find at the ends of its gather rays over what the photon map has there; not for path tracing. */
 char *aur_race_correction(size_t row, const char *path, size_t photons);
 const char *aur_race_name(size_t row);
 
@@ -26,14 +25,6 @@ size_t aur_race_photons(double work, size_t replica_count);
 /* The work of tracing so many photons, in rays; and of the smallest maps of all replicas. */
 double aur_photon_work(size_t photons);
 double aur_race_least_map(size_t replica_count);
-
-/* Blocks of 4 x 4 pixels of a film in a low-discrepancy order. `order` gets min(count, all blocks) indices of
- * blocks, row by row of the film; returns their number, or 0 out of memory. */
-enum { AUR_RACE_BLOCK = 4 };
-size_t aur_race_blocks(size_t width, size_t height, size_t count, size_t **order);
-/* The pixels of a block of a film: returns their number, at most 16. */
-size_t aur_race_pixels(size_t width, size_t height, size_t block,
-                       size_t pixels[AUR_RACE_BLOCK * AUR_RACE_BLOCK]);
 
 typedef struct aur_race_entry {
     size_t blocks;   /* that it has rendered */
@@ -57,13 +48,14 @@ typedef struct aur_race {
     double budget;  /* rays of the request; 0: none */
     double seconds; /* of the request; 0: none */
     const atomic_bool *cancelled;
+    aur_blocks blocks;
     aur_race_entry entries[AUR_RACE_ROWS];
     size_t order[AUR_RACE_ROWS]; /* candidates that were measured, best first; path is always among them */
     size_t order_count;
     aur_spent spent;
 } aur_race;
 
-/* Fills entries, order and spent. To be released in every case. Errors: CANCELLED, MEMORY, and those of
- * rendering by path tracing. */
+/* Fills entries, order and spent. To be released in every case, after which these are still there. Errors:
+ * CANCELLED, MEMORY, and those of rendering by path tracing. */
 aur_result aur_race_run(aur_race *race, aur_error *error);
 void aur_race_release(aur_race *race);

@@ -1,10 +1,10 @@
 #include "render/adaptive/race.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "points/base/text.h"
 
 /* Tracing and sorting a photon takes the time of so many rays. */
 static const double RAYS_PER_PHOTON = 2.5;
@@ -34,30 +34,23 @@ const char *aur_race_name(size_t row) {
 }
 
 static char *compose(size_t row, const char *path, size_t photons, const char *more) {
-    enum { CAPACITY = 320 }; /* the keys and their numbers */
+    if (rows[row].keys == NULL)
+        return strdup(path);
     const char *const keys = strchr(path, ':');
-    const size_t capacity = CAPACITY + strlen(path);
-    char *const text = malloc(capacity);
-    if (text != NULL && rows[row].keys == NULL)
-        snprintf(text, capacity, "%s", path);
-    else if (text != NULL)
-        snprintf(text, capacity, "finalgather:%s,photons=%zu%s%s%s", rows[row].keys, photons, more,
-                 keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
-    return text;
+    return aur_new_text("finalgather:%s,photons=%zu%s%s%s", rows[row].keys, photons, more,
+                        keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
 }
 
 char *aur_race_integrator(size_t row, const char *path, size_t photons, uint64_t seed) {
     char more[80]; /* a number and the keys */
-    const char *const own = rows[row].more != NULL ? rows[row].more : "";
+    const int length = snprintf(more, sizeof more, "%s", rows[row].more != NULL ? rows[row].more : "");
     if (seed > 0)
-        snprintf(more, sizeof more, "%s,photon_seed=%" PRIu64, own, seed);
-    else
-        snprintf(more, sizeof more, "%s", own);
+        snprintf(more + length, sizeof more - (size_t)length, ",photon_seed=%" PRIu64, seed);
     return compose(row, path, photons, more);
 }
 
 char *aur_race_correction(size_t row, const char *path, size_t photons) {
-    return row == AUR_RACE_PATH ? NULL : compose(row, path, photons, ",debias=found,continued=1");
+    return compose(row, path, photons, ",debias=found,continued=1");
 }
 
 double aur_photon_work(size_t photons) {
@@ -74,44 +67,4 @@ size_t aur_race_photons(double work, size_t replica_count) {
     while ((double)rounded * 2.0 <= photons && rounded * 2 <= MOST_PHOTONS)
         rounded *= 2;
     return rounded;
-}
-
-size_t aur_race_blocks(size_t width, size_t height, size_t count, size_t **order) {
-    const size_t columns = (width + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK;
-    const size_t rows_of_blocks = (height + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK,
-                 all = columns * rows_of_blocks;
-    const size_t wanted = count < all ? count : all;
-    const double g = 1.32471795724474602596; /* of the plane's R2 sequence (Roberts 2018) */
-    bool *const taken = calloc(all, sizeof *taken);
-    *order = calloc(wanted, sizeof **order);
-    if (taken == NULL || *order == NULL) {
-        free(taken);
-        free(*order);
-        *order = NULL;
-        return 0;
-    }
-    size_t found = 0;
-    for (size_t i = 0; i < 64 * all && found < wanted; ++i) {
-        const double x = fmod(0.5 + (double)i / g, 1.0), y = fmod(0.5 + (double)i / (g * g), 1.0);
-        const size_t block = (size_t)(y * (double)rows_of_blocks) * columns + (size_t)(x * (double)columns);
-        if (!taken[block])
-            (*order)[found++] = block;
-        taken[block] = true;
-    }
-    for (size_t block = 0; block < all && found < wanted; ++block)
-        if (!taken[block])
-            (*order)[found++] = block;
-    free(taken);
-    return wanted;
-}
-
-size_t aur_race_pixels(size_t width, size_t height, size_t block,
-                       size_t pixels[AUR_RACE_BLOCK * AUR_RACE_BLOCK]) {
-    const size_t columns = (width + AUR_RACE_BLOCK - 1) / AUR_RACE_BLOCK;
-    const size_t x0 = block % columns * AUR_RACE_BLOCK, y0 = block / columns * AUR_RACE_BLOCK;
-    size_t count = 0;
-    for (size_t y = y0; y < y0 + AUR_RACE_BLOCK && y < height; ++y)
-        for (size_t x = x0; x < x0 + AUR_RACE_BLOCK && x < width; ++x)
-            pixels[count++] = y * width + x;
-    return count;
 }

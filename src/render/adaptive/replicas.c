@@ -6,29 +6,70 @@
 
 #include "points/base/error.h"
 #include "points/base/random.h"
+#include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options, size_t count,
-                               aur_replicas *replicas, aur_error *error) {
+aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options,
+                               const char *integrator, size_t count, aur_replicas *replicas,
+                               aur_error *error) {
+    aur_render_options own = *options;
+    own.integrator = integrator;
+    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     *replicas = (aur_replicas){0};
     for (size_t r = 0; r < count; ++r) {
-        aur_render_options own = *options;
         own.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
-        if (r > 0) /* the first has said it */
-            own.warnings = (aur_warnings){0};
         const aur_result result = aur_render_create(renderer, &own, &replicas->renders[r], error);
         if (result != AUR_OK)
             return result;
+        own.warnings = (aur_warnings){0}; /* the first has said it */
         replicas->count = r + 1;
     }
-    const aur_film *const film = aur_render_film(replicas->renders[0]);
-    replicas->pixel_count = aur_film_pixel_count(film);
+    replicas->pixel_count = aur_film_pixel_count(aur_render_film(replicas->renders[0]));
     return AUR_OK;
 }
 
 void aur_replicas_release(aur_replicas *replicas) {
     for (size_t r = 0; r < replicas->count; ++r)
         aur_render_destroy(replicas->renders[r]);
+    *replicas = (aur_replicas){0};
+}
+
+aur_result aur_replicas_step(aur_replicas *replicas, const uint32_t *targets, size_t stride, size_t *done,
+                             const atomic_bool *cancelled, aur_error *error) {
+    aur_result result = AUR_OK;
+    for (*done = 0; *done < replicas->count && result == AUR_OK; *done += result == AUR_OK)
+        result = atomic_load(cancelled)
+                     ? AUR_ERROR_CANCELLED
+                     : aur_render_step_pixels(replicas->renders[*done], replicas->pixel_count,
+                                              targets + *done * stride, error);
+    return result;
+}
+
+double aur_replicas_rays(const aur_replicas *replicas) {
+    uint64_t rays = 0;
+    for (size_t r = 0; r < replicas->count; ++r)
+        rays += aur_film_counted(aur_render_film(replicas->renders[r])).rays;
+    return (double)rays;
+}
+
+void aur_spent_add(aur_spent *sum, const aur_replicas *replicas, uint64_t prepared) {
+    aur_render_statistics *const all = &sum->all;
+    const uint64_t rays = (uint64_t)aur_replicas_rays(replicas);
+    all->rays += prepared + rays;
+    sum->budget += rays;
+    for (size_t r = 0; r < replicas->count; ++r) {
+        aur_render_statistics one = {.size = sizeof one};
+        aur_render_get_statistics(replicas->renders[r], &one, NULL);
+        all->samples += one.samples;
+        all->invalid_samples += one.invalid_samples;
+        all->cut_paths += one.cut_paths;
+        all->unsolved_weights += one.unsolved_weights;
+        for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+            all->levels[l] += one.levels[l];
+        all->prepare_seconds += one.prepare_seconds;
+        all->render_seconds += one.render_seconds;
+        all->cpu_seconds += one.cpu_seconds;
+    }
 }
 
 double aur_replicas_value(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
@@ -94,25 +135,10 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t side, size_t co
                          .y1 = (y + side < layout->y1 ? y + side : layout->y1) - layout->y0};
 }
 
-/* One over the samples that each replica has of a pixel, and their sum. */
-typedef struct sample_shares {
-    double share[AUR_REPLICAS_MAX], sum;
-} sample_shares;
-
-static sample_shares shares_at(const aur_replicas *replicas, size_t pixel) {
-    sample_shares shares = {.sum = 0.0};
-    for (size_t r = 0; r < replicas->count; ++r) {
-        const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
-        shares.share[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
-        shares.sum += shares.share[r];
-    }
-    return shares;
-}
-
 /* Adds to each replica's variance of one sample of a pixel what a channel's deviations of the others from
  * their own mean say: their sum of squares is that about the mean of all without the replica's part, and has
- * count - 2 degrees. */
-static void add_variances(const aur_replicas *replicas, size_t pixel, const sample_shares *shares,
+ * count - 2 degrees. `shares` are one over the replicas' samples, whose sum follows them. */
+static void add_variances(const aur_replicas *replicas, size_t pixel, const double *shares,
                           const double *deviations, double *variances) {
     const double others = (double)(replicas->count - 1);
     double squares = 0.0;
@@ -121,8 +147,23 @@ static void add_variances(const aur_replicas *replicas, size_t pixel, const samp
     for (size_t r = 0; r < replicas->count; ++r) {
         const double own = deviations[r] * deviations[r] * (others + 1.0) / others;
         variances[r * replicas->pixel_count + pixel] +=
-            fmax(squares - own, 0.0) * others / ((others - 1.0) * (shares->sum - shares->share[r]));
+            fmax(squares - own, 0.0) * others / ((others - 1.0) * (shares[replicas->count] - shares[r]));
     }
+}
+
+static void measure_pixel(const aur_replicas *replicas, size_t pixel, double d[3][AUR_REPLICAS_MAX],
+                          const aur_gram *gram, const aur_pixel_measure *pixels) {
+    double shares[AUR_REPLICAS_MAX + 1];
+    shares[replicas->count] = 0.0;
+    for (size_t r = 0; r < replicas->count; ++r) {
+        const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
+        shares[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
+        shares[replicas->count] += shares[r];
+        pixels->variances[r * replicas->pixel_count + pixel] = 0.0;
+    }
+    for (size_t channel = 0; channel < 3; ++channel)
+        add_variances(replicas, pixel, shares, d[channel], pixels->variances);
+    pixels->spreads[pixel] = aur_gram_spread(gram);
 }
 
 /* The covariances of R, G and B in a pixel times count - 1: of RR, GG, BB, RG, RB, GB. */
@@ -130,13 +171,13 @@ typedef struct colour_covariance {
     double entries[6];
 } colour_covariance;
 
-static void add_colour(size_t count, double d[3][AUR_REPLICAS_MAX], colour_covariance *covariance) {
+static colour_covariance covariance_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
     static const size_t of[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-    for (size_t e = 0; e < 6; ++e) {
-        covariance->entries[e] = 0.0;
+    colour_covariance covariance = {{0.0}};
+    for (size_t e = 0; e < 6; ++e)
         for (size_t r = 0; r < count; ++r)
-            covariance->entries[e] += d[of[e][0]][r] * d[of[e][1]][r];
-    }
+            covariance.entries[e] += d[of[e][0]][r] * d[of[e][1]][r];
+    return covariance;
 }
 
 /* The trace of the product of two covariances. */
@@ -182,7 +223,6 @@ static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighin
     for (size_t y = block.y0; y < block.y1; ++y)
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
-            const sample_shares shares = shares_at(replicas, pixel);
             double d[3][AUR_REPLICAS_MAX], means[3];
             for (size_t channel = 0; channel < 3; ++channel) {
                 means[channel] = deviations_at(replicas, pixel, channel, d[channel]);
@@ -190,14 +230,12 @@ static aur_gram measure_block(const aur_replicas *replicas, aur_weighing weighin
             }
             aur_replicas_weigh(replicas->count, weighing, pixel, means, d);
             const aur_gram own = gram_of(replicas->count, d);
-            for (size_t channel = 0; channel < 3 && pixels != NULL; ++channel)
-                add_variances(replicas, pixel, &shares, d[channel], pixels->variances);
             if (pixels != NULL)
-                pixels->spreads[pixel] = aur_gram_spread(&own);
+                measure_pixel(replicas, pixel, d, &own, pixels);
             for (size_t r = 0; r < replicas->count; ++r)
                 for (size_t s = 0; s < replicas->count; ++s)
                     gram.products[r][s] += own.products[r][s];
-            add_colour(replicas->count, d, &covariances[seen++]);
+            covariances[seen++] = covariance_of(replicas->count, d);
         }
     gram.alike = alike_in(replicas->count, block, covariances);
     return gram;
@@ -208,8 +246,6 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     *measure = (aur_replica_measure){0};
-    for (size_t i = 0; i < replicas->count * replicas->pixel_count && pixels != NULL; ++i)
-        pixels->variances[i] = 0.0;
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
             const aur_gram gram = measure_block(replicas, weighing, cell_of(layout, BLOCK, column, row),
@@ -219,31 +255,21 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 
-/* Along one axis, from `at` on: the places at most `reach` away. */
-typedef struct span {
-    size_t first, end;
-} span;
-
-static span span_about(size_t at, size_t reach, size_t side) {
-    return (span){.first = at > reach ? at - reach : 0, .end = at + reach < side ? at + reach + 1 : side};
-}
-
 /* Adds to `own` `part` of the mean of `values` over the pixels at most `reach` away. */
-static void add_means_about(const aur_film_layout *layout, const double *values, size_t reach, double part,
+static void add_means_about(size_t width, size_t height, const double *values, size_t reach, double part,
                             double *rows, double *own) {
-    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
-    for (size_t y = 0; y < height; ++y)
-        for (size_t x = 0; x < width; ++x) {
-            const span across = span_about(x, reach, width);
-            double sum = 0.0;
-            for (size_t i = across.first; i < across.end; ++i)
-                sum += values[y * width + i];
-            rows[y * width + x] = part * sum / (double)(across.end - across.first);
-        }
+    for (size_t i = 0; i < width * height; ++i) {
+        const size_t x = i % width, first = x > reach ? x - reach : 0;
+        const size_t end = x + reach < width ? x + reach + 1 : width;
+        double sum = 0.0;
+        for (size_t k = first; k < end; ++k)
+            sum += values[i - x + k];
+        rows[i] = part * sum / (double)(end - first);
+    }
     for (size_t y = 0; y < height; ++y) {
-        const span down = span_about(y, reach, height);
-        const double share = 1.0 / (double)(down.end - down.first);
-        for (size_t j = down.first; j < down.end; ++j)
+        const size_t first = y > reach ? y - reach : 0, end = y + reach < height ? y + reach + 1 : height;
+        const double share = 1.0 / (double)(end - first);
+        for (size_t j = first; j < end; ++j)
             for (size_t x = 0; x < width; ++x)
                 own[y * width + x] += share * rows[j * width + x];
     }
@@ -251,25 +277,20 @@ static void add_means_about(const aur_film_layout *layout, const double *values,
 
 /* A sixteenth of the weight lies on more pixels, so that none is left alone because its first samples and
  * those of its neighbours agreed by chance. */
-void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
-                         double *scratch) {
+void aur_replicas_smooth(const aur_replicas *replicas, double *variances, double *scratch) {
     enum { NEAR = 1, FAR = 4 };
     const double far_part = 1.0 / 16;
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    const size_t pixels = replicas->pixel_count;
-    for (size_t r = 0; r < replicas->count; ++r) {
-        double *const own = variances + r * pixels;
+    const size_t pixels = replicas->pixel_count, width = layout->x1 - layout->x0;
+    for (double *own = variances; own < variances + replicas->count * pixels; own += pixels) {
         memcpy(scratch, own, pixels * sizeof *scratch);
         memset(own, 0, pixels * sizeof *own);
-        add_means_about(layout, scratch, NEAR, 1.0 - far_part, scratch + pixels, own);
-        add_means_about(layout, scratch, FAR, far_part, scratch + pixels, own);
-        for (size_t i = 0; i < pixels; ++i)
-            own[i] /= samples[r * pixels + i];
+        add_means_about(width, pixels / width, scratch, NEAR, 1.0 - far_part, scratch + pixels, own);
+        add_means_about(width, pixels / width, scratch, FAR, far_part, scratch + pixels, own);
     }
 }
 
-void aur_replicas_average(const aur_replicas *replicas, size_t side, const uint32_t *samples,
-                          double *variances) {
+void aur_replicas_average(const aur_replicas *replicas, size_t side, double *variances) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t width = layout->x1 - layout->x0, pixels = replicas->pixel_count;
     for (size_t row = layout->y0 / side; row * side < layout->y1; ++row)
@@ -281,17 +302,30 @@ void aur_replicas_average(const aur_replicas *replicas, size_t side, const uint3
                 double sum = 0.0;
                 for (size_t k = 0; k < count; ++k)
                     sum += own[k / across * width + k % across];
-                for (size_t k = 0; k < count; ++k) {
-                    const size_t at = k / across * width + k % across;
-                    const double share = samples != NULL ? samples[(size_t)(own - variances) + at] : 1.0;
-                    own[at] = sum / (double)count / share;
-                }
+                for (size_t k = 0; k < count; ++k)
+                    own[k / across * width + k % across] = sum / (double)count;
             }
         }
 }
 
-aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,
-                                aur_error *error) {
+/* A pixel's means of some replicas and their standard errors. */
+static void develop_pixel(const aur_replicas *replicas, size_t first, size_t step, size_t pixel,
+                          float values[6]) {
+    const double count = (double)((replicas->count - first + step - 1) / step);
+    for (size_t c = 0; c < 3; ++c) {
+        double d[AUR_REPLICAS_MAX], squares = 0.0, sum = 0.0;
+        const double mean = deviations_at(replicas, pixel, c, d);
+        for (size_t r = 0; r < replicas->count; ++r)
+            squares += d[r] * d[r];
+        for (size_t r = first; r < replicas->count; r += step)
+            sum += d[r];
+        values[c] = (float)(step == 1 ? mean : mean + sum / count);
+        values[3 + c] = (float)sqrt(squares / (count * (double)(replicas->count - 1)));
+    }
+}
+
+aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size_t step, bool errors,
+                                aur_image **image, aur_error *error) {
     static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"};
     if (replicas->pixel_count == 0) /* they are being made */
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no image yet");
@@ -301,21 +335,15 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_i
         aur_image_create(layout->x1 - layout->x0, layout->y1 - layout->y0, channels, image, error);
     if (result != AUR_OK)
         return result;
-    float *const data = aur_image_data(*image);
     for (size_t c = 0; c < channels; ++c)
         aur_image_name_channel(*image, c, names[c], NULL);
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_lock(aur_render_film(replicas->renders[r])->lock);
-    for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel)
-        for (size_t c = 0; c < 3; ++c) {
-            double d[AUR_REPLICAS_MAX], squares = 0.0;
-            data[pixel * channels + c] = (float)deviations_at(replicas, pixel, c, d);
-            for (size_t r = 0; r < replicas->count; ++r)
-                squares += d[r] * d[r];
-            if (errors)
-                data[pixel * channels + 3 + c] =
-                    (float)sqrt(squares / ((double)replicas->count * (double)(replicas->count - 1)));
-        }
+    for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel) {
+        float values[6];
+        develop_pixel(replicas, first, step, pixel, values);
+        memcpy(aur_image_data(*image) + pixel * channels, values, channels * sizeof *values);
+    }
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_unlock(aur_render_film(replicas->renders[r])->lock);
     return AUR_OK;

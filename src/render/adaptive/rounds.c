@@ -33,16 +33,6 @@ static double spending_to(size_t count, const double *variances, double factor, 
     return 1.0 / slack;
 }
 
-double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
-    const double spending = spending_to(count, variances, factor, targets);
-    double before = 0.0, after = 0.0;
-    for (size_t i = 0; i < count; ++i) {
-        before += targets[i];
-        after += variances[i] > 0.0 ? samples_at(spending, variances[i], targets[i]) : targets[i];
-    }
-    return after / before;
-}
-
 /* No pixel is left with less than a quarter of the mean of all, nor with less than half of it before it has
  * 32 samples: one whose first samples agreed by chance, as those of few directions from a dim place do, would
  * stay as it is, and so would all about it; and one in which none has met a lamp that covers a thirtieth of

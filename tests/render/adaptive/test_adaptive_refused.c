@@ -65,7 +65,7 @@ static void a_trial_is_stopped_while_it_is_made(void **state) {
     options.progress = (aur_progress){count_down, &left};
     for (aur_result result = AUR_ERROR_CANCELLED; result != AUR_OK; ++calls) {
         aur_candidate candidate = {.integrator = strdup("finalgather:split=1,photons=20000")};
-        aur_spent spent = {.rays = 0};
+        aur_spent spent = {.budget = 0};
         left = calls;
         result = aur_candidate_create(renderer, &options, REPLICAS, AUR_ERROR_MEASURE_MEAN, &candidate, NULL);
         assert_true(result == AUR_OK || result == AUR_ERROR_CANCELLED);

@@ -6,7 +6,6 @@
 
 #include "points/base/random.h"
 #include "render/adaptive/bias.h"
-#include "render/adaptive/race.h"
 #include "render/film/film.h"
 #include <aureole-render/render.h>
 
@@ -32,14 +31,14 @@ typedef struct bias_case {
     size_t blocks; /* with samples */
 } bias_case;
 
-static void fill(const bias_case *of, uint64_t run, const size_t *order, const aur_replicas *replicas) {
+static void fill(const bias_case *of, uint64_t run, const aur_blocks *blocks, const aur_replicas *replicas) {
     for (size_t r = 0; r < REPLICAS; ++r) {
         aur_film *const film = (aur_film *)aur_render_film(replicas->renders[r]);
         for (size_t i = 0; i < SIDE * SIDE; ++i)
             film->given[i] = film->counts[i] = 0;
         for (size_t b = 0; b < of->blocks; ++b) {
-            size_t pixels[16];
-            const size_t count = aur_race_pixels(SIDE, SIDE, order[b], pixels);
+            size_t pixels[AUR_BLOCK_PIXELS];
+            const size_t count = aur_blocks_pixels(blocks, blocks->order[b], pixels);
             for (size_t p = 0; p < count; ++p) {
                 film->given[pixels[p]] = film->counts[pixels[p]] = 1;
                 for (size_t c = 0; c < 3; ++c)
@@ -60,18 +59,17 @@ static void test_interval(void **state) {
     aur_scene *scene;
     aur_renderer *renderer;
     aur_replicas replicas;
-    size_t *order;
+    aur_blocks blocks;
     assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/tests/render/driver/furnace.xml", NULL, &scene, NULL),
                      AUR_OK);
     assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     aur_render_options options = {.size = sizeof options};
     aur_render_options_init(&options, NULL);
-    options.integrator = "path";
     options.sampler = "sobol";
     options.width = options.height = SIDE;
-    options.samples_per_pixel = 1;
-    assert_int_equal(aur_replicas_create(renderer, &options, REPLICAS, &replicas, NULL), AUR_OK);
-    assert_int_equal(aur_race_blocks(SIDE, SIDE, SIZE_MAX, &order), 64);
+    assert_int_equal(aur_replicas_create(renderer, &options, "path", REPLICAS, &replicas, NULL), AUR_OK);
+    assert_int_equal(aur_blocks_create(SIDE, SIDE, &blocks, NULL), AUR_OK);
+    assert_int_equal(blocks.count, 64);
     static aur_error_weight weights[SIDE * SIDE];
     static double values[SIDE * SIDE][3];
     for (size_t i = 0; i < SIDE * SIDE; ++i)
@@ -82,7 +80,7 @@ static void test_interval(void **state) {
         size_t missed = 0;
         double mean = 0.0;
         for (uint64_t run = 0; run < RUNS; ++run) {
-            fill(&cases[k], aur_hash2(run, k), order, &replicas);
+            fill(&cases[k], aur_hash2(run, k), &blocks, &replicas);
             const aur_bias bias = aur_replicas_bias(&replicas, 0, weighing, (const double(*)[3])values, 0.95);
             const double truth = cases[k].bias * cases[k].bias;
             missed += bias.low > truth * (1.0 + 1e-6) || bias.high < truth * (1.0 - 1e-6);
@@ -94,7 +92,7 @@ static void test_interval(void **state) {
         /* The products' standard deviation is at most about .01 a run here. */
         assert_true(fabs(mean - cases[k].bias * cases[k].bias) < 0.01);
     }
-    free(order);
+    aur_blocks_release(&blocks);
     aur_replicas_release(&replicas);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);

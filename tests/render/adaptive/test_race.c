@@ -181,30 +181,10 @@ static void test_shared_block(void **state) {
     aur_scene_destroy(f.scene);
 }
 
-/* Each block once, and the first ones spread over the image. */
-static void test_blocks(void **state) {
-    (void)state;
-    enum { WIDTH = 37, HEIGHT = 22, BLOCKS = 10 * 6 };
-    size_t *order, seen[BLOCKS] = {0}, quarters[4] = {0}, pixels[16], covered = 0;
-    assert_int_equal(aur_race_blocks(WIDTH, HEIGHT, SIZE_MAX, &order), BLOCKS);
-    for (size_t i = 0; i < BLOCKS; ++i) {
-        ++seen[order[i]];
-        covered += aur_race_pixels(WIDTH, HEIGHT, order[i], pixels);
-        if (i < 16)
-            ++quarters[order[i] % 10 / 5 + 2 * (order[i] / 10 / 3)];
-    }
-    for (size_t i = 0; i < BLOCKS; ++i)
-        assert_int_equal(seen[i], 1);
-    for (size_t i = 0; i < 4; ++i)
-        assert_in_range(quarters[i], 3, 5);
-    assert_int_equal(covered, WIDTH * HEIGHT);
-    free(order);
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
-                                       cmocka_unit_test(test_no_race),     cmocka_unit_test(test_no_choice),
-                                       cmocka_unit_test(test_blocks),      cmocka_unit_test(test_small_race),
-                                       cmocka_unit_test(test_shared_block)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gathers_win), cmocka_unit_test(test_paths_win),
+        cmocka_unit_test(test_no_race),     cmocka_unit_test(test_no_choice),
+        cmocka_unit_test(test_small_race),  cmocka_unit_test(test_shared_block)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

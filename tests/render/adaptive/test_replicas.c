@@ -4,7 +4,7 @@
 #include "render/adaptive/replicas.h"
 #include "render/film/film.h"
 
-enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT, SAMPLES = 8 };
+enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT };
 
 typedef struct fixture {
     aur_scene *scene;
@@ -13,18 +13,17 @@ typedef struct fixture {
     double spreads[PIXELS];
 } fixture;
 
-/* Replicas of the Cornell box, with so many samples per pixel of SAMPLES rendered. */
+/* Replicas of the Cornell box, with so many samples per pixel rendered. */
 static void begin(fixture *f, size_t samples) {
     assert_int_equal(
         aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
     assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
     aur_render_options options = {.size = sizeof options};
     aur_render_options_init(&options, NULL);
-    options.integrator = "path";
     options.width = WIDTH;
     options.height = HEIGHT;
-    options.samples_per_pixel = SAMPLES;
-    assert_int_equal(aur_replicas_create(f->renderer, &options, REPLICAS, &f->replicas, NULL), AUR_OK);
+    assert_int_equal(aur_replicas_create(f->renderer, &options, "path", REPLICAS, &f->replicas, NULL),
+                     AUR_OK);
     for (size_t r = 0; r < REPLICAS; ++r)
         assert_int_equal(aur_render_step(f->replicas.renders[r], samples, NULL), AUR_OK);
 }
@@ -58,8 +57,7 @@ static void test_own_values_do_not_count(void **state) {
     end(&f);
 }
 
-/* A crop of 40 x 24 pixels that begins within a tile: each value is the mean of its tile's, over its samples.
- */
+/* A crop of 40 x 24 pixels that begins within a tile: each value is the mean of its tile's. */
 static void test_tiles_have_their_means(void **state) {
     (void)state;
     enum { X0 = 10, Y0 = 5, X1 = 50, Y1 = 29, COUNT = (X1 - X0) * (Y1 - Y0), TILE = 16 };
@@ -76,14 +74,11 @@ static void test_tiles_have_their_means(void **state) {
     options.crop_y0 = Y0;
     options.crop_x1 = X1;
     options.crop_y1 = Y1;
-    assert_int_equal(aur_replicas_create(renderer, &options, 3, &replicas, NULL), AUR_OK);
+    assert_int_equal(aur_replicas_create(renderer, &options, "path", 3, &replicas, NULL), AUR_OK);
     static double values[3 * COUNT], means[3 * COUNT];
-    static uint32_t samples[3 * COUNT];
-    for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i)
         means[i] = values[i] = (double)(i * i % 101); /* whole numbers: sums are exact */
-        samples[i] = (uint32_t)(1 + i % 7);
-    }
-    aur_replicas_average(&replicas, AUR_TILE_SIZE, samples, means);
+    aur_replicas_average(&replicas, AUR_TILE_SIZE, means);
     for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
         const size_t replica = i / COUNT, x = X0 + i % COUNT % (X1 - X0), y = Y0 + i % COUNT / (X1 - X0);
         double sum = 0.0, count = 0.0;
@@ -93,7 +88,7 @@ static void test_tiles_have_their_means(void **state) {
                     sum += values[replica * COUNT + (j - Y0) * (X1 - X0) + k - X0];
                     count += 1.0;
                 }
-        assert_true(means[i] == sum / count / samples[i]);
+        assert_true(means[i] == sum / count);
     }
     aur_replicas_release(&replicas);
     aur_renderer_destroy(renderer);

@@ -1,4 +1,4 @@
-#include "render/adaptive/interval.h"
+#include "render/image/error_interval.h"
 
 #include <aureole/statistics.h>
 #include <math.h>

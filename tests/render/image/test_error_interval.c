@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "points/base/random.h"
-#include "render/adaptive/interval.h"
+#include "render/image/error_interval.h"
 
 enum { VALUES = 960, BLOCK_VALUES = 12, TRIALS = 2000 };
 

@@ -1,0 +1,13 @@
+/* The error of what a denoiser makes of two independent halves of an image's samples. */
+#pragma once
+
+#include "render/image/error_interval.h"
+#include "render/image/error_measure.h"
+
+/* `made[h]` has R, G and B of what was made of halves[h] as its first channels. Each is compared with the
+ * other half, whose independent noise averages out, so that no reference is needed. The interval is Student's
+ * over blocks of 8 x 8 pixels; it has no end where there is one block. Errors: ARGUMENT for images of
+ * different sizes, MEMORY. */
+aur_result aur_error_of_halves(const aur_image *const halves[2], const aur_image *const made[2],
+                               aur_error_measure measure, double confidence, aur_error_interval *interval,
+                               aur_error *error);
