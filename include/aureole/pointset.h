@@ -219,13 +219,14 @@ AUR_API void aur_points_destroy(aur_points *points);
 AUR_API const aur_points_view *aur_points_get_view(const aur_points *points) AUR_NONNULL(1);
 
 /* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, w,x,y,z for rotations,
- * u1,u2,... for the cube, and w after it where there are weights; without a header two columns are u,v and
- * three are x,y,z) or NPY. A comment "# domain: NAME" at the end of the header, or in CSV on a line of its
- * own, gives the domain; without it directions that all have z >= 0 are of the hemisphere, and the view says
- * that this was guessed. `domain`, unless NULL, is where the points must be: x,y stands for the square too
- * when it is SQUARE or CUBE, directions may be of the hemisphere or the sphere, and CUBE takes any number of
- * coordinates. Errors: OPEN, MEMORY, and FORMAT, which names the line; with a domain also UNSUPPORTED for
- * points of another one and FORMAT for directions below the hemisphere. *points is then NULL. */
+ * u1,u2,... for the cube, and w or weight after it where there are weights; without a header two columns are
+ * u,v and three are x,y,z) or NPY. A comment "# domain: NAME" at the end of the header, or in CSV on a line
+ * of its own, gives the domain; without it directions that all have z >= 0 are of the hemisphere, and the
+ * view says that this was guessed. `domain`, unless NULL, is where the points must be: x,y stands for the
+ * square too when it is SQUARE or CUBE, directions may be of the hemisphere or the sphere, and CUBE takes any
+ * number of coordinates. Errors: OPEN, MEMORY, and FORMAT, which names the line; with a domain also
+ * UNSUPPORTED for points of another one and FORMAT for directions below the hemisphere. *points is then NULL.
+ */
 AUR_API aur_result aur_points_read(const char *path, const aur_domain *domain, aur_points **points,
                                    aur_error *error) AUR_NONNULL(1, 3);
 /* The same from the bytes of a file, data[size]; `name` stands in messages. */

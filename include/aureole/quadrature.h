@@ -201,7 +201,8 @@ AUR_API aur_result aur_weights_write(const char *path, aur_domain domain, size_t
                                      size_t density_count, const double *weights, aur_error *error)
     AUR_NONNULL(1, 4, 6);
 
-/* The same for points of any domain. Errors: also ARGUMENT for a stride below the dimension. */
+/* The same for points of any domain; columns of rotations, which have a w, are weight, weight2, ... Errors:
+ * also ARGUMENT for a stride below the dimension. */
 AUR_API aur_result aur_weights_write_points(const char *path, const aur_points_view *points,
                                             size_t density_count, const double *weights, aur_error *error)
     AUR_NONNULL(1, 2, 4);

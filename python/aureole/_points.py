@@ -178,8 +178,8 @@ def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) ->
     """Points, their weights or None, and their domain from a CSV or NPY file.
 
     A comment "# domain: NAME" in the header gives the domain; `write` writes it. Without it the names in the header of
-    a CSV file say it: u,v; x,y; x,y,z; w,x,y,z; u1,u2,...; and w after it for weights. Without a header two columns are
-    u,v and three x,y,z. If all directions have z >= 0, the hemisphere is assumed, with an AureoleWarning.
+    a CSV file say it: u,v; x,y; x,y,z; w,x,y,z; u1,u2,...; and w or weight after it for weights. Without a header two columns
+    are u,v and three x,y,z. If all directions have z >= 0, the hemisphere is assumed, with an AureoleWarning.
     `domain` says it where it is known.
 
     >>> import tempfile, os

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <aureole/pointset.h>
+#include <stdio.h>
 
 struct aur_points {
     aur_points_view view; /* of the arrays below */
@@ -23,6 +24,9 @@ aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *v
 enum { AUR_COLUMN_NAME_CAPACITY = 24 };
 void aur_points_column_name(const aur_points_view *points, size_t column,
                             char name[AUR_COLUMN_NAME_CAPACITY]);
+/* The line of a CSV file that names the columns, those of weights too: w, w2, ..., and weight, weight2, ...
+ * of rotations. */
+void aur_points_write_header(const aur_points_view *points, size_t weights, FILE *stream);
 
 /* Whether there are weights, and they are not all 1/N, which say nothing. */
 bool aur_points_weighted(const aur_points_view *points);

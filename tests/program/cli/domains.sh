@@ -46,6 +46,19 @@ for method in exact voronoi; do
   [ "$(domain_of weighted.csv)" = axes ] || fail "weights of axes by $method are of the $(domain_of weighted.csv)"
 done
 
+# Those of rotations have a name that no coordinate has; files with a second w are read too.
+says 0 "" weights super-fibonacci -n 20 --domain rotations -o turns.csv
+[ "$(head -1 turns.csv)" = w,x,y,z,weight ] || fail "weights of rotations have the header $(head -1 turns.csv)"
+sed '1s/weight/w/' turns.csv >older.csv
+for file in turns.csv older.csv; do
+  [ "$("$aureole" info $file --format csv | cut -d, -f1,3 | tr '\n' ' ')" = "domain,coordinate rotations,w rotations,x rotations,y rotations,z rotations,weight " ] ||
+    fail "$file: $("$aureole" info $file --format csv)"
+  "$aureole" measure $file --metric energy --format csv | tail -n +2 | cut -d, -f2- >"$file.energy" || fail "measure $file"
+done
+cmp turns.csv.energy older.csv.energy || fail "a second column w is read as something else"
+says 0 "" weights super-fibonacci -n 20 --domain rotations --levels 10,20 -o turns.csv
+[ "$(head -1 turns.csv)" = w,x,y,z,weight,weight2 ] || fail "levels of rotations have the header $(head -1 turns.csv)"
+
 # A rule for axes: exact for even polynomials, where the means over the sphere are known.
 says 0 "" weights axes.csv --method exact -o exact.csv
 tail -n +2 exact.csv | awk -F, '

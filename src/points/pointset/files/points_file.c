@@ -47,9 +47,14 @@ static aur_result by_header(const char *path, const aur_matrix *matrix, const au
     char header[sizeof matrix->header];
     memcpy(header, matrix->header, sizeof header);
     const size_t length = strlen(header);
-    m->weights = length >= 2 && strcmp(header + length - 2, ",w") == 0;
-    if (m->weights)
-        header[length - 2] = '\0';
+    static const char *const names[] = {",w", ",weight"}; /* rotations have a coordinate w */
+    m->weights = false;
+    for (size_t k = 0; k < 2 && !m->weights; ++k) {
+        const size_t from = length - strlen(names[k]);
+        m->weights = from < length && strcmp(header + from, names[k]) == 0;
+        if (m->weights)
+            header[from] = '\0';
+    }
     m->dimension = matrix->column_count - m->weights;
     if (strcmp(header, "u,v") == 0)
         m->domain = AUR_DOMAIN_SQUARE;
@@ -65,7 +70,7 @@ static aur_result by_header(const char *path, const aur_matrix *matrix, const au
         return aur_fail_at(
             error, (aur_location){.file = path, .line = 1}, AUR_ERROR_FORMAT,
             "the header '%s' must be u,v (square), x,y (disk), x,y,z (sphere), w,x,y,z (rotations) or "
-            "u1,u2,... (cube), and w for weights after it",
+            "u1,u2,... (cube), and w or weight for weights after it",
             matrix->header);
     return AUR_OK;
 }

@@ -42,14 +42,15 @@ void aur_points_column_name(const aur_points_view *points, size_t column,
                  points->domain == AUR_DOMAIN_SQUARE ? (column == 0 ? 'u' : 'v') : letters[column % 3]);
 }
 
-static void write_csv_header(const aur_points_view *points, FILE *stream) {
+void aur_points_write_header(const aur_points_view *points, size_t weights, FILE *stream) {
     for (size_t d = 0; d < points->dimension; ++d) {
         char name[AUR_COLUMN_NAME_CAPACITY];
         aur_points_column_name(points, d, name);
         fprintf(stream, "%s%s", d > 0 ? "," : "", name);
     }
-    if (points->weights != NULL)
-        fputs(",w", stream);
+    const char *const name = points->domain == AUR_DOMAIN_ROTATIONS ? "weight" : "w"; /* w is a coordinate */
+    for (size_t k = 0; k < weights; ++k)
+        fprintf(stream, k == 0 ? ",%s" : ",%s%zu", name, k + 1);
     if (aur_points_are_above(points))
         fprintf(stream, "# domain: %s", aur_domain_name(points->domain));
     fputc('\n', stream);
@@ -58,7 +59,7 @@ static void write_csv_header(const aur_points_view *points, FILE *stream) {
 static void write_csv(const aur_points_view *points, const aur_points_write_options *options, FILE *stream) {
     const int digits = options->digits != 0 ? (int)options->digits : MOST_DIGITS;
     if (!options->no_header)
-        write_csv_header(points, stream);
+        aur_points_write_header(points, points->weights != NULL, stream);
     for (size_t i = 0; i < points->count; ++i) {
         for (size_t d = 0; d < points->dimension; ++d)
             aur_print(stream, "%s%.*g", d > 0 ? "," : "", digits, aur_point_at(points, i)[d]);

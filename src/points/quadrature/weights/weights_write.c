@@ -12,23 +12,15 @@ aur_result aur_weights_write_points(const char *path, const aur_points_view *giv
         result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)
         return result;
-    for (size_t d = 0; d < points.dimension; ++d) {
-        char name[AUR_COLUMN_NAME_CAPACITY];
-        aur_points_column_name(&points, d, name);
-        fprintf(writer.stream, "%s%s", d > 0 ? "," : "", name);
-    }
-    for (size_t k = 0; k < density_count; ++k)
-        fprintf(writer.stream, k == 0 ? ",w" : ",w%zu", k + 1);
-    if (aur_points_are_above(&points))
-        fprintf(writer.stream, "# domain: %s", aur_domain_name(points.domain));
+    aur_points_write_header(&points, density_count, writer.stream);
     for (size_t i = 0; i < points.count; ++i) {
         const double *const point = aur_point_at(&points, i);
         for (size_t d = 0; d < points.dimension; ++d)
-            aur_print(writer.stream, d == 0 ? "\n%.17g" : ",%.17g", point[d]);
+            aur_print(writer.stream, d == 0 ? "%.17g" : ",%.17g", point[d]);
         for (size_t k = 0; k < density_count; ++k)
             aur_print(writer.stream, ",%.17g", weights[k * points.count + i]);
+        fputc('\n', writer.stream);
     }
-    fputc('\n', writer.stream);
     return aur_file_commit(&writer, error);
 }
 

@@ -34,12 +34,15 @@ static int describe_points(const cli_info_input *input, const cli_info_options *
     for (size_t c = 0; c < column_count; ++c) {
         const bool weight = c == view->dimension;
         char number[32];
-        const bool named = view->dimension <= 3 && view->domain != AUR_DOMAIN_CUBE;
+        const bool turns = view->domain == AUR_DOMAIN_ROTATIONS;
+        const bool named = turns || (view->dimension <= 3 && view->domain != AUR_DOMAIN_CUBE);
         snprintf(number, sizeof number, "u%zu", c + 1);
-        const char *const letters = view->domain == AUR_DOMAIN_SQUARE ? "u\0v" : "x\0y\0z";
+        const char *const letters = turns                               ? "w\0x\0y\0z"
+                                    : view->domain == AUR_DOMAIN_SQUARE ? "u\0v"
+                                                                        : "x\0y\0z";
         report_text(table, aur_domain_name(view->domain));
         report_integer(table, view->count);
-        report_text(table, weight ? "w" : named ? letters + 2 * c : number);
+        report_text(table, weight ? turns ? "weight" : "w" : named ? letters + 2 * c : number);
         report_summary(table, view->count, weight ? 1 : view->stride, NULL,
                        weight ? view->weights : view->coordinates + c);
     }

@@ -41,8 +41,10 @@ static const cli_option options[] = {
                  "the largest with positive weights",
                  "degree of the polynomials that --method exact integrates"),
      .key.computed = true},
-    {CLI_TEXT(cli_weights_arguments, levels, "levels", "N,N,...", NULL,
-              "exact weights of the first N samples for each N given: the columns w, w2, ..."),
+    {CLI_TEXT(
+         cli_weights_arguments, levels, "levels", "N,N,...", NULL,
+         "exact weights of the first N samples for each N given: the columns w, w2, ... (rotations: weight, "
+         "weight2, ...)"),
      .list = true},
     {CLI_FLAG(cli_weights_arguments, negative, "negative", "allow negative weights with --degree")},
     {CLI_REAL(cli_weights_arguments, tolerance, "tolerance", "E", AUR_EXACT_TOLERANCE_MIN,
