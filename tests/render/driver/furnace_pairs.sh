@@ -72,6 +72,8 @@ for material in $materials; do
   polarizer | circular) exact=0.25 ;;
   tilted) exact=0.9 ;;
   raised) exact=$(awk 'BEGIN { print (1 + 2 / sqrt(5)) / 2 }') ;;
+  # Oren and Nayar's facets seen straight on are the same from all sides: C1 + C4 of equations 27 to 29 for a variance of .5.
+  clay) exact=$(awk 'BEGIN { print 1 - 0.25 / 0.83 + 0.17 * 0.5 / 0.63 }') ;;
   lacquer) exact=$lacquer bias=0.01 ;;
   # Ward's lobe of alpha a seen straight on mirrors 1 - a^2 (1 - exp(-1 / a^2)) of its reflectance.
   enamel) exact=$(awk 'BEGIN { a = 0.25; print 0.4 + 0.6 * (1 - a * (1 - exp(-1 / a))) }') ;;

@@ -78,6 +78,8 @@ static const material_row material_rows[] = {
     {"ward:alpha=0,diffuse_transmittance=0.2,specular_transmittance=0.3,diffuse_reflectance=0.3", NULL,
      WHITE},
     {"twosided", "ward:alpha=0.2", 0},
+    {"roughdiffuse:reflectance=0.8,alpha=0.6", NULL, 0},
+    {"roughdiffuse:reflectance=0.7,alpha=1,use_fast_approx=true", NULL, 0},
     {"difftrans:transmittance=0.6", NULL, 0},
     {"coating", "diffuse:reflectance=0.8", 0},
     {"coating:sigma_a=0.4,thickness=0.5,int_ior=1.7", "roughconductor:alpha=0.3,material=Cu", 0},

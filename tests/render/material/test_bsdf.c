@@ -541,6 +541,34 @@ static void coat_absorbs_along_the_way(void **state) {
     aur_bsdf_destroy(mirror);
 }
 
+/* Oren and Nayar's equations 27 to 30 for directions 30 and 60 degrees from the normal, whose planes are 0,
+ * 90 and 180 degrees apart. */
+static void rough_diffuse_is_oren_nayar(void **state) {
+    (void)state;
+    aur_bsdf *const full = make_bsdf("roughdiffuse:reflectance=0.8,alpha=0.6", NULL);
+    aur_bsdf *const fast = make_bsdf("roughdiffuse:reflectance=0.8,alpha=0.6,use_fast_approx=true", NULL);
+    const double pi = acos(-1.0), beta = pi / 6.0, alpha = pi / 3.0, v = 0.18, flat = 2.0 * beta / pi;
+    const double c1 = 1.0 - 0.5 * v / (v + 0.33), c2 = 0.45 * v / (v + 0.09), c4 = 0.17 * v / (v + 0.13);
+    const double c3 = 0.125 * v / (v + 0.09) * pow(4.0 * alpha * beta / (pi * pi), 2.0);
+    const double rises[3] = {sin(alpha), 0.0, -(sin(alpha) - flat * flat * flat)};
+    for (int i = 0; i < 3; ++i) {
+        const double turn = cos(i * pi / 2.0), phi = i * pi / 2.0;
+        const aur_vector view = {(float)sin(beta), 0.0f, (float)cos(beta)};
+        const aur_vector light = {(float)(sin(alpha) * cos(phi)), (float)(sin(alpha) * sin(phi)),
+                                  (float)cos(alpha)};
+        const double once =
+            c1 + c2 * rises[i] * tan(beta) + c3 * (1.0 - fabs(turn)) * tan(0.5 * (alpha + beta));
+        const double twice = c4 * (1.0 - turn * flat * flat), cosine = cos(alpha) / pi;
+        float pdf;
+        const aur_vector got = aur_bsdf_evaluate(full, AUR_BSDF_WHOLE, point, view, light, &pdf);
+        assert_near(got.x, cosine * (0.8 * once + 0.64 * twice), 1e-6);
+        const aur_vector quick = aur_bsdf_evaluate(fast, AUR_BSDF_WHOLE, point, view, light, &pdf);
+        assert_near(quick.x, 0.8 * cosine * (c1 + c2 * fmax(turn, 0.0) * sin(alpha) * tan(beta)), 1e-6);
+    }
+    aur_bsdf_destroy(fast);
+    aur_bsdf_destroy(full);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_material_is_tested),
@@ -560,6 +588,7 @@ int main(void) {
         cmocka_unit_test(facets_are_masked_by_the_formula),
         cmocka_unit_test(facets_stand_where_the_formula_says),
         cmocka_unit_test(rows_of_facets_are_single_facets),
+        cmocka_unit_test(rough_diffuse_is_oren_nayar),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -144,5 +144,33 @@ refused "shape 'sdfgrid' is not supported: a mesh" "$camera<shape type='sdfgrid'
 refused "bsdf 'measured_polarized' is not supported: " "$camera<bsdf type='measured_polarized'/>"
 refused "bsdf 'coating': it needs a nested bsdf that lets no light through" "$camera<bsdf type='coating'><bsdf type='dielectric'/></bsdf>"
 refused "'int_ior' must be above 'ext_ior'" "$camera<bsdf type='coating'><float name='int_ior' value='.9'/><bsdf type='diffuse'/></bsdf>"
+refused "integrator 'bdpt' is not supported: --integrator path" "<integrator type='bdpt'/>$(floor "")"
+refused "film 'mfilm' is not supported: images are" "${camera/hdrfilm/mfilm}"
+
+# Elements and types of Mitsuba 0.6.
+colored() { floor "<rgb name='reflectance' value='$1'/>"; }
+same "digits of rgb are linear" "$(colored '#ff8033')" "$(colored "1, .50196078431372548, .2")"
+near "digits of srgb are what a screen is sent" "$(floor "<srgb name='reflectance' value='#8000ff'/>")" "$(colored ".2158605, 0, 1")"
+near "numbers of srgb" "$(floor "<srgb name='reflectance' value='.5'/>")" "$(colored .2140411)"
+refused "<srgb> needs a 'value'" "$(floor "<srgb name='reflectance' value='red'/>")"
+same "blackbody" "$camera<shape type='rectangle'/><emitter type='constant'><blackbody name='radiance' temperature='5000K'/></emitter>" \
+  "$camera<shape type='rectangle'/><emitter type='constant'><spectrum name='radiance' type='blackbody'><float name='temperature' value='5000'/></spectrum></emitter>"
+refused "'temperature'" "$camera<emitter type='constant'><blackbody name='radiance'/></emitter>"
+same "tiledhdrfilm" "${camera/hdrfilm/tiledhdrfilm}$light<shape type='rectangle'/>" "$camera$light<shape type='rectangle'/>"
+same "volpath_simple" "<integrator type='volpath_simple'/>$(floor "")" "<integrator type='volpath'/>$(floor "")"
+metal() { echo "$camera$light<shape type='rectangle'><bsdf type='roughconductor'><float name='alpha' value='.5'/>$1</bsdf></shape>"; }
+near "a metal under water" "$(metal "<rgb name='eta' value='1.33'/><rgb name='k' value='2.66'/><string name='ext_eta' value='water'/>")" \
+  "$(metal "<rgb name='eta' value='.9977494'/><rgb name='k' value='1.9954989'/>")"
+printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float r\nproperty float g\nproperty float b\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n-1 -1 0 .1 .2 .3\n1 -1 0 .3 .2 .1\n0 1 0 .5 .5 .5\n3 0 1 2\n' >colors.ply
+painted() { echo "$camera$light<shape type='ply'><string name='filename' value='colors.ply'/><bsdf type='diffuse'><texture name='reflectance' $1</texture></bsdf></shape>"; }
+same "vertexcolors" "$(painted "type='vertexcolors'>")" "$(painted "type='mesh_attribute'><string name='name' value='vertex_color'/>")"
+
+# Files as Windows writes them.
+mkdir -p Parts && echo "<scene version='3.0.0'>$(grey .4 | sed "s|'diffuse'|& id='m'|")</scene>" >Parts/m.xml
+same "the other slash" "<include filename='Parts\\m.xml'/>$camera$light<shape type='rectangle'><ref id='m'/></shape>" "$camera$light<shape type='rectangle'>$(grey .4)</shape>"
+for encoding in windows-1252 ASCII; do
+  printf '\r\n<?xml version="1.0" encoding="%s"?>\r\n<!-- \xe9 -->\r\n%s' $encoding "$(cat b.xml)" >encoded.xml
+  "$aureole" render -q --spp 16 encoded.xml -o a.pfm && cmp -s a.pfm b.pfm || fail "a scene in $encoding"
+done
 
 exit $((failures > 0))

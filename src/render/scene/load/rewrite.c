@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "points/base/text.h"
+#include "render/image/format.h"
 #include "render/scene/load/loader.h"
 #include "render/scene/load/spectrum.h"
 
@@ -116,11 +117,97 @@ static aur_result rewrite_mixture(aur_nodes *nodes, aur_xml_node *node) {
     return result == AUR_OK ? nodes->result : result;
 }
 
+/* --- elements and types of Mitsuba 0.6 that others express */
+
+static void set_value(aur_nodes *nodes, aur_xml_node *node, const double rgb[3]) {
+    char text[96];
+    aur_format(text, sizeof text, "%.17g %.17g %.17g", rgb[0], rgb[1], rgb[2]);
+    const char *const own = aur_arena_copy(&nodes->tree->arena, text, strlen(text));
+    if (own == NULL)
+        nodes->result = aur_fail_memory_at(nodes->error, node->location);
+    for (size_t i = 0; own != NULL && i < node->attribute_count; ++i)
+        if (strcmp(node->attributes[i].name, "value") == 0)
+            node->attributes[i].value = own;
+}
+
+/* "#rrggbb": false for other texts. */
+static bool read_hexadecimal(const char *text, double rgb[3]) {
+    if (text == NULL || text[0] != '#' || strlen(text) != 7 ||
+        strspn(text + 1, "0123456789abcdefABCDEF") != 6)
+        return false;
+    const unsigned long code = strtoul(text + 1, NULL, 16);
+    for (size_t i = 0; i < 3; ++i)
+        rgb[i] = (double)(code >> (16 - 8 * i) & 255) / 255.0;
+    return true;
+}
+
+/* Mitsuba 0.6 reads the digits of <rgb> as linear values, those of <srgb> as what a screen is sent. */
+static aur_result rewrite_rgb(aur_nodes *nodes, aur_xml_node *node) {
+    double rgb[3];
+    if (read_hexadecimal(aur_xml_attribute_value(node, "value"), rgb))
+        set_value(nodes, node, rgb);
+    return nodes->result;
+}
+
+static aur_result rewrite_srgb(aur_nodes *nodes, aur_xml_node *node) {
+    const char *const value = aur_xml_attribute_value(node, "value");
+    double rgb[3] = {0.0, 0.0, 0.0};
+    const size_t count = value == NULL                  ? 0
+                         : read_hexadecimal(value, rgb) ? 3
+                                                        : aur_parse_doubles(value, rgb, 3);
+    if (count != 1 && count != 3)
+        return aur_xml_fail(node, nodes->error, "<srgb> needs a 'value' of one or three numbers, or #rrggbb");
+    for (size_t i = 3; i-- > 0;)
+        rgb[i] = aur_srgb_decode(rgb[count == 1 ? 0 : i]);
+    node->tag = "rgb";
+    set_value(nodes, node, rgb);
+    return nodes->result;
+}
+
+/* <blackbody name temperature="5000K">: <spectrum type="blackbody">. */
+static aur_result rewrite_blackbody(aur_nodes *nodes, aur_xml_node *node) {
+    static const aur_xml_rule rule = {"blackbody", 2, {"name", "temperature"}};
+    const aur_result result = aur_xml_check(node, &rule, nodes->error);
+    if (result != AUR_OK)
+        return result;
+    const char *const temperature = aur_xml_attribute_value(node, "temperature");
+    const size_t length = strcspn(temperature, "Kk");
+    for (size_t i = 0; i < node->attribute_count; ++i)
+        if (strcmp(node->attributes[i].name, "temperature") == 0)
+            node->attributes[i] = (aur_xml_attribute){"type", "blackbody"};
+    node->tag = "spectrum";
+    nodes->location = node->location;
+    aur_node_property(nodes, node, "float", "temperature", "%.*s", (int)length, temperature);
+    return nodes->result;
+}
+
+static aur_result rewrite_vertexcolors(aur_nodes *nodes, aur_xml_node *node) {
+    set_type(node, "mesh_attribute");
+    nodes->location = node->location;
+    aur_node_property(nodes, node, "string", "name", "vertex_color");
+    return nodes->result;
+}
+
+static aur_result rewrite_type(aur_nodes *nodes, aur_xml_node *node) {
+    static const char *const pairs[][2] = {{"tiledhdrfilm", "hdrfilm"}, {"volpath_simple", "volpath"}};
+    const char *const type = aur_xml_attribute_value(node, "type");
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i)
+        if (strcmp(type, pairs[i][0]) == 0)
+            set_type(node, pairs[i][1]);
+    return nodes->result;
+}
+
 /* --- the walk */
 
 static const form forms[] = {
     {"spectrum", NULL, rewrite_spectrum},
     {"bsdf", "mixturebsdf", rewrite_mixture},
+    {"rgb", NULL, rewrite_rgb},
+    {"srgb", NULL, rewrite_srgb},
+    {"blackbody", NULL, rewrite_blackbody},
+    {"texture", "vertexcolors", rewrite_vertexcolors},
+    {"film", "tiledhdrfilm", rewrite_type},
+    {"integrator", "volpath_simple", rewrite_type},
 };
 
 /* The shapes of a `merge` stand in its place. */

@@ -8,6 +8,7 @@
 
 #define MATERIALS(ROW)                                                                                       \
     ROW(diffuse)                                                                                             \
+    ROW(roughdiffuse)                                                                                        \
     ROW(difftrans)                                                                                           \
     ROW(twosided)                                                                                            \
     ROW(phong)                                                                                               \

@@ -88,6 +88,7 @@ typedef struct indices {
 static const aur_key numbers[] = {
     {AUR_KEY_OF_REAL(indices, "int_ior", inside, 0.1, 100.0, NULL, NULL)},
     {AUR_KEY_OF_REAL(indices, "ext_ior", outside, 0.1, 100.0, NULL, NULL)},
+    {AUR_KEY_OF_REAL(indices, "ext_eta", outside, 0.1, 100.0, NULL, NULL)},
 };
 
 static aur_result read_ior(aur_parameters *parameters, const aur_key *key, indices *both, aur_error *error) {
@@ -158,7 +159,7 @@ static const struct {
 
 enum { METAL_COUNT = sizeof metals / sizeof metals[0] };
 
-aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_error *error) {
+static aur_result find_metal(aur_parameters *parameters, aur_metal *metal, aur_error *error) {
     const aur_parameter *const item = aur_parameters_find(parameters, "material");
     const bool has_eta = aur_parameters_find(parameters, "eta") != NULL;
     const bool has_k = aur_parameters_find(parameters, "k") != NULL;
@@ -184,4 +185,14 @@ aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_
         return fail_name(parameters, item, METAL_COUNT + 1, names, error);
     metal->perfect = true;
     return AUR_OK;
+}
+
+aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_error *error) {
+    indices both = {1.0, 1.0};
+    aur_result result = read_ior(parameters, &numbers[2], &both, error);
+    if (result == AUR_OK)
+        result = find_metal(parameters, metal, error);
+    metal->eta = aur_vector_scale(metal->eta, (float)(1.0 / both.outside));
+    metal->k = aur_vector_scale(metal->k, (float)(1.0 / both.outside));
+    return result;
 }

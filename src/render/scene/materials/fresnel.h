@@ -26,7 +26,7 @@ typedef struct aur_metal {
 } aur_metal;
 
 /* From `material` (the name of a metal, or "none": a perfect mirror), or `eta` and `k`, which have been read;
- * a perfect mirror by default. */
+ * a perfect mirror by default. Both are divided by `ext_eta`. */
 aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_error *error);
 
 /* Rows for tables of keys, of what aur_parameters_ior reads. */
@@ -46,6 +46,9 @@ aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_
                         "a metal's symbol such as Au; none reflects all")},                                  \
         {AUR_KEY_OF_VECTOR(struct_, "eta", metal.eta, -1e3, 1e3, NULL,                                       \
                            "instead of material, with k: index for R, G, B")},                               \
-    {                                                                                                        \
-        AUR_KEY_OF_VECTOR(struct_, "k", metal.k, -1e3, 1e3, NULL, "absorption for R, G, B")                  \
+        {AUR_KEY_OF_VECTOR(struct_, "k", metal.k, -1e3, 1e3, NULL, "absorption for R, G, B")}, {             \
+        AUR_KEY_READ_APART(AUR_KEY_ITEM, "ext_eta", "1", "index of refraction outside, or a substance"),     \
+            .minimum = 0.1, .maximum = 100.0, .words = (const char *const[]) {                               \
+            "number", "substance", NULL                                                                      \
+        }                                                                                                    \
     }

@@ -122,6 +122,19 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
                        looks_above(document, name) ? " and the folders above" : "");
 }
 
+/* Scenes from Windows have the other slash. */
+static aur_result find_with_slashes(const aur_xml_document *document, aur_location location, const char *name,
+                                    char **found, aur_error *error) {
+    char *const slashes = strdup(name);
+    if (slashes == NULL)
+        return aur_fail_memory(error);
+    for (char *at = slashes; *at != '\0'; ++at)
+        *at = *at == '\\' ? '/' : *at;
+    const aur_result result = aur_xml_find_folder(document, location, slashes, found, error);
+    free(slashes);
+    return result;
+}
+
 aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
                                char **found, aur_error *error) {
     *found = NULL;
@@ -133,6 +146,8 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
         *found = join(in, name);
     if (*found == NULL && looks_above(document, name))
         *found = join_above(location.file, name);
+    if (*found == NULL && strchr(name, '\\') != NULL)
+        return find_with_slashes(document, location, name, found, error);
     return *found != NULL ? AUR_OK : fail(document, location, name, error);
 }
 

@@ -258,6 +258,23 @@ static void XMLCALL on_text(void *user, const XML_Char *text, int length) {
                                     "text between elements: '%.*s'", length > 40 ? 40 : length, text));
 }
 
+/* Encodings that expat does not have: ASCII, and those of Windows and Latin as ISO 8859-1, from which they
+ * differ in letters of comments at most. */
+static int XMLCALL on_encoding(void *user, const XML_Char *name, XML_Encoding *encoding) {
+    static const char *const known[] = {"ascii",        "ansi",   "latin1",     "latin-1",
+                                        "windows-1252", "cp1252", "iso-8859-15"};
+    (void)user;
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
+        if (strcasecmp(name, known[i]) != 0)
+            continue;
+        memset(encoding, 0, sizeof *encoding);
+        for (int k = 0; k < 256; ++k)
+            encoding->map[k] = k;
+        return XML_STATUS_OK;
+    }
+    return XML_STATUS_ERROR;
+}
+
 static aur_result parse(file_reading *reader, const char *data, size_t size) {
     enum { CHUNK = 1 << 24 };
     do {
@@ -351,6 +368,12 @@ static aur_result read_xml(file_reading *reader, const char *data, size_t size) 
     XML_SetUserData(reader->expat, reader);
     XML_SetElementHandler(reader->expat, on_start, on_end);
     XML_SetCharacterDataHandler(reader->expat, on_text);
+    XML_SetUnknownEncodingHandler(reader->expat, on_encoding, NULL);
+    /* Other readers allow lines before the declaration. */
+    while (size > 0 && isspace((unsigned char)*data)) {
+        ++data;
+        --size;
+    }
     const aur_result result = parse(reader, data, size);
     XML_ParserFree(reader->expat);
     return result;
