@@ -222,7 +222,7 @@ const lab_experiment lab_marques_2013_gather = {
                "path tracing",
     .columns = columns,
     .plots = plots,
-    .seconds = 130,
+    .seconds = 70,
     .quick_seconds = 1,
     .run = run,
     .parameters = lab_scene_parameters,

@@ -102,7 +102,7 @@ const lab_experiment lab_integrate_coverage = {
     .rows = "function",
     .columns = columns,
     .takes_no_set = "it judges aur_integrate, which chooses its points",
-    .seconds = 1300,
+    .seconds = 550,
     .quick_seconds = 10,
     .run = run,
 };
