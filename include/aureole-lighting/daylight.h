@@ -159,6 +159,28 @@ AUR_EXPERIMENTAL aur_result aur_daylight_write(const char *path, const char *for
                                                const aur_daylight *results, aur_error *error)
     AUR_NONNULL(1, 2, 3, 5);
 
+/* --- coefficients */
+
+/* Patches of the sky with M x M parts of each Tregenza patch, and the ground: 144 M^2 + 2; M = 0 is 1. Patch
+ * 0 is the ground, the others are in the order of Radiance's reinhartb.cal: rows from the horizon up, in each
+ * row clockwise from north, the zenith last. */
+AUR_EXPERIMENTAL size_t aur_daylight_patch_count(size_t subdivision);
+
+/* Daylight coefficients of r, g, b (Tregenza and Waters 1983): the irradiance of each sensor for radiance 1
+ * of each patch, in sr, with the light that the scene reflects. coefficients[sensors->count][patches][3];
+ * `errors`, of the same shape, are their standard errors, or NULL. Of the options, those of weather and
+ * metrics have no effect. Errors: as aur_irradiance_estimate. */
+AUR_EXPERIMENTAL aur_result aur_daylight_coefficients(const aur_scene *scene, const aur_sensors_view *sensors,
+                                                      const aur_daylight_options *options,
+                                                      double *coefficients, double *errors, aur_error *error)
+    AUR_NONNULL(1, 2, 4);
+
+/* Writes coefficients[sensors][patches][3] as NPY (float64) where the name ends in .npy, else as a matrix of
+ * Radiance (float), which dctimestep and rmtxop read. Errors: OPEN, WRITE, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_daylight_coefficients_write(const char *path, size_t sensors,
+                                                            size_t subdivision, const double *coefficients,
+                                                            aur_error *error) AUR_NONNULL(1, 4);
+
 #ifdef __cplusplus
 }
 #endif

@@ -68,12 +68,12 @@ from ._weights import (
 )
 
 if TYPE_CHECKING:
-    from ._daylight import Daylight, daylight
+    from ._daylight import Bifacial, Daylight, bifacial, daylight, daylight_coefficients
+    from ._factors import Radiosities, ViewFactors, radiosities, view_factor_polygons, viewfactors
     from ._render import (
         Irradiance,
         Scene,
         SceneDescription,
-        ViewFactors,
         compare,
         flip,
         irradiance,
@@ -81,8 +81,6 @@ if TYPE_CHECKING:
         render,
         render_library,
         render_tables,
-        view_factor_polygons,
-        viewfactors,
         write_image,
     )
 
@@ -92,6 +90,7 @@ __all__ = [
     "ArgumentError",
     "AureoleWarning",
     "Average",
+    "Bifacial",
     "CancelledError",
     "Daylight",
     "Directions",
@@ -110,6 +109,7 @@ __all__ = [
     "OutOfMemoryError",
     "PointSet",
     "Potential",
+    "Radiosities",
     "Report",
     "Rotations",
     "Row",
@@ -121,8 +121,10 @@ __all__ = [
     "ViewFactors",
     "WriteError",
     "average",
+    "bifacial",
     "compare",
     "daylight",
+    "daylight_coefficients",
     "estimate",
     "fibonacci_nearest",
     "flip",
@@ -142,6 +144,7 @@ __all__ = [
     "names",
     "point_group",
     "points",
+    "radiosities",
     "read",
     "read_image",
     "register_set",
@@ -183,7 +186,11 @@ def __getattr__(name: str) -> object:
     if name in ("lab", "qmc", "plot"):
         return importlib.import_module(f"{__name__}.{name}")
     if name in __all__:
-        module = "_daylight" if name.lower() == "daylight" else "_render"
+        homes = {
+            "_daylight": ("Bifacial", "Daylight", "bifacial", "daylight", "daylight_coefficients"),
+            "_factors": ("Radiosities", "ViewFactors", "radiosities", "view_factor_polygons", "viewfactors"),
+        }
+        module = next((home for home, names in homes.items() if name in names), "_render")
         return getattr(importlib.import_module(f"{__name__}.{module}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import Any, Mapping, NamedTuple, Optional, Union
+from typing import Any, Callable, Mapping, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -106,3 +106,82 @@ def daylight(
         (summary.spatial_autonomy_least, summary.spatial_autonomy_most), summary.sunlight_exposure,
     )  # fmt: skip
 
+
+def daylight_coefficients(
+    scene: Union[Scene, Path], positions: ArrayLike, normals: ArrayLike, *, directions: int = 0, patches: int = 1,
+    up: ArrayLike = (0, 0, 0), north: ArrayLike = (0, 0, 0), max_depth: int = 0, set: Optional[str] = None, seed: int = 0,
+    threads: int = 0, definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Irradiance of sensors for radiance 1 of the ground and each patch of the sky: (n, patches, 3), and its standard errors.
+
+    The order is that of Radiance's gendaymtx: the ground, then `patches` x `patches` parts of Tregenza's 145 from the horizon up,
+    clockwise from north.
+    """
+    library, texts = _lighting(), Texts()
+    lib = library.lib
+    loaded, where, along = _scene(scene, definitions), rows(positions, 3, "positions"), rows(normals, 3, "normals")
+    if len(where) != len(along):
+        raise ArgumentError(f"{len(where)} positions and {len(along)} normals")
+    view = library.options("sensors_view", count=len(where), positions=library.input(where), normals=library.input(along))
+    found = np.zeros((2, len(where), lib.aur_daylight_patch_count(patches), 3))
+    with _Call(progress) as call:
+        options = library.options(
+            "daylight_options", set=texts(set), directions=directions, max_depth=max_depth, subdivision=patches,
+            up=tuple(np.asarray(up, float)), north=tuple(np.asarray(north, float)), seed=seed, threads=threads,
+        )  # fmt: skip
+        library.call(
+            lib.aur_daylight_coefficients, loaded._scene, view, call.attach(options), library.output(found[0]), library.output(found[1])
+        )
+    return found[0], found[1]
+
+
+class Bifacial(NamedTuple):
+    """Irradiance of the fronts and rears of solar modules: arrays (n, hours) in W/m2, 0 in hours without a normal."""
+
+    front: Array
+    rear: Array
+    front_error: Array  #: standard errors
+    rear_error: Array
+    gain: Array  #: (n,): bifacial gain, percent: the sum of `rear` for that of `front`
+    gain_error: Array  #: (n,): its standard error at most: as if the errors of all hours had one sign
+
+
+def bifacial(
+    scene: Union[Scene, Path, Callable[[Array], Union[Scene, Path]]],
+    positions: Union[ArrayLike, Callable[[Array], ArrayLike]], normals: ArrayLike, weather: Path, **options: Any,
+) -> Bifacial:  # fmt: skip
+    """Irradiance of the fronts and rears of solar modules through the hours of a weather file, also of trackers.
+
+    `normals` is one normal of the fronts, or a table (hours, 3) with zeros for hours to leave out. `positions` (n, 3) on the modules,
+    and `scene`, may be functions of a normal, which return the places and the scene with the modules turned to it. Each distinct normal
+    is one run: round the angles of a tracker, say to 5 degrees. `options` are those of `daylight`.
+    """
+    table = np.nan_to_num(np.atleast_2d(np.asarray(normals, dtype=float)))
+    if table.ndim != 2 or table.shape[1] != 3:
+        raise ArgumentError(f"normals must have the shape (3,) or (hours, 3), not {np.shape(normals)}")
+    distinct, which = np.unique(table.round(9), axis=0, return_inverse=True)
+    sums: Optional[np.ndarray] = None
+    for i, normal in enumerate(distinct):
+        if not normal.any():
+            continue
+        places = rows(positions(normal) if callable(positions) else positions, 3, "positions")
+        count = len(places)
+        year = daylight(
+            scene(normal) if callable(scene) else scene, np.vstack([places, places]),
+            np.repeat([normal, -normal], count, axis=0), weather, **{**options, "efficacy": "none"},
+        )  # fmt: skip
+        if len(table) not in (1, year.hours.shape[1]):
+            raise ArgumentError(f"normals has {len(table)} rows, and the weather {year.hours.shape[1]} hours")
+        if sums is None:
+            sums = np.zeros((2, 2 * count, year.hours.shape[1]))
+        here = np.broadcast_to(which.reshape(-1) == i, year.hours.shape[1])
+        sums[:, :, here] = np.stack([year.hours, year.hours_error])[:, :, here]
+    if sums is None:
+        raise ArgumentError("no hour has a normal")
+    count = sums.shape[1] // 2
+    front, rear = np.nansum(sums[0, :count], 1), np.nansum(sums[0, count:], 1)
+    errors = np.nansum(sums[1], 1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        gain = rear / front
+        gain_error = (errors[count:] + gain * errors[:count]) / front
+    return Bifacial(sums[0, :count], sums[0, count:], sums[1, :count], sums[1, count:], 100 * gain, 100 * gain_error)

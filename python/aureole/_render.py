@@ -1,4 +1,4 @@
-"""Pictures, view factors and irradiance by libaureole-lighting and libaureole-render, which are loaded when they are first used."""
+"""Images and irradiance by libaureole-lighting and libaureole-render, which are loaded when they are first used."""
 
 from __future__ import annotations
 
@@ -315,74 +315,6 @@ def flip(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path]) -> 
     (first, _a), (second, _b), image = _wrap(reference), _wrap(picture), ffi.new("aur_image **")
     library.call(library.lib.aur_image_flip, first, second, image)
     return _picture(library.own("image", image))[0][:, :, 0]
-
-
-class ViewFactors(NamedTuple):
-    """View factors between rows: facets, or groups of them. The matrix is in compressed rows, columns ascending."""
-
-    starts: NDArray[np.uint64]  #: (rows + 1,): row i has the entries starts[i] .. starts[i+1]-1
-    columns: NDArray[np.uint32]
-    values: Array
-    half_widths: Array  #: of intervals; 0 for closed forms
-    areas: Array  #: (rows,), in squared units of length
-    sky: Array  #: (rows,): what leaves the scene
-    back: Array  #: (rows,): what arrives at backs of facets that only see on their fronts
-    names: list[Optional[str]]  #: of groups; None where rows are single facets
-
-    def dense(self) -> Array:
-        """All factors, (rows, rows)."""
-        matrix = np.zeros((len(self.areas), len(self.areas)))
-        matrix[np.repeat(np.arange(len(self.areas)), np.diff(self.starts.astype(np.int64))), self.columns] = self.values
-        return matrix
-
-
-def viewfactors(
-    path: Path, *, group: bool = False, both_sides: bool = False, rays: int = 0, randomizations: int = 0,
-    set: Optional[str] = None, seed: int = 0, rays_only: bool = False, confidence: float = 0.0, threads: int = 0,
-    half_planes: int = 0, definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
-) -> ViewFactors:  # fmt: skip
-    """View factors between the facets of a mesh (.obj, .ply) or a scene's meshes, or between their groups.
-
-    `rays` from each facet and side, 0: 2048, by `randomizations` of a set of four dimensions, from which the intervals of
-    `confidence` (0: 0.95) come; pairs that see each other wholly have closed forms unless `rays_only`, and the sky is found
-    by `half_planes`, 0: three for two rays. Each row with its sky and back adds up to 1.
-    """
-    library, texts, facets = _lighting(), Texts(), ffi.new("aur_facets **")
-    lib = library.lib
-    with _Call(progress) as call:
-        given = library.options(
-            "facets_options", group=group, both_sides=both_sides, **texts.definitions(definitions)
-        )  # fmt: skip
-        library.call(lib.aur_facets_load, encode(path), call.attach(given, progress=False), facets)
-        loaded = library.own("facets", facets)
-    with _Call(progress) as call:
-        options = library.options(
-            "view_factors_options", rays=rays, randomizations=randomizations, set=texts(set), seed=seed,
-            rays_only=rays_only, confidence=confidence, threads=threads, half_planes=half_planes,
-        )  # fmt: skip
-        factors = library.make("view_factors", loaded, call.attach(options))
-    matrix = library.options("view_factors_matrix")
-    library.call(lib.aur_view_factors_get_matrix, factors, matrix)
-    count = matrix.rows
-    starts = kept(library, factors, matrix.starts, (count + 1,), "<u8")
-    entries = int(starts[count])
-    return ViewFactors(
-        starts, kept(library, factors, matrix.columns, (entries,), "<u4"),
-        kept(library, factors, matrix.values, (entries,)), kept(library, factors, matrix.half_widths, (entries,)),
-        kept(library, factors, matrix.areas, (count,)), kept(library, factors, matrix.sky, (count,)),
-        kept(library, factors, matrix.back, (count,)),
-        [library.text(lib.aur_facets_name(loaded, row)) for row in range(count)],
-    )  # fmt: skip
-
-
-def view_factor_polygons(from_corners: ArrayLike, to_corners: ArrayLike) -> float:
-    """The view factor from a plane convex polygon (n, 3) to another (m, 3), seen from their fronts (Sparrow 1963)."""
-    library, value = _lighting(), ffi.new("double *")
-    first, second = rows(from_corners, 3, "from_corners"), rows(to_corners, 3, "to_corners")
-    library.call(
-        library.lib.aur_view_factor_polygons, len(first), library.input(first), len(second), library.input(second), value
-    )
-    return value[0]
 
 
 class Irradiance(NamedTuple):

@@ -136,6 +136,74 @@ class Render(unittest.TestCase):
         with self.assertRaises(aureole.OpenError):
             aureole.daylight(scene, positions, normals, "none.epw")
 
+    def test_daylight_coefficients(self):
+        with open("wall.rad", "w") as file:
+            file.write("void plastic grey 0 0 5 .8 .5 .2 0 0\ngrey polygon wall 0 0 12 -3 2 0 3 2 0 3 2 3 -3 2 3\n")
+        positions, normals = [[0, 0, 0.5], [0, 0, 1], [0, 0, -50]], [[0, 0, 1], [0, 1, 0], [1, 0, 0]]
+        np.save("sensors.npy", np.hstack([positions, normals]))
+        program("irradiance", "wall.rad", "--sensors", "sensors.npy", "--coefficients", "--patches", "reinhart:2", "-n", "1024", "-o", "c.npy")
+        program("irradiance", "wall.rad", "--sensors", "sensors.npy", "--coefficients", "--patches", "reinhart:2", "-n", "1024", "-o", "c.mtx")
+        found, error = aureole.daylight_coefficients("wall.rad", positions, normals, patches=2, directions=1024)
+        self.assertTrue((found == np.load("c.npy")).all() and found.shape == error.shape == (3, 578, 3))
+        head, data = open("c.mtx", "rb").read().split(b"\n\n", 1)
+        self.assertIn(b"NROWS=3\nNCOLS=578\nNCOMP=3\n", head)
+        self.assertTrue((np.frombuffer(data, "f4").reshape(found.shape) == found.astype("f4")).all())
+        # Under sky and ground of radiance 1 the same light as by tracing it; far below, a sensor to the east sees half of each.
+        program("irradiance", "wall.rad", "--sensors", "sensors.npy", "--sky", "uniform", "--sky-lux", str(179 * np.pi), "--ground-albedo", "1", "-n", "65536", "-o", "uniform.npy")  # fmt: skip
+        away = found.sum(1) - np.load("uniform.npy")[:, 3:6]
+        self.assertLess(abs(away).max(), 0.02)
+        fine, _ = aureole.daylight_coefficients("wall.rad", positions[2:], normals[2:], patches=2, directions=1 << 17)
+        east = fine[0, 1 + np.arange(60), 0]  # the lowest row, from north
+        turn = np.radians(6 * np.arange(60))
+        height = np.sin(np.radians(90 / 14.5))
+        truth = np.maximum(np.sin(turn), 0) * 2 * np.sin(np.radians(3)) * (np.arcsin(height) + height * np.sqrt(1 - height**2)) / 2
+        self.assertLess(abs(east - truth).max(), 0.1 * truth.max())
+        self.assertAlmostEqual(fine[0, 0, 0], np.pi / 2, delta=0.001)
+
+    def test_bifacial(self):
+        with open("none.rad", "w") as file:
+            file.write("void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey polygon far 0 0 9 0 0 -900 1 0 -900 0 1 -900\n")
+        with open("two.epw", "w") as file:
+            year = subprocess.run(["bash", f"{TREE}/scripts/weather.sh"], stdout=subprocess.PIPE, check=True, text=True).stdout
+            file.writelines(line + "\n" for line in year.splitlines()[:56])
+        east, west = [-0.6, 0, 0.8], [0.6, 0, 0.8]
+        normals = np.array([[east if hour % 24 < 12 else west for hour in range(48)]][0])
+        normals[:3] = 0
+        warnings.filterwarnings("ignore", "two.epw: the file has 48")
+        found = aureole.bifacial("none.rad", [[0, 0, 1]], normals, "two.epw", directions=1024, ground_albedo=0.5)
+        seen = []
+        for normal in (east, west):
+            fixed = aureole.bifacial(lambda n: "none.rad", lambda n: [[0, 0, 1]], normal, "two.epw", directions=1024, ground_albedo=0.5)
+            seen.append(fixed)
+        morning = np.arange(48) % 24 < 12
+        morning[:3] = False
+        self.assertTrue((found.front[0][morning] == seen[0].front[0][morning]).all())
+        self.assertTrue((found.rear[0][24 + 12 :] == seen[1].rear[0][24 + 12 :]).all() and not found.front[0][:3].any())
+        self.assertAlmostEqual(found.gain[0], 100 * found.rear.sum() / found.front.sum())
+        # The first two days are clear: an unshaded rear sees (1 + .8) / 2 of the ground, which has half of the global irradiance.
+        level = aureole.bifacial("none.rad", [[0, 0, 1]], [0, 0, 1], "two.epw", directions=1024, ground_albedo=0.5)
+        self.assertLess(abs(level.gain[0] - 50), 4 * level.gain_error[0] + 0.01)
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.bifacial("none.rad", [[0, 0, 1]], normals[:24], "two.epw", directions=64)
+
+    def test_exchange(self):
+        program("viewfactors", SCENE, "--group", "--rays", "64", "--radiosity", "0.5", "--emission", "1", "-o", "b.csv")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = aureole.radiosities(SCENE, {"*": 0.5}, emission=1, group=True, rays=64)
+            table = np.genfromtxt("b.csv", delimiter=",", names=True)
+            self.assertTrue(np.allclose(found.radiosity, table["radiosity"], rtol=1e-8))
+            script = aureole.viewfactors(SCENE, group=True, rays=64, script=0.5)
+            with open("emittances.csv", "w") as file:
+                file.write("name,emittance\n*,.5\n")
+            program("viewfactors", SCENE, "--group", "--rays", "64", "--surfaces", "emittances.csv", "--script-f", "-o", "script.npz")
+            self.assertTrue((script.values == np.load("script.npz")["data"]).all())
+            factors = aureole.viewfactors(SCENE, group=True, rays=64, error=0.02)
+            self.assertLess(factors.half_widths.max(), 0.02)
+            for bad in ({"reflectance": {"none": 1}}, {"reflectance": [1, 2]}, {"reflectance": 0.5, "emittance": 0.5}, {}):
+                with self.assertRaises(aureole.ArgumentError):
+                    aureole.radiosities(SCENE, group=True, rays=64, **bad)
+
     def test_view_factors(self):
         program("viewfactors", SCENE, "--group", "--rays", "256", "-o", "factors.npz")
         expected = np.load("factors.npz")

@@ -1,5 +1,6 @@
 #include "lighting/daylight/coefficients.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "points/base/random.h"
@@ -16,15 +17,19 @@ static void add_light(void *user, size_t lane, aur_vector direction, aur_vector 
                        aur_dot3(world, frame->up)};
     aur_normalize3(local);
     const size_t patch = aur_sky_patches_find(c->patches, local);
-    const double value = aur_dot3(c->luminance, rgb) / (patch == 0 ? AUR_DAYLIGHT_GROUND : 1.0);
-    c->all[patch * AUR_DAYLIGHT_LANES + lane] += value;
-    if (!straight)
-        c->reflected[patch * AUR_DAYLIGHT_LANES + lane] += value;
+    const double ground = patch == 0 ? AUR_DAYLIGHT_GROUND : 1.0;
+    for (size_t channel = 0; channel < c->channels; ++channel) {
+        const size_t at = (channel * c->patches->count + patch) * AUR_DAYLIGHT_LANES + lane;
+        const double value = aur_dot3(c->weights[channel], rgb) / ground;
+        c->all[at] += value;
+        if (!straight)
+            c->reflected[at] += value;
+    }
 }
 
 void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
                            const aur_coefficients *coefficients, aur_sensor_sums *look) {
-    const size_t count = coefficients->patches->count * AUR_DAYLIGHT_LANES;
+    const size_t count = coefficients->channels * coefficients->patches->count * AUR_DAYLIGHT_LANES;
     memset(coefficients->all, 0, count * sizeof *coefficients->all);
     memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
     group->sensor.from_sky = add_light;
@@ -35,6 +40,36 @@ void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, c
         coefficients->all[i] *= scale;
         coefficients->reflected[i] *= scale;
     }
+}
+
+aur_result aur_coefficient_trace_create(const aur_scene *scene, const aur_daylight_options *options,
+                                        aur_coefficient_trace *trace, aur_error *error) {
+    const aur_daylight_options *const o = options;
+    *trace = (aur_coefficient_trace){.path = {.max_depth = o->max_depth > 0 && o->max_depth < UINT32_MAX
+                                                               ? (uint32_t)o->max_depth
+                                                               : UINT32_MAX,
+                                              .rr_depth = 5},
+                                     .panes = aur_panes_exist(scene)};
+    aur_result result = aur_sky_patches_create(o->subdivision, &trace->patches, error);
+    if (result == AUR_OK)
+        result = aur_open_sky_create(scene, o->ground_albedo > 0.0 ? AUR_DAYLIGHT_GROUND : 0.0, o->up,
+                                     o->north, &trace->sky, error);
+    if (result == AUR_OK)
+        result = aur_sensor_rule_create(o->set, (o->directions + AUR_DAYLIGHT_LANES - 1) / AUR_DAYLIGHT_LANES,
+                                        o->seed, &o->warnings, &trace->rule, error);
+    if (result == AUR_OK)
+        result = aur_path_prepare(&trace->path, trace->sky.scene, error);
+    if (result == AUR_OK)
+        result = aur_sampler_create("sobol", trace->rule.count, NULL, &trace->sampler, error);
+    return result;
+}
+
+void aur_coefficient_trace_release(aur_coefficient_trace *trace) {
+    aur_sensor_rule_release(&trace->rule);
+    aur_sky_patches_release(&trace->patches);
+    aur_open_sky_release(&trace->sky);
+    aur_sampler_destroy(trace->sampler);
+    free(trace->path.classes);
 }
 
 /* Sixteen rays to the disk of the sun: uniform by solid angle. */
@@ -62,7 +97,7 @@ static void set_rays(aur_packet *packet, const aur_sensor_point *place, const do
 static double passed(const aur_path_group *group, size_t lane, const aur_coefficients *coefficients) {
     double left[3];
     aur_vector_to_doubles(aur_path_group_passed(group, lane, INFINITY, 0), left);
-    return aur_dot3(coefficients->luminance, left);
+    return aur_dot3(coefficients->weights[0], left);
 }
 
 void aur_sun_seen(aur_path_group *group, const aur_sensor_point *place, const aur_coefficients *coefficients,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <aureole-lighting/daylight.h>
+#include <stdio.h>
 
 #include "lighting/daylight/hours.h"
 #include "lighting/daylight/product.h"
@@ -14,11 +15,32 @@ static const double AUR_DAYLIGHT_GROUND = 0.25;
 typedef struct aur_coefficients {
     const aur_sky_patches *patches;
     const aur_open_sky *sky;
-    double luminance[3]; /* weights that add up to 1 */
-    /* [patches][16]: illuminance by radiance of each randomisation; of all light, and of what came by
-     * reflection. */
+    size_t channels;      /* 1 to 3 */
+    double weights[3][3]; /* of r, g, b in each channel */
+    /* [channels][patches][16]: illuminance by radiance of each randomisation; of all light, and of what came
+     * by reflection. */
     double *all, *reflected;
 } aur_coefficients;
+
+/* What all sensors share: the scene below an open sky, its patches, and directions. */
+typedef struct aur_coefficient_trace {
+    aur_path path;
+    bool panes;
+    aur_sampler *sampler;
+    aur_sensor_rule rule;
+    aur_sky_patches patches;
+    aur_open_sky sky;
+} aur_coefficient_trace;
+
+/* The options have their defaults filled in. Errors: as aur_daylight_estimate. Releases nothing on failure:
+ * aur_coefficient_trace_release does. */
+aur_result aur_coefficient_trace_create(const aur_scene *scene, const aur_daylight_options *options,
+                                        aur_coefficient_trace *trace, aur_error *error);
+void aur_coefficient_trace_release(aur_coefficient_trace *trace); /* may be zero */
+
+/* Defaults filled in, ranges checked. */
+aur_result aur_daylight_options_read(const aur_daylight_options *given, aur_daylight_options *options,
+                                     aur_error *error);
 
 /* Fills all[] and reflected[]. */
 void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_point *place,
@@ -52,3 +74,6 @@ void aur_daylight_measure_year(const aur_lit_hours *lit, const aur_daylight_opti
 aur_result aur_daylight_series_check(const char *path, aur_error *error);
 aur_result aur_daylight_series_write(const char *path, const aur_weather_view *weather, size_t sensors,
                                      const double *values, aur_error *error);
+
+/* The head of an NPY file (1.0) of float64 with this shape, filled with blanks to a multiple of 64 bytes. */
+void aur_daylight_npy_head(const char *shape, FILE *stream);

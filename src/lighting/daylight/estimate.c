@@ -15,12 +15,7 @@ typedef struct work {
     const aur_daylight_options *options;
     const aur_sensors_view *sensors;
     const aur_weather_view *weather;
-    aur_path path;
-    bool panes;
-    aur_sampler *sampler;
-    aur_sensor_rule rule;
-    aur_sky_patches patches;
-    aur_open_sky sky;
+    aur_coefficient_trace trace;
     aur_lit_hours lit;
     double *overcast; /* radiance of the patches for one lux outside */
     double *series;   /* NULL: not asked for */
@@ -61,7 +56,8 @@ static aur_result check_options(const aur_daylight_options *o, aur_error *error)
     return o->series != NULL ? aur_daylight_series_check(o->series, error) : AUR_OK;
 }
 
-static aur_result read_options(const aur_daylight_options *given, aur_daylight_options *o, aur_error *error) {
+aur_result aur_daylight_options_read(const aur_daylight_options *given, aur_daylight_options *o,
+                                     aur_error *error) {
     static const double REC709[3] = {0.2126, 0.7152, 0.0722};
     o->size = sizeof(aur_daylight_options);
     aur_daylight_options_init(o, NULL);
@@ -105,14 +101,16 @@ typedef struct room {
 } room;
 
 static bool make_room(const work *w, room *r) {
-    const size_t coefficients = w->patches.count * LANES, hours = aur_daylight_blocks(w->lit.count) * LANES;
+    const size_t coefficients = w->trace.patches.count * LANES,
+                 hours = aur_daylight_blocks(w->lit.count) * LANES;
     r->memory = malloc((2 * coefficients + 2 * hours + 2 * w->lit.count + 1) * sizeof *r->memory);
     if (r->memory == NULL)
         return false;
     const double *const weights = w->options->luminance, sum = weights[0] + weights[1] + weights[2];
-    r->coefficients = (aur_coefficients){.patches = &w->patches,
-                                         .sky = &w->sky,
-                                         .luminance = {weights[0] / sum, weights[1] / sum, weights[2] / sum},
+    r->coefficients = (aur_coefficients){.patches = &w->trace.patches,
+                                         .sky = &w->trace.sky,
+                                         .channels = 1,
+                                         .weights = {{weights[0] / sum, weights[1] / sum, weights[2] / sum}},
                                          .all = r->memory,
                                          .reflected = r->memory + coefficients};
     r->all = r->coefficients.reflected + coefficients;
@@ -125,10 +123,10 @@ static bool make_room(const work *w, room *r) {
 static void multiply(const work *w, const room *r) {
     const aur_coefficients *const c = &r->coefficients;
     AUR_KERNEL_HERE(aur_daylight_product)
-    (aur_daylight_blocks(w->lit.count), w->patches.count, w->lit.radiance, c->all, r->all);
+    (aur_daylight_blocks(w->lit.count), w->trace.patches.count, w->lit.radiance, c->all, r->all);
     for (size_t i = 0; i < w->lit.count; ++i) {
         const aur_lit_hour *const hour = &w->lit.hours[i];
-        const double angle = aur_sky_patch_angle(&w->patches, hour->patch);
+        const double angle = aur_sky_patch_angle(&w->trace.patches, hour->patch);
         const double *const reflected = c->reflected + hour->patch * LANES;
         for (size_t k = 0; k < LANES; ++k)
             r->all[i * LANES + k] += r->sun[i * LANES + k] + hour->direct / angle * reflected[k];
@@ -154,17 +152,18 @@ static void estimate_sensor(const work *w, aur_path_group *group, const room *r,
     aur_sensor_point place;
     aur_sensor_sums look;
     double overcast[LANES] = {0.0};
-    aur_sensor_point_create(w->sky.scene, &none, w->sensors->positions + 3 * sensor,
+    aur_sensor_point_create(w->trace.sky.scene, &none, w->sensors->positions + 3 * sensor,
                             w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
-    aur_coefficients_find(group, &w->rule, &place, &r->coefficients, &look);
+    aur_coefficients_find(group, &w->trace.rule, &place, &r->coefficients, &look);
     aur_sun_seen(group, &place, &r->coefficients, &w->lit, r->sun);
     multiply(w, r);
-    for (size_t p = 0; p < w->patches.count; ++p)
+    for (size_t p = 0; p < w->trace.patches.count; ++p)
         for (size_t k = 0; k < LANES; ++k)
             overcast[k] += w->overcast[p] * r->coefficients.all[p * LANES + k];
     aur_daylight *const found = &w->results[sensor];
-    *found = (aur_daylight){
-        .directions = w->rule.count * LANES, .on_surface = place.on_surface, .doubtful = place.doubtful};
+    *found = (aur_daylight){.directions = w->trace.rule.count * LANES,
+                            .on_surface = place.on_surface,
+                            .doubtful = place.doubtful};
     found->dark = (double)look.dark / (double)found->directions;
     const aur_daylight_year year = {r->all, r->sun, overcast};
     aur_daylight_measure_year(&w->lit, w->options, &year, r->scratch, found);
@@ -176,11 +175,11 @@ enum { BLOCK = 4 }; /* sensors of a piece of work */
 
 static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;
-    aur_path_group group = {.sensor.panes = w->panes};
+    aur_path_group group = {.sensor.panes = w->trace.panes};
     room r = {.memory = NULL};
     if (!make_room(w, &r))
         return AUR_ERROR_MEMORY;
-    aur_path_group_prepare(&w->path, w->sky.scene, w->sampler, &group);
+    aur_path_group_prepare(&w->trace.path, w->trace.sky.scene, w->trace.sampler, &group);
     for (size_t i = index * BLOCK; i < (index + 1) * BLOCK && i < w->sensors->count; ++i)
         estimate_sensor(w, &group, &r, i);
     free(r.memory);
@@ -191,26 +190,16 @@ static aur_result estimate_block(void *context, size_t index) {
 
 static aur_result prepare(work *w, const aur_scene *scene, aur_error *error) {
     const aur_daylight_options *const o = w->options;
-    aur_result result = aur_sky_patches_create(o->subdivision, &w->patches, error);
+    aur_result result = aur_coefficient_trace_create(scene, o, &w->trace, error);
     if (result == AUR_OK)
-        result = aur_lit_hours_create(w->weather, o, &w->patches, &w->lit, error);
-    if (result == AUR_OK)
-        result = aur_open_sky_create(scene, o->ground_albedo > 0.0 ? AUR_DAYLIGHT_GROUND : 0.0, o->up,
-                                     o->north, &w->sky, error);
-    if (result == AUR_OK)
-        result = aur_sensor_rule_create(o->set, (o->directions + LANES - 1) / LANES, o->seed, &o->warnings,
-                                        &w->rule, error);
-    if (result == AUR_OK)
-        result = aur_path_prepare(&w->path, w->sky.scene, error);
-    if (result == AUR_OK)
-        result = aur_sampler_create("sobol", w->rule.count, NULL, &w->sampler, error);
+        result = aur_lit_hours_create(w->weather, o, &w->trace.patches, &w->lit, error);
     if (result != AUR_OK)
         return result;
-    w->overcast = malloc(w->patches.count * sizeof *w->overcast);
+    w->overcast = malloc(w->trace.patches.count * sizeof *w->overcast);
     if (w->overcast == NULL)
         return aur_fail_memory(error);
     const aur_sky_model overcast = aur_sky_model_overcast();
-    aur_sky_patches_fill(&w->patches, &overcast, 1.0, w->overcast);
+    aur_sky_patches_fill(&w->trace.patches, &overcast, 1.0, w->overcast);
     w->overcast[0] = o->ground_albedo / AUR_PI;
     if (o->series == NULL)
         return AUR_OK;
@@ -247,10 +236,10 @@ static void summarize(const work *w, aur_daylight_summary *own) {
 static void warn(const work *w) {
     const aur_warnings *const to = &w->options->warnings;
     const aur_lit_hours *const lit = &w->lit;
-    if (w->sky.lamps > 0)
+    if (w->trace.sky.lamps > 0)
         aur_warn_at(to, (aur_location){.file = NULL},
                     "%zu lamps of the scene are left out: a year of weather is light of the sky and the sun",
-                    w->sky.lamps);
+                    w->trace.sky.lamps);
     if (lit->unknown > 0)
         aur_warn_at(
             to, (aur_location){.file = w->weather->file, .line = w->weather->hours[lit->first_unknown].line},
@@ -276,7 +265,7 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
     aur_sensors_view sensors = {.size = sizeof sensors};
     aur_weather_view weather = {.size = sizeof weather};
     aur_daylight_summary own = {.size = sizeof own};
-    aur_result result = read_options(given_options, &options, error);
+    aur_result result = aur_daylight_options_read(given_options, &options, error);
     if (result == AUR_OK)
         result = aur_options_read(given, sizeof sensors, &sensors, "aur_sensors_view", error);
     if (result == AUR_OK)
@@ -288,15 +277,7 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
         result = aur_sensors_check(&sensors, AUR_ERROR_ARGUMENT, error);
     if (result != AUR_OK)
         return result;
-    work w = {.options = &options,
-              .sensors = &sensors,
-              .weather = &weather,
-              .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
-                                        ? (uint32_t)options.max_depth
-                                        : UINT32_MAX,
-                       .rr_depth = 5},
-              .panes = aur_panes_exist(scene),
-              .results = results};
+    work w = {.options = &options, .sensors = &sensors, .weather = &weather, .results = results};
     result = prepare(&w, scene, error);
     if (result == AUR_OK) {
         aur_weather_warn(&weather, &options.warnings);
@@ -314,12 +295,8 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
         if (summary != NULL)
             result = aur_description_write(&own, sizeof own, summary, "aur_daylight_summary", error);
     }
-    aur_sensor_rule_release(&w.rule);
     aur_lit_hours_release(&w.lit);
-    aur_sky_patches_release(&w.patches);
-    aur_open_sky_release(&w.sky);
-    aur_sampler_destroy(w.sampler);
-    free(w.path.classes);
+    aur_coefficient_trace_release(&w.trace);
     free(w.overcast);
     free(w.series);
     return result;

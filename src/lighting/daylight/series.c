@@ -18,14 +18,19 @@ aur_result aur_daylight_series_check(const char *path, aur_error *error) {
                           "the series of hours goes to a file that ends in .npy or .csv, not to '%s'", path);
 }
 
-/* NPY 1.0: the header is filled with blanks to a multiple of 64 bytes. */
-static void write_npy(size_t sensors, size_t hours, const double *values, FILE *stream) {
+void aur_daylight_npy_head(const char *shape, FILE *stream) {
     char header[128];
-    const int length = aur_format(header, sizeof header,
-                                  "{'descr': '%sf8', 'fortran_order': False, 'shape': (%zu, 2, %zu), }",
-                                  __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "<" : ">", sensors, hours);
+    const int length =
+        aur_format(header, sizeof header, "{'descr': '%sf8', 'fortran_order': False, 'shape': (%s), }",
+                   __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "<" : ">", shape);
     fwrite("\x93NUMPY\x01\x00\x76\x00", 1, 10, stream);
     fprintf(stream, "%s%*s\n", header, 0x76 - 1 - length, "");
+}
+
+static void write_npy(size_t sensors, size_t hours, const double *values, FILE *stream) {
+    char shape[64];
+    aur_format(shape, sizeof shape, "%zu, 2, %zu", sensors, hours);
+    aur_daylight_npy_head(shape, stream);
     fwrite(values, sizeof *values, 2 * sensors * hours, stream);
 }
 

@@ -304,6 +304,17 @@ static void years(const aur_scene *scene) {
     accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, &summary, &error),
            &error);
     require(summary.hours == 3650 && result.value[AUR_DAYLIGHT_AUTONOMY] == 100.0, "aur_daylight_estimate");
+    double coefficients[146 * 3], errors[146 * 3];
+    options.subdivision = 7;
+    refuse(aur_daylight_coefficients(scene, &sensors, &options, coefficients, errors, &error),
+           AUR_ERROR_ARGUMENT, &error);
+    options.subdivision = 1;
+    accept(aur_daylight_coefficients(scene, &sensors, &options, coefficients, errors, &error), &error);
+    require(aur_daylight_patch_count(1) == 146 && errors[0] >= 0.0, "aur_daylight_coefficients");
+    accept(aur_daylight_coefficients_write("calls.mtx", 1, 1, coefficients, &error), &error);
+    remove("calls.mtx");
+    refuse(aur_daylight_coefficients_write("no such folder/calls.mtx", 1, 1, coefficients, &error),
+           AUR_ERROR_WRITE, &error);
     accept(aur_daylight_write("calls.csv", "csv", &sensors, sizeof result, &result, &error), &error);
     remove("calls.csv");
     refuse(aur_daylight_write("calls.csv", "cvs", &sensors, sizeof result, &result, &error), AUR_ERROR_NAME,

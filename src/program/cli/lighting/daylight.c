@@ -137,12 +137,18 @@ const cli_option cli_daylight_options[] = {
          cli_daylight, options.series, "series", "FILE", NULL,
          "write the illuminances of all hours: .npy (sensors x 2 x hours, with standard errors) or .csv"),
      .content = "file", .writes = true},
+    {CLI_FLAG(
+        cli_daylight, coefficients, "coefficients",
+        "instead of a year, write daylight coefficients of the ground and the patches of --patches as a "
+        "matrix for dctimestep, or as .npy (sensors x patches x 3)")},
     {.key = {0}}};
 
-/* Whether an option is for --sky as well, which is given. */
+/* Whether an option is for --sky or --coefficients as well, which is given. */
 static bool is_shared(const cli_call *call, const char *name) {
-    return cli_given(call, "sky") != NULL &&
-           (strcmp(name, "up") == 0 || strcmp(name, "north") == 0 || strcmp(name, "ground-albedo") == 0);
+    const bool coefficients = cli_given(call, "coefficients") != NULL;
+    const bool frame = strcmp(name, "up") == 0 || strcmp(name, "north") == 0;
+    return (cli_given(call, "sky") != NULL && (frame || strcmp(name, "ground-albedo") == 0)) ||
+           (coefficients && (frame || strcmp(name, "patches") == 0 || strcmp(name, "coefficients") == 0));
 }
 
 bool cli_daylight_check(const cli_call *call) {
@@ -154,9 +160,17 @@ bool cli_daylight_check(const cli_call *call) {
             cli_bad_usage("irradiance: --%s needs --weather FILE", option->key.name);
             return false;
         }
-    for (size_t i = 0; i < sizeof without / sizeof without[0] && weather; ++i)
+    const bool coefficients = cli_given(call, "coefficients") != NULL;
+    const char *const with = weather ? "weather" : "coefficients";
+    for (size_t i = 0; i < sizeof without / sizeof without[0] && (weather || coefficients); ++i)
         if (cli_given(call, without[i]) != NULL) {
-            cli_bad_usage("irradiance: --%s cannot be used with --weather", without[i]);
+            cli_bad_usage("irradiance: --%s cannot be used with --%s", without[i], with);
+            return false;
+        }
+    static const char *const others[] = {"weather", "sky", "lamp", "to", "json", "illuminance"};
+    for (size_t i = 0; i < sizeof others / sizeof others[0] && coefficients; ++i)
+        if (cli_given(call, others[i]) != NULL) {
+            cli_bad_usage("irradiance: --%s cannot be used with --coefficients", others[i]);
             return false;
         }
     return true;
@@ -181,6 +195,23 @@ static aur_result take_schedule(cli_daylight *given, size_t count, bool **schedu
     given->options.schedule = *schedule;
     given->options.schedule_count = count;
     return read_schedule(given->schedule, count, *schedule, error);
+}
+
+aur_result cli_daylight_coefficients(cli_daylight *given, const aur_scene *scene,
+                                     const aur_sensors_view *sensors, const char *output, aur_error *error) {
+    given->options.size = sizeof given->options;
+    const size_t patches = aur_daylight_patch_count(given->options.subdivision);
+    double *const coefficients = calloc(sensors->count * 3, patches * sizeof *coefficients);
+    if (coefficients == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors and %zu patches",
+                        sensors->count, patches);
+    aur_result result = aur_daylight_coefficients(scene, sensors, &given->options, coefficients, NULL, error);
+    cli_progress_clear();
+    if (result == AUR_OK)
+        result = aur_daylight_coefficients_write(output, sensors->count, given->options.subdivision,
+                                                 coefficients, error);
+    free(coefficients);
+    return result;
 }
 
 aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,

@@ -172,8 +172,10 @@ static aur_result estimate_year(irradiance_command *given, const aur_scene *scen
     year->progress = estimate->progress;
     year->warnings = estimate->warnings;
     memcpy(year->luminance, estimate->luminance, sizeof year->luminance);
-    return cli_daylight_run(&given->daylight, scene, sensors, given->output, given->format,
-                            given->common.quiet, error);
+    return given->daylight.coefficients
+               ? cli_daylight_coefficients(&given->daylight, scene, sensors, given->output, error)
+               : cli_daylight_run(&given->daylight, scene, sensors, given->output, given->format,
+                                  given->common.quiet, error);
 }
 
 /* In the time of a particle: a path from a sensor takes that of two. */
@@ -326,7 +328,7 @@ static int run(const cli_call *call) {
     if (result == AUR_OK && given->sensors == NULL)
         result = place_grid(given, scene, &sensors, &error);
     if (result == AUR_OK)
-        result = given->daylight.weather != NULL
+        result = given->daylight.weather != NULL || given->daylight.coefficients
                      ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)
                      : estimate(given, scene, aur_sensors_get_view(sensors), &error);
     aur_scene_destroy(scene);

@@ -18,6 +18,7 @@ typedef struct cli_daylight {
     const char *weather;  /* NULL: none is asked for */
     const char *metrics;  /* a file for figures of all sensors together; NULL: none */
     const char *schedule; /* hours that count, or a file of them; NULL: 8-18 */
+    bool coefficients;    /* daylight coefficients instead of a year */
     aur_daylight_options options;
 } cli_daylight;
 extern const cli_option cli_daylight_options[]; /* of a cli_daylight */
@@ -42,6 +43,10 @@ bool cli_daylight_check(const cli_call *call);
  * ends so. Errors: MEMORY, WRITE. */
 aur_result cli_daylight_metrics(const cli_daylight *given, const aur_daylight_summary *summary, size_t count,
                                 const aur_daylight *results, aur_error *error);
+
+/* Daylight coefficients of the sensors, written to `output`. */
+aur_result cli_daylight_coefficients(cli_daylight *given, const aur_scene *scene,
+                                     const aur_sensors_view *sensors, const char *output, aur_error *error);
 
 /* The year at the sensors, written to `output`; `given->options` holds what other options said too. */
 aur_result cli_daylight_run(cli_daylight *given, const aur_scene *scene, const aur_sensors_view *sensors,
