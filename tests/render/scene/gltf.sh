@@ -189,6 +189,10 @@ for name, materials, numbers in (("order", [cloth, red], (0, 1)), ("swapped", [r
     tree["meshes"] = [{"primitives": [dict(part, mode=1), dict(part, material=number)]} for number in numbers]
     tree["materials"] = materials
     m.write(name + ".gltf", tree)
+lit = m.tree(attributes, index, [body, {"extensions": {"KHR_lights_punctual": {"light": 0}}}], red)
+lit["extensionsUsed"].append("KHR_lights_punctual")
+lit["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 20000}]}}
+m.write("lit.gltf", lit)
 def odd(name, required=(), mode=None, textures=None, extensions=None):
     m, attributes, index = build(False)
     tree = m.tree(attributes, index, [body], {"pbrMetallicRoughness": base, "extensions": extensions or {}})
@@ -246,6 +250,12 @@ cmp there.pfm made.pfm || fail "a variant of a .glb has not its material"
 draw order.gltf there.pfm
 draw swapped.gltf made.pfm
 cmp there.pfm made.pfm || fail "the order of materials matters"
+# Lights in lux do not leave the image white, unless an exposure is given; models without any are as they are.
+small="--width 16 --height 12 --spp 4 -q"
+"$aureole" render lit.gltf $small -o chosen.png && "$aureole" render lit.gltf $small --exposure auto -o auto.png && "$aureole" render lit.gltf $small --exposure 0 -o zero.png &&
+  cmp chosen.png auto.png || fail "a bright light leaves the image white"
+cmp -s chosen.png zero.png && fail "--exposure 0 is not kept"
+"$aureole" render blue.gltf $small -o chosen.png && "$aureole" render blue.gltf $small --exposure 0 -o zero.png && cmp chosen.png zero.png || fail "a model without lights has another exposure"
 # noted WORDS MODEL [OPTION...]: a warning, and a render
 noted() {
   "$aureole" render "$2" "${@:3}" --width 4 --height 3 --spp 1 -o no.exr >said 2>&1 && grep -q "warning: $2: $1" said || fail "no warning '$1': $(cat said)"

@@ -362,7 +362,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     if (result == AUR_ERROR_CANCELLED && made.image != NULL)
         cli_write_partial(command->output, made.image);
     if (result == AUR_OK && command->options.shard_count == 0)
-        result = cli_display_write(&command->display, command->output, made.image, &error);
+        result = cli_display_write(&command->display, path, command->output, made.image,
+                                   &command->options.warnings, &error);
     cli_checkpoint_end(&command->checkpoint,
                        true); /* the made.image is safe now, or only this is left of it */
     if (result == AUR_OK)

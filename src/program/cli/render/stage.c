@@ -99,6 +99,7 @@ aur_result cli_stage_read_files(cli_stage *given, const cli_call *call, aur_erro
 static aur_result parse_exposure(const char *text, void *field, aur_error *error) {
     cli_display *const display = (cli_display *)(void *)((char *)field - offsetof(cli_display, exposure));
     double value = 0.0;
+    display->is_given = true;
     display->automatic = strcmp(text, "auto") == 0;
     if (!display->automatic && (!aur_parse_double(text, &value) || !(fabs(value) <= 100.0)))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -108,9 +109,9 @@ static aur_result parse_exposure(const char *text, void *field, aur_error *error
 }
 
 const cli_option cli_display_options[] = {
-    {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0",
+    {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0, or auto for an overexposed model",
               "multiply radiance by 2^STOPS (PNG); auto: scale the geometric mean of the luminance to .18"),
-     .parse = parse_exposure},
+     .parse = parse_exposure, .key.computed = true},
     {CLI_CHOICE(cli_display, tone, "tone", "CURVE", "srgb",
                 "tone curve (PNG); radiance 1 is white by default"),
      .key.words = (const char *const[]){"srgb", "filmic", NULL}},
@@ -148,11 +149,25 @@ const char *cli_display_conflict(const cli_display *display, const char *output)
            "files";
 }
 
-aur_result cli_display_write(const cli_display *display, const char *output, const aur_image *image,
-                             aur_error *error) {
+/* Stops below which most pixels of an image without exposure are white. */
+static const double OVEREXPOSED = -3.0;
+
+aur_result cli_display_write(const cli_display *display, const char *scene, const char *output,
+                             const aur_image *image, const aur_warnings *warnings, aur_error *error) {
     aur_image_write_options options = {.size = sizeof options};
+    const aur_row *format;
     aur_image_write_options_init(&options, NULL);
-    options.exposure = display->automatic ? (float)automatic_exposure(image) : display->exposure;
+    const double automatic = automatic_exposure(image);
+    const bool adapts = !display->is_given && automatic < OVEREXPOSED && aur_scene_is_name(scene) &&
+                        aur_image_find_writer(output, NULL, &format, NULL) == AUR_OK &&
+                        aur_row_find_key(format, "exposure") != NULL;
+    options.exposure = display->automatic || adapts ? (float)automatic : display->exposure;
     options.tone = display->tone;
+    if (adapts && warnings->function != NULL) {
+        char text[128];
+        aur_format(text, sizeof text, "the lights of the model are bright: the image has --exposure %.3g",
+                   automatic);
+        warnings->function(warnings->user, text);
+    }
     return aur_image_write(output, image, &options, error);
 }

@@ -21,7 +21,7 @@ extern const cli_option cli_stage_options[]; /* cli_stage */
 aur_result cli_stage_read_files(cli_stage *given, const cli_call *call, aur_error *error);
 
 typedef struct cli_display {
-    bool automatic;
+    bool is_given, automatic;
     float exposure; /* stops, unless automatic */
     aur_tone tone;
 } cli_display;
@@ -30,5 +30,7 @@ extern const cli_option cli_display_options[]; /* cli_display */
 
 /* What is wrong with the options for this output, or NULL. */
 const char *cli_display_conflict(const cli_display *display, const char *output);
-aur_result cli_display_write(const cli_display *display, const char *output, const aur_image *image,
-                             aur_error *error);
+/* `scene`: the file of the image's scene. Models and Radiance's files have lights in physical units: where
+ * these leave most of an image white, and no exposure is given, it is automatic, with a warning. */
+aur_result cli_display_write(const cli_display *display, const char *scene, const char *output,
+                             const aur_image *image, const aur_warnings *warnings, aur_error *error);
