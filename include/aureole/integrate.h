@@ -76,6 +76,10 @@ typedef struct aur_integrate_options {
      * rules (aur_symmetric_rule) of 256 points (or `first`) and four times as many until two agree. Error and
      * interval are the change from the rule before. Without axis, peaks, set and `separate`. */
     const aur_point_group *group;
+    /* The share of the domain that the smallest feature takes: no result comes before a feature of that size
+     * has been seen with 95 % probability (3 / resolution points beside those of peaks). 0: as small as the
+     * points happen to see; else at least 1e-12 and below 1. Not with a group or a set. */
+    double resolution;
 } aur_integrate_options;
 
 /* One percent of the value with 95 % confidence, by 16 randomisations and at most 2^22 evaluations. */

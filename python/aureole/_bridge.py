@@ -251,6 +251,8 @@ def as_array(array: Any, dtype: Any = np.float64) -> np.ndarray:
             array = np.from_dlpack(array)
         except (BufferError, RuntimeError, TypeError, ValueError) as error:
             raise ArgumentError(f"{type(array).__name__}: not in the memory of this processor ({error}): copy it first") from error
+    if np.ma.is_masked(array) or np.iscomplexobj(array) and np.dtype(dtype).kind != "c":
+        raise ArgumentError("masked values are no numbers" if np.ma.is_masked(array) else "complex numbers are not real ones")
     return np.asarray(array, dtype=dtype)
 
 

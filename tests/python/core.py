@@ -308,6 +308,14 @@ class Domains(unittest.TestCase):
 
 
 class Errors(unittest.TestCase):
+    def test_numbers_that_are_none(self):
+        x = aureole.points("spherical-fibonacci", 20, domain="sphere")
+        for bad, word in ((x + 0j, "complex"), (np.ma.masked_array(x, x > 0.9), "masked")):
+            with self.assertRaisesRegex(aureole.ArgumentError, word):
+                aureole.weights(bad, "exact", domain="sphere")
+            with self.assertRaisesRegex(aureole.ArgumentError, word):
+                aureole.measure(bad, "energy", domain="sphere")
+
     def test_they_say_what_the_library_says(self):
         with self.assertRaisesRegex(aureole.UnknownNameError, "did you mean 'sobol'") as caught:
             aureole.points("sobl", 4)
@@ -506,6 +514,9 @@ class Figures(unittest.TestCase):
         found = aureole.integrate(sky, domain="hemisphere", exponent=1, peaks=[(sun, 0.3)])
         self.assertTrue(found.converged)
         self.assertLess(abs(found.value / truth - 1), 0.01)
+        with self.assertWarnsRegex(aureole.IntegrationWarning, "the target was not reached"):
+            found = aureole.integrate(lambda u: sky(u) + u[:, 2], domain="hemisphere", resolution=1e-5, max_points=2**19, seed=2)
+        self.assertGreater(found.evaluations, 3e5)
         found = aureole.integrate(lambda x: x[:, 0] ** -0.9, 1e-6, domain="cube", dimension=1, peaks=[(0, 0, 0.9)])
         self.assertAlmostEqual(found.value, 10)
 
@@ -578,9 +589,20 @@ class Figures(unittest.TestCase):
                 aureole.integrate(bad, symmetry="Oh")
 
     def test_bad_integrands(self):
-        for bad in (lambda u: u[:3, 0], lambda u: "x", lambda u: u[:, 2] / 0, lambda u: {}):
+        masked = np.ma.masked_array(np.ones(1024), np.arange(1024) == 3)
+        for bad in (lambda u: u[:3, 0], lambda u: "x", lambda u: u[:, 2] / 0, lambda u: {}, lambda u: None,
+                    lambda u: np.ones((len(u), 0)), lambda u: masked[: len(u)]):  # fmt: skip
             with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
                 aureole.integrate(bad)
+            with self.assertRaises((ValueError, TypeError)), np.errstate(all="ignore"):
+                aureole.average(bad, 100, symmetry="D2h")
+        for options in ({"tol": 0}, {"peaks": [1]}, {"peaks": [((0, 0, 1),)]}, {"domain": "ball", "dimension": 2}, {"resolution": 1}):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.integrate(lambda u: u[:, 2], **options)
+        with self.assertRaisesRegex(aureole.ArgumentError, "n // 4 = 0 points"):
+            aureole.average(lambda u: u[:, 2], 3, symmetry="D2h")
+        constant = aureole.average(lambda u: 2.0, 100, symmetry="Oh")
+        self.assertEqual((round(constant.value, 14), constant.error), (2.0, np.inf))
         changing = iter(range(1, 10**6))
         with self.assertRaisesRegex(aureole.ArgumentError, "changed their shape"):
             aureole.integrate(lambda u: np.ones((len(u), next(changing))))

@@ -240,6 +240,11 @@ static void bad_options(void **state) {
     bad.evaluations = 31;
     refuse(&bad, AUR_ERROR_ARGUMENT);
     bad = good;
+    bad.resolution = 1.0;
+    refuse(&bad, AUR_ERROR_ARGUMENT);
+    bad.resolution = 1e-7; /* 3e7 points, and 2^22 are allowed */
+    refuse(&bad, AUR_ERROR_ARGUMENT);
+    bad = good;
     bad.size = 0;
     refuse(&bad, AUR_ERROR_ARGUMENT);
 }
@@ -421,6 +426,42 @@ static void peaks(void **state) {
     assert_relative(integral.value, 10.0, 1e-12);
 }
 
+static double spot(const double u[3], double x) {
+    (void)x;
+    return u[2] + (sun_axis[0] * u[0] + sun_axis[2] * u[2] > 1.0 - 5e-5
+                       ? 3000.0
+                       : 0.0); /* pi and 3000 times 2 pi 5e-5 */
+}
+
+/* A spot of a share of 5e-5 of the hemisphere over a sky that varies: without a resolution the sky converges;
+ * with it a result without the spot has the probability .05, so that of 60 more than 9 have .001. */
+static void resolution(void **state) {
+    (void)state;
+    aur_integrate_options options = {.size = sizeof options};
+    aur_integrate_options_init(AUR_DOMAIN_HEMISPHERE, &options, NULL);
+    options.evaluations = 1 << 17;
+    const double expected = AUR_PI + 3000.0 * 2.0 * AUR_PI * 5e-5;
+    size_t blind = 0, wrong = 0;
+    for (options.seed = 0; options.seed < 60; ++options.seed)
+        for (size_t k = 0; k < 2; ++k) {
+            options.resolution = k == 0 ? 0.0 : 5e-5;
+            integrand f = {.value = spot};
+            aur_integral integral = {.size = sizeof integral};
+            assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+            const bool silent = integral.reason == AUR_INTEGRATE_TOLERANCE && integral.doubts == 0 &&
+                                fabs(integral.value - expected) > 0.03 * expected;
+            *(k == 0 ? &blind : &wrong) += silent;
+            assert_true(k == 0 || (integral.evaluations >= 60000 && integral.resolution <= 5e-5));
+        }
+    assert_true(blind > 15 && wrong <= 9);
+    /* Equal values are believed as late. */
+    integrand f = {.value = zero};
+    aur_integral integral = {.size = sizeof integral};
+    options.resolution = 3e-5;
+    assert_int_equal(aur_integrate(evaluate, &f, &options, &integral, NULL), AUR_OK);
+    assert_true(integral.evaluations >= 100000 && integral.doubts == AUR_INTEGRATE_ALL_EQUAL);
+}
+
 static void several(const double *x, double *values) {
     values[0] = 1000.0 * x[0];
     values[1] = x[1] < 0.3 ? 1.0 : 0.0;
@@ -557,6 +598,6 @@ int main(void) {
         cmocka_unit_test(bad_options),  cmocka_unit_test(coverage),    cmocka_unit_test(difference),
         cmocka_unit_test(domains),      cmocka_unit_test(agreement),   cmocka_unit_test(peaks),
         cmocka_unit_test(vectors),      cmocka_unit_test(doubts),      cmocka_unit_test(grids),
-        cmocka_unit_test(sets)};
+        cmocka_unit_test(sets),         cmocka_unit_test(resolution)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,6 +30,11 @@ static aur_result check_orbits(const aur_integrate_options *o, aur_error *error)
     return AUR_OK;
 }
 
+/* Points that see the smallest feature with 95 % probability; 0: no size is given. */
+static double seen_points(const aur_integrate_options *o) {
+    return o->resolution > 0.0 ? 3.0 / o->resolution : 0.0;
+}
+
 static aur_result check(const aur_integrate_options *o, aur_error *error) {
     const aur_result result = aur_shape_check(o, error);
     if (result != AUR_OK)
@@ -51,8 +56,18 @@ static aur_result check(const aur_integrate_options *o, aur_error *error) {
     if (o->values > AUR_INTEGRATE_VALUES_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the function must have 1 to %d values, not %zu",
                         AUR_INTEGRATE_VALUES_MAX, o->values);
+    if (o->resolution != 0.0 && !(o->resolution >= 1e-12 && o->resolution < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the resolution must be 0, or 1e-12 or more and below 1, not %g", o->resolution);
+    if (o->resolution != 0.0 && (o->group != NULL || o->set != NULL))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "a resolution is for neither a symmetry nor a given set");
     if (o->group != NULL)
         return check_orbits(o, error);
+    if (seen_points(o) > (double)o->evaluations)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a resolution of %g takes %.0f evaluations, and %llu are allowed", o->resolution,
+                        seen_points(o), (unsigned long long)o->evaluations);
     const uint64_t least = o->first > 0 ? o->first : 2;
     if (o->evaluations / o->replicates < least)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -241,6 +256,12 @@ static bool compare(aur_integration *work) {
 
 /* --- levels */
 
+/* Whether the rest of the domain has fewer points than the smallest feature needs to be seen. */
+static bool lacks_points(const aur_integration *work) {
+    const aur_integrate_options *const o = &work->options;
+    return (double)(work->parts[o->peak_count].count * o->replicates) < seen_points(o);
+}
+
 /* Doubles the strata that matter. False: it would take more evaluations than allowed. */
 static bool choose(aur_integration *work) {
     double largest = 0.0;
@@ -249,7 +270,8 @@ static bool choose(aur_integration *work) {
         largest = fmax(largest, work->shares[s]);
     for (size_t s = 0; s < work->strata; ++s) {
         aur_stratum *const part = &work->parts[s];
-        part->next = work->shares[s] >= 0.125 * largest ? 2 * part->count : part->count;
+        const bool blind = s == work->options.peak_count && lacks_points(work);
+        part->next = blind || work->shares[s] >= 0.125 * largest ? 2 * part->count : part->count;
         evaluations += (uint64_t)part->next * work->options.replicates;
         stored += (uint64_t)part->next * (work->options.replicates * work->values + 1);
         if (part->next > work->most)
@@ -286,9 +308,9 @@ static aur_result judge_level(aur_integration *work, bool *last, aur_error *erro
         return result;
     integral->doubts = doubt.bits;
     const uint64_t fewest = doubt.all_equal ? CONSTANT : o->first > 0 ? 0 : FEWEST;
-    const bool done = met && to_target && doubt.bits == 0 && compare(work) && !doubt.all_equal &&
-                      integral->evaluations >= fewest;
-    *last = done || !to_target || (doubt.all_equal && integral->evaluations >= fewest) || !choose(work);
+    const bool enough = integral->evaluations >= fewest && !lacks_points(work);
+    const bool done = met && to_target && doubt.bits == 0 && compare(work) && !doubt.all_equal && enough;
+    *last = done || !to_target || (doubt.all_equal && enough) || !choose(work);
     integral->reason = done ? AUR_INTEGRATE_TOLERANCE : AUR_INTEGRATE_EVALUATIONS;
     compare(work);
     if (*last && doubt.all_equal)
