@@ -161,6 +161,10 @@ lobes = {}
 for row in rows(t):
     lobes.setdefault((row["lobes"], row["set"], row["light"]), {})[row["method"]] = float(row["rmse"])
 line(page, f"below MIS in {put(sum(of['OSWA'] < of['MIS'] for of in lobes.values()))} of {put(len(lobes))}")
+t = "marques-2018-coats"
+merged = {light: [float(row["over_plain"]) for row in rows(t, light=light, method="OSWA")] for light in ("smooth", "hard edges")}
+line(page, f"RMSE of images {put(min(merged['smooth']))} to {put(max(merged['smooth']))} of p/q under smooth light, "
+           f"{put(min(merged['hard edges']))} to {put(max(merged['hard edges']))} with hard edges")
 t = "marques-2018-learned"
 learned = [float(row["over_fixed"]) for row in rows(t, light="smooth", way="s learned")]
 places = [[float(row["over_fixed"]) for row in rows(t, way="half placed by spread", set=s)] for s in ("random", lambda text: text != "random")]

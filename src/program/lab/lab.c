@@ -33,6 +33,7 @@ extern const lab_experiment lab_marques_2013_gather;
 extern const lab_experiment lab_marques_2013_table1;
 extern const lab_experiment lab_marques_2018_beyond;
 extern const lab_experiment lab_marques_2018_box;
+extern const lab_experiment lab_marques_2018_coats;
 extern const lab_experiment lab_marques_2018_fig7;
 extern const lab_experiment lab_marques_2018_fig8;
 extern const lab_experiment lab_marques_2018_functions;
@@ -93,6 +94,7 @@ static const lab_experiment *const experiments[] = {
     &lab_marques_2013_table1,
     &lab_marques_2018_beyond,
     &lab_marques_2018_box,
+    &lab_marques_2018_coats,
     &lab_marques_2018_fig7,
     &lab_marques_2018_fig8,
     &lab_marques_2018_functions,

@@ -28,7 +28,30 @@ static void box(report_canvas *c, const report_pen *pen, double x0, double y0, d
     c->format->path(c, pen, true, 4, (const double[]){x0, y0, x1, y0, x1, y1, x0, y1});
 }
 
-/* The grid first, so that it is one group. */
+static void format_tick(double tick, char number[32]) {
+    aur_format(number, 32, "%g", tick);
+}
+
+/* Whether numbers along a horizontal axis leave no room between each other. */
+static bool is_crowded(const report_ruler *along, size_t count, const double *ticks) {
+    double end = -INFINITY;
+    for (size_t i = 0; i < count; ++i) {
+        char number[32];
+        format_tick(ticks[i], number);
+        const double half = 0.5 * report_text_width(number), at = report_place(along, ticks[i]);
+        if (at - half < end + 4.0)
+            return true;
+        end = at + half;
+    }
+    return false;
+}
+
+static bool is_power_of_ten(double tick) {
+    const double power = log10(tick);
+    return fabs(power - round(power)) < 1e-9;
+}
+
+/* The grid first, so that it is one group. Where numbers are crowded, only powers of ten have one. */
 static void put_ticks(report_canvas *c, const report_ruler *along, const report_ruler *across, bool of_y) {
     double ticks[REPORT_MOST_TICKS];
     const size_t count = report_find_ticks(along, ticks);
@@ -39,9 +62,12 @@ static void put_ticks(report_canvas *c, const report_ruler *along, const report_
         else
             line(c, REPORT_INK_GRID, 0.7, at, across->from, at, across->to);
     }
+    const bool crowded = !of_y && along->log && is_crowded(along, count, ticks);
     for (size_t i = 0; i < count; ++i) {
         char number[32];
-        aur_format(number, sizeof number, "%g", ticks[i]);
+        if (crowded && !is_power_of_ten(ticks[i]))
+            continue;
+        format_tick(ticks[i], number);
         const double at = report_place(along, ticks[i]);
         if (of_y)
             c->format->text(c, across->from - 4.0, at + 4.0, 1.0, false, number);

@@ -41,6 +41,9 @@ done
 [ $((2 * $(wc -c <small/index.html))) -lt "$(wc -c <drawing/index.html)" ] || fail "the small page is not half as large"
 # That of the kept tables is one to send.
 "$aureole" lab report "$source/docs/report/results" --small -o kept >/dev/null || fail "the kept tables"
+# Numbers along narrow axes leave room between each other.
+awk '/Keller 1994: quasi/ { on = 1 } /Schretter et al/ { exit } on' kept/index.html >keller.html
+grep -q '>100000<' keller.html && ! grep -q '>50000<' keller.html || fail "crowded numbers along an axis"
 [ "$(wc -c <kept/index.html)" -lt 2000000 ] || fail "the small page of the kept tables has $(wc -c <kept/index.html) bytes"
 
 # Values of images by the viewer: two images of known pixels; the first is the reference.

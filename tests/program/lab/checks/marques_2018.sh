@@ -69,6 +69,10 @@ awk -F, '!/^#/ && NR > 1 { ++rows; over[$3] = $5 }
 # Merged weights of three lobes, GGX among them, and of levels of one grid leave less than half of p/q's error under smooth light.
 awk -F, '!/^#/ && NR > 1 { ++rows; if ($4 == "p/q" && $6 != 1) bad = 1; if ($3 == "smooth" && $4 == "OSWA") { ++merged; if (!($6 < 0.5)) bad = 1 } }
   END { exit !(rows == 32 && merged == 4 && !bad) }' "$weights-lobes/marques-2018-lobes.csv" || fail "merged lobes"
+# In images too, for two glossy lobes over a diffuse one: merged weights below every other kind.
+awk -F, '!/^#/ && NR > 1 { ++rows; if ($4 == "OSWA") merged[$3] = $5; else if (!($3 in others) || $5 < others[$3]) others[$3] = $5 }
+  END { for (light in merged) if (!(merged[light] < others[light])) bad = 1; exit !(rows == 8 && !bad) }' \
+  "$weights-coats/marques-2018-coats.csv" || fail "merged lobes in images"
 # Smooth light has a larger s than light with edges, and gains from it; no s is below the best one.
 awk -F, '!/^#/ && NR > 1 { ++rows; over[$2 $3 $4] = $6; if ($4 == "s learned") s[$2 $3] = $9; sets[$2] }
   END { for (k in sets) if (!(s[k "smooth"] > s[k "hard edges"] && over[k "smooths learned"] < 0.9 && over[k "smoothbest s of each light"] <= over[k "smooths learned"])) bad = 1
