@@ -67,9 +67,9 @@ const cli_option cli_cache_option[] = {
     {.key = {0}}};
 
 const cli_option cli_limits_option[] = {
-    {CLI_TEXT(cli_common, no_cache, "memory-limit", "2G", NULL, "limit the address space"),
+    {CLI_TEXT(cli_common, no_cache, "memory-limit", "SIZE", NULL, "limit the address space, such as 2G"),
      .parse = limit_memory},
-    {CLI_TEXT(cli_common, no_cache, "time-limit", "10min", NULL,
-              "stop after this time with status 3; the checkpoint remains"),
+    {CLI_TEXT(cli_common, no_cache, "time-limit", "TIME", NULL,
+              "stop after this time, such as 10min, with status 3; the checkpoint remains"),
      .parse = limit_time},
     {.key = {0}}};

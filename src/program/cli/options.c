@@ -106,7 +106,7 @@ const char *cli_list_at(const cli_list *list, size_t index) {
     return item;
 }
 
-/* "--spp", or "-n" for an option that has no long name. */
+/* "--samples", or "-n" for an option that has no long name. */
 static bool refuse(const cli_option *option, const char *expected, const char *text, const char *nearest) {
     cli_bad_usage("%s%s: must be %s, not '%s'%s%s%s", option->key.name[1] != '\0' ? "--" : "-",
                   option->key.name, expected, text, nearest != NULL ? "; did you mean '" : "",
@@ -214,13 +214,37 @@ static bool spells_computed_default(const cli_option *option, const char *text) 
 }
 
 /* What getopt makes of the rows. A long option is LONG_OPTION and its index, a short one its letter. */
-enum { LONG_OPTION = 256 };
+enum { LONG_OPTION = 256, SYNONYM_LIMIT = 4 };
+
+/* One thing has different names in the commands of other programs: each is accepted where the command has the
+ * other. */
+static const char *const synonyms[SYNONYM_LIMIT][2] = {
+    {"count", "size"}, {"output", "outfile"}, {"format", "to"}, {"samples", "spp"}};
 
 typedef struct getopt_options {
     size_t count;
     char letters[2 * CLI_OPTION_LIMIT + 2];
-    struct option names[CLI_OPTION_LIMIT + 1];
+    struct option names[CLI_OPTION_LIMIT + SYNONYM_LIMIT + 1];
 } getopt_options;
+
+static const struct option *find_name(const getopt_options *list, const char *name) {
+    for (const struct option *found = list->names; found->name != NULL; ++found)
+        if (strcmp(found->name, name) == 0)
+            return found;
+    return NULL;
+}
+
+/* Adds the other name of each pair of which the command has one. */
+static void add_synonyms(getopt_options *list, size_t names) {
+    for (size_t i = 0; i < SYNONYM_LIMIT; ++i) {
+        const struct option *const first = find_name(list, synonyms[i][0]), *const second = find_name(
+                                                                                list, synonyms[i][1]);
+        if ((first == NULL) == (second == NULL))
+            continue;
+        list->names[names] = first != NULL ? *first : *second;
+        list->names[names++].name = synonyms[i][first != NULL];
+    }
+}
 
 static getopt_options list_options(const cli_command *command) {
     getopt_options list = {.letters = ":"};
@@ -241,6 +265,7 @@ static getopt_options list_options(const cli_command *command) {
                                                                               : required_argument,
                                                   NULL, LONG_OPTION + (int)list.count};
     }
+    add_synonyms(&list, names);
     return list;
 }
 
@@ -265,7 +290,7 @@ static int refuse_option(const cli_command *command, const getopt_options *list,
     if (code == ':' || optopt >= LONG_OPTION)
         return cli_bad_usage("%s: option '%s' %s: try 'aureole help %s'", command->name, given,
                              code == ':' ? "needs a value" : "takes no value", command->name);
-    const char *names[CLI_OPTION_LIMIT];
+    const char *names[CLI_OPTION_LIMIT + SYNONYM_LIMIT];
     char alike[AUR_ERROR_MESSAGE_CAPACITY] = "";
     size_t count = 0;
     for (; list->names[count].name != NULL; ++count) {

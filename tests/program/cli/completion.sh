@@ -23,7 +23,7 @@ offers() {
 silent() { [ -z "$(aureole completion words -- "$@")" ] || fail "aureole $*: offers $(aureole completion words -- "$@" | head -3)"; }
 offers render r
 offers measure measure
-offers --spp render --s
+offers --samples render --s
 offers --help lab --
 offers sphere points --domain ''
 offers --domain=sphere points --domain=

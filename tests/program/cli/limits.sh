@@ -64,7 +64,7 @@ for how in --block-signal --ignore-signal=TERM; do
     kill -TERM $!
     status=0
     wait $! || status=$?
-    grep -q 'before there was anything to keep' said || break
+    grep -q 'before the first result' said || break
   done
   [ $status = 3 ] && [ -e stopped.partial.exr ] || fail "SIGTERM with $how: $status $(cat said)"
   rm -f stopped.partial.exr

@@ -50,7 +50,8 @@ refuses 'not for the sphere' $measure octahedron.csv --metric star
 refuses 'point 6 has z' $measure octahedron.csv --domain hemisphere --metric energy
 refuses 'did you mean' $measure octahedron.csv --metric enrgy
 refuses -n $measure sobol --metric star
-refuses --metric $measure sobol -n 4
+# Without --metric, all measures; --size is another name of --count.
+[ "$($measure sobol -n 4)" = "$($measure sobol --size 4 --metric all)" ] || fail 'measure without --metric'
 refuses 'at least 2 points' $measure sobol -n 1 --metric min-distance
 refuses no-such $measure no-such-set -n 4 --metric energy
 printf 'x,y,z,w\n1,0,0,1\n# a comment\n0,1,0,-0.5\n0,0,1,1\n' >negative.csv

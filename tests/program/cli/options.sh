@@ -27,7 +27,7 @@ refuses "option '--seed' needs a value" points sobol --seed
 refuses "option '--quiet' takes no value" points sobol --quiet=yes
 refuses "--size: must be at least 1, not '0'" points sobol -n 0
 refuses "--size: must be an integer, not '1e3'" points sobol -n 1e3
-refuses "--spp: must be between 1 and 1073741824, not '0'" render a.xml --spp 0
+refuses "--samples: must be between 1 and 1073741824, not '0'" render a.xml --spp 0
 refuses "--smoothness: must be between 1 and 6, both exclusive, not '6'" points sobol -n 4 --smoothness 6
 refuses "--count: must be a size N of at least 1, A:B" measure sobol -n 4,0 --metric star
 refuses "--format: must be one of table, csv, json, latex, not 'jsn'; did you mean 'json'?" sets --format jsn

@@ -39,10 +39,10 @@ expect 0 compare spike.pfm spike.pfm --downsample 2
 expect 1 compare ones.pfm spike.pfm --downsample 2 --metric mae --format json
 grep -qF '"mae": 0.5,' out || fail "downsampled: $(cat out)"
 
-expect 1 compare ones.pfm spike.pfm --outfile difference.png
+expect 1 compare ones.pfm spike.pfm --output difference.png
 [ "$(head -c 4 difference.png | tail -c 3)" = PNG ] || fail "difference.png is no PNG"
 expect 2 compare ones.pfm spike.pfm ones.pfm --outfile other.png
-complains "--outfile takes one image"
+complains "--output takes one image"
 [ -e other.png ] && fail "other.png was written"
 
 expect 2 compare ones.pfm narrow.pfm

@@ -18,7 +18,7 @@ static const cli_option options[] = {
                  "set sizes, also 64:4096 (64, 128, ...), 64:4096:x4 or 100:500:50; files are always "
                  "measured completely"),
      .letter = 'n', .list = true, .parse = cli_check_sizes},
-    {CLI_TEXT(cli_measure_arguments, metrics, "metric", "NAME", NULL,
+    {CLI_TEXT(cli_measure_arguments, metrics, "metric", "NAME", "all",
               "measures (see --list); all: all measures of the domain without parameters, with bounds "
               "instead of slow ones"),
      .letter = 'm', .list = true, .parse = check_metric, .content = "measure"},
@@ -79,8 +79,6 @@ static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
 static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
         return cli_bad_usage("measure: no file or set given: try 'aureole help measure'"), false;
-    if (arguments->metrics.count == 0)
-        return cli_bad_usage("measure: --metric is missing: see 'aureole measure --list'"), false;
     aur_error error = {0};
     if (arguments->sizes.count > 0 &&
         cli_expand_sizes(&arguments->sizes, &arguments->size_texts, &error) != AUR_OK)

@@ -39,21 +39,22 @@ static aur_result parse_rays(const char *text, void *field, aur_error *error) {
 }
 
 const cli_option cli_target_options[] = {
-    {CLI_TEXT(cli_target, error, "error", "1%", NULL,
-              "render until the error by --error-measure is below this target"),
+    {CLI_TEXT(cli_target, error, "error", "ERROR", NULL,
+              "render until the error by --error-measure is below this target, such as 1%"),
      .parse = parse_error},
     {CLI_CHOICE(cli_target, measure, "error-measure", "NAME", "relative",
                 "measure of --error: root mean square error relative to the local mean of each pixel, "
                 "relative to the mean of the image, or of the displayed image"),
      .key.words = (const char *const[]){"relative", "mean", "display", NULL}},
-    {CLI_TEXT(cli_target, bias, "bias", "1%", NULL,
+    {CLI_TEXT(cli_target, bias, "bias", "ERROR", NULL,
               "systematic error to allow for the integrator given by --integrator, as printed by an earlier "
               "--error render"),
      .parse = parse_bias},
-    {CLI_TEXT(cli_target, seconds, "time", "30s", NULL,
-              "render for this time, and print the command that reproduces the image"),
+    {CLI_TEXT(cli_target, seconds, "time", "TIME", NULL,
+              "render for this time, such as 30s, and print the command that reproduces the image"),
      .parse = parse_time},
-    {CLI_TEXT(cli_target, rays, "rays", "1e9", NULL, "render with this number of rays"), .parse = parse_rays},
+    {CLI_TEXT(cli_target, rays, "rays", "N", NULL, "render with this number of rays, such as 1e9"),
+     .parse = parse_rays},
     {CLI_INTEGER(cli_target, rounds, "rounds", "N", 1, 1000, NULL,
                  "render this number of rounds of samples, as printed by --time")},
     {CLI_FLAG(cli_target, error_map, "error-map",

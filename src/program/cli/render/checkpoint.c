@@ -16,7 +16,7 @@ static aur_result parse_interval(const char *text, void *field, aur_error *error
 const cli_option cli_checkpoint_options[] = {
     {CLI_TEXT(cli_checkpoint, path, "checkpoint", "FILE", NULL, "write a checkpoint to FILE"),
      .content = "file", .writes = true},
-    {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "60s", "60s", "time between checkpoints"),
+    {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "TIME", "60s", "time between checkpoints"),
      .parse = parse_interval},
     {CLI_FLAG(cli_checkpoint, resume, "resume",
               "resume from the checkpoint, if it exists; the image is identical to that of an uninterrupted "

@@ -20,7 +20,7 @@ static const cli_option rows[] = {
      .name = aur_image_metric_name},
     {CLI_REAL(compare_options, tolerance, "tolerance", "T", 0, INFINITY, "0",
               "largest value allowed for every metric; 0: identical")},
-    {CLI_TEXT(compare_options, outfile, "outfile", "FILE", NULL,
+    {CLI_TEXT(compare_options, outfile, "output", "FILE", NULL,
               "write the absolute difference (the FLIP map if the first metric is flip) in false colour "
               "(PNG, EXR, ...)"),
      .letter = 'o', .content = "file", .writes = true},
@@ -110,7 +110,7 @@ static int write_difference(const aur_image *reference, const aur_image *image,
 static int run(const cli_call *call) {
     const compare_options *const options = call->options;
     if (options->outfile != NULL && call->operand_count > 2)
-        return cli_bad_usage("compare: --outfile takes one image (found %zu)", call->operand_count - 1);
+        return cli_bad_usage("compare: --output takes one image (found %zu)", call->operand_count - 1);
     aur_image *reference = NULL;
     int status = cli_read_picture(call->operands[0], &options->picture, &reference);
     report_table *const table = create_table(options);

@@ -94,11 +94,9 @@ static const cli_option options[] = {
     {CLI_TEXT(render_command, options.filter, "filter", "NAME", NULL,
               "use this reconstruction filter instead of the scene's (see 'aureole help rfilter')"),
      .content = "rfilter"},
-    {CLI_INTEGER(render_command, options.samples_per_pixel, "spp", "N", 1, 1 << 30, "the scene's",
-                 "samples per pixel"),
+    {CLI_INTEGER(render_command, options.samples_per_pixel, "samples", "N", 1, 1 << 30, "the scene's",
+                 "samples per pixel (another name: spp)"),
      .key.computed = true},
-    {CLI_INTEGER(render_command, options.samples_per_pixel, "samples", "N", 1, 1 << 30, NULL,
-                 "same as --spp")},
     {CLI_INTEGER(render_command, options.width, "width", "N", 1, LARGEST_SIDE, "the scene's",
                  "width of the full image in pixels; if only the width or the height is given, the aspect "
                  "ratio is kept"),
@@ -109,16 +107,16 @@ static const cli_option options[] = {
     {CLI_REAL(render_command, options.clamp, "clamp", "C", 0, 1e30, "0",
               "clamp the indirect contribution to a sample of path or volpath (0: no limit); the light that "
               "is lost is estimated and reported")},
-    {CLI_TEXT(render_command, options, "crop", "x0,x1,y0,y1", NULL,
-              "render only the pixels x0 <= x < x1, y0 <= y < y1"),
+    {CLI_TEXT(render_command, options, "crop", "X0,X1,Y0,Y1", NULL,
+              "render only the pixels X0 <= x < X1, Y0 <= y < Y1"),
      .parse = parse_crop},
     {CLI_TEXT(
-         render_command, options, "shard", "i/n", NULL,
-         "render only part i of n, to SCENE.i-of-n.part or the file of -o; 'aureole merge' merges the parts"),
+         render_command, options, "shard", "I/N", NULL,
+         "render only part I of N, to SCENE.I-of-N.part or the file of -o; 'aureole merge' merges the parts"),
      .parse = parse_shard},
-    {CLI_TEXT(
-         render_command, texture_memory, "texture-memory", "500M", "all",
-         "memory for image textures, from 4M; the rest is read from a temporary file in $TMPDIR or /var/tmp"),
+    {CLI_TEXT(render_command, texture_memory, "texture-memory", "SIZE", "all",
+              "memory for image textures, such as 500M, from 4M; the rest is read from a temporary file in "
+              "$TMPDIR or /var/tmp"),
      .parse = parse_texture_memory, .key.computed = true},
     {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "random seed")},
     {CLI_TEXT(render_command, reference, "reference", "REF", NULL,
@@ -405,8 +403,8 @@ static const char *conflict(const cli_call *call, const render_command *command)
                                          : NULL;
     if (command->reference != NULL)
         return "render: '--errors' cannot be used with '--error', '--time', '--rays' or '--rounds'";
-    if (cli_given(call, "spp") != NULL || cli_given(call, "samples") != NULL)
-        return "render: '--samples' and '--spp' cannot be used with '--error', '--time', '--rays' or "
+    if (cli_given(call, "samples") != NULL)
+        return "render: '--samples' cannot be used with '--error', '--time', '--rays' or "
                "'--rounds', which choose the samples";
     return NULL;
 }
