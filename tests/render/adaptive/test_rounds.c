@@ -15,6 +15,20 @@ static double sum_after(size_t count, const double *variances, const uint32_t *b
     return sum;
 }
 
+/* A round to an error that the bound is known to exceed takes the samples that the square law needs, and five
+ * in a hundred more at the most. */
+static void test_rounds_to_an_error_take_what_it_needs(void **state) {
+    (void)state;
+    for (double error = 0.01; error < 0.04; error *= 1.1) {
+        const aur_candidate candidate = {
+            .interval = {.estimate = 0.05, .high = 0.05}, .bound = 0.05, .rate = 1.0};
+        const aur_goal goal = {.error = error};
+        const double needs = 0.05 * 0.05 / (error * error);
+        const double takes = 1.0 / aur_candidate_factor(&candidate, &goal);
+        assert_true(takes >= needs && takes <= 1.05 * needs);
+    }
+}
+
 static void test_reaches_the_factor_at_equal_gains(void **state) {
     (void)state;
     enum { PIXELS = 6 };
@@ -72,7 +86,8 @@ static void test_nobody_is_left_behind(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rounds_to_an_error_take_what_it_needs),
+                                       cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
                                        cmocka_unit_test(test_limits),
                                        cmocka_unit_test(test_nobody_is_left_behind)};
     return cmocka_run_group_tests(tests, NULL, NULL);

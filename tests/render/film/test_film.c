@@ -71,13 +71,15 @@ static int tear_down(void **state) {
 }
 
 /* Steps of any size, by any number of threads, are one render of all samples; a film that was saved on the
- * way and loaded into another render goes on to the same bits. */
+ * way and loaded into another render goes on to the same bits, errors and counts, by filters that reach
+ * other pixels and by one that does not. */
 static void steps_are_one_render(void **state) {
     const fixture *const f = *state;
-    static const char *const integrators[] = {"path", "aov:aovs=(n:sample_count,v:variance,d:depth)",
+    static const char *const integrators[] = {"path", "aov:aovs=(n:sample_count,v:variance,d:depth)", "path",
                                               "finalgather:photons=5000,diffuse_samples=8,edges=0"};
     for (size_t i = 0; i < sizeof integrators / sizeof integrators[0]; ++i) {
-        const aur_render_options one = small(integrators[i], 1), three = small(integrators[i], 3);
+        aur_render_options one = small(integrators[i], 1), three = small(integrators[i], 3);
+        one.filter = three.filter = i == 2 ? "box" : NULL;
         aur_image *whole = NULL;
         assert_int_equal(aur_renderer_render(f->renderer, &one, &whole, NULL, NULL), AUR_OK);
 
@@ -101,9 +103,15 @@ static void steps_are_one_render(void **state) {
         assert_int_equal(aur_film_error(aur_render_film(second), errors[1], NULL, NULL), AUR_OK);
         for (size_t c = 0; c < 4; ++c)
             assert_true(errors[0][c] > 0.0 && fabs(errors[0][c] - errors[1][c]) <= 1e-12 * errors[0][c]);
+        aur_render_statistics counted[2] = {{.size = sizeof *counted}, {.size = sizeof *counted}};
+        assert_int_equal(aur_render_get_statistics(first, &counted[0], NULL), AUR_OK);
+        assert_int_equal(aur_render_get_statistics(second, &counted[1], NULL), AUR_OK);
+        assert_int_equal(counted[0].samples, 45 * 37 * 8);
+        assert_int_equal(counted[1].samples, counted[0].samples);
+        assert_int_equal(counted[1].rays, counted[0].rays);
         assert_same(picture(aur_render_film(first)), picture(aur_render_film(second)));
         /* finalgather sums its pixels' samples step by step, so its bits depend on the steps. */
-        if (i < 2)
+        if (i < 3)
             assert_same(whole, picture(aur_render_film(second)));
         else
             aur_image_destroy(whole);
@@ -278,6 +286,39 @@ static void the_error_is_that_of_independent_samples(void **state) {
     aur_render_destroy(render);
 }
 
+/* Each pixel's squared error is the variance of its samples' mean: of steps of one sample each, which the
+ * images after each step give. */
+static void the_error_is_that_of_the_steps(void **state) {
+    enum { STEPS = 8, PIXELS = 45 * 37 };
+    const fixture *const f = *state;
+    aur_render_options options = small("direct", 1);
+    options.filter = "box";
+    aur_render *const render = start(f->renderer, &options);
+    static double sums[PIXELS], squares[PIXELS], before[PIXELS];
+    for (size_t n = 1; n <= STEPS; ++n) {
+        assert_int_equal(aur_render_step(render, 1, NULL), AUR_OK);
+        aur_image *const image = picture(aur_render_film(render));
+        for (size_t i = 0; i < PIXELS; ++i) {
+            const double all = (double)n * (double)image->data[image->channel_count * i], x = all - before[i];
+            before[i] = all;
+            sums[i] += x;
+            squares[i] += x * x;
+        }
+        aur_image_destroy(image);
+    }
+    aur_image *errors = NULL;
+    double rmse[4];
+    assert_int_equal(aur_film_error(aur_render_film(render), rmse, &errors, NULL), AUR_OK);
+    for (size_t i = 0; i < PIXELS; ++i) {
+        const double mean = sums[i] / STEPS, spread = squares[i] / STEPS - mean * mean;
+        const double error = sqrt(fmax(spread, 0.0) / (STEPS - 1));
+        /* Images are floats: of values up to all samples' sum. */
+        assert_near((double)errors->data[3 * i], error, 1e-3 * error + 1e-4 * mean);
+    }
+    aur_image_destroy(errors);
+    aur_render_destroy(render);
+}
+
 /* A struct whose size is not set, or of a newer library and used, is refused; an unused one is not. */
 static void options_of_other_sizes(void **state) {
     const fixture *const f = *state;
@@ -336,6 +377,7 @@ int main(void) {
                                        cmocka_unit_test(a_stopped_step_is_kept_and_continued),
                                        cmocka_unit_test(a_tile_is_stopped_within),
                                        cmocka_unit_test(the_error_is_that_of_independent_samples),
+                                       cmocka_unit_test(the_error_is_that_of_the_steps),
                                        cmocka_unit_test(options_of_other_sizes),
                                        cmocka_unit_test(damaged_films_are_refused)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
