@@ -35,7 +35,7 @@ set(python_suffix .abi3.so)
 if(python_free_threaded EQUAL 1)
     set(python_suffix .so)
 endif()
-add_library(aureole-python MODULE "${native}" "${library}" $<TARGET_OBJECTS:aureole_core> $<TARGET_OBJECTS:aureole_points>)
+add_library(aureole-python MODULE "${native}" "${library}" ${point_objects})
 target_include_directories(aureole-python PRIVATE "${PROJECT_SOURCE_DIR}/include")
 target_link_libraries(aureole-python PRIVATE Python::Module Threads::Threads ${CMAKE_DL_LIBS} m)
 # It shows its beginning alone, so that another libaureole in the process stays another one.

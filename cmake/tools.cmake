@@ -22,7 +22,7 @@ endforeach()
 # without a build tree; the target makes them again, and a test compares the two.
 foreach(maker teapot keller)
     add_executable(${maker} scenes/${maker}.c scenes/make/teapot_patches.c scenes/make/solids.c)
-    target_link_libraries(${maker} PRIVATE aureole_flags aureole Embree::Embree m)
+    target_link_libraries(${maker} PRIVATE aureole_flags aureole aureole_helpers_of_points Embree::Embree m)
 endforeach()
 add_custom_target(scene-meshes COMMAND teapot "${PROJECT_SOURCE_DIR}/scenes/cornell-box/meshes/teapot.obj"
                                COMMAND keller "${PROJECT_SOURCE_DIR}/scenes/keller" VERBATIM)
@@ -30,5 +30,5 @@ add_custom_target(scene-meshes COMMAND teapot "${PROJECT_SOURCE_DIR}/scenes/corn
 # The larger meshes and the environments are made at first use, by scripts/scenes.sh.
 file(GLOB make_files CONFIGURE_DEPENDS scenes/make/*.[ch])
 add_executable(aureole-scenes ${make_files})
-target_link_libraries(aureole-scenes PRIVATE aureole_flags aureole-render Embree::Embree m)
+target_link_libraries(aureole-scenes PRIVATE aureole_flags aureole-render aureole_helpers_of_points Embree::Embree m)
 target_compile_definitions(aureole-scenes PRIVATE AUR_SCENES_FOLDER="${PROJECT_SOURCE_DIR}/scenes")
