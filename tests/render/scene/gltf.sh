@@ -250,10 +250,12 @@ cmp there.pfm made.pfm || fail "a variant of a .glb has not its material"
 draw order.gltf there.pfm
 draw swapped.gltf made.pfm
 cmp there.pfm made.pfm || fail "the order of materials matters"
-# Lights in lux do not leave the image white, unless an exposure is given; models without any are as they are.
+# Lights of any units do not leave the image white or black, unless an exposure is given; models without any are as they are.
 small="--width 16 --height 12 --spp 4 -q"
 "$aureole" render lit.gltf $small -o chosen.png && "$aureole" render lit.gltf $small --exposure auto -o auto.png && "$aureole" render lit.gltf $small --exposure 0 -o zero.png &&
   cmp chosen.png auto.png || fail "a bright light leaves the image white"
+sed 's/"intensity": 20000/"intensity": 0.0002/' lit.gltf >dim.gltf
+"$aureole" render dim.gltf $small -o dim.png && "$aureole" render dim.gltf $small --exposure auto -o auto.png && cmp dim.png auto.png || fail "a dim light leaves the image black"
 cmp -s chosen.png zero.png && fail "--exposure 0 is not kept"
 "$aureole" render blue.gltf $small -o chosen.png && "$aureole" render blue.gltf $small --exposure 0 -o zero.png && cmp chosen.png zero.png || fail "a model without lights has another exposure"
 # noted WORDS MODEL [OPTION...]: a warning, and a render

@@ -410,6 +410,21 @@ for name in color $'gr\374n'; do
 done
 cmp color.exr $'gr\374n.exr' || fail "a texture depends on its file's name"
 
+# A texture is the same from a BMP and a TGA, whose name alone tells what it is; "Tr 1" is a whole surface.
+/usr/bin/python3 - <<'PYTHON' || fail "the textures cannot be written"
+import struct
+texels = bytes([10, 200, 90, 255, 40, 30, 60, 70, 80, 120, 0, 250])  # 2 x 2 of blue, green, red, from below
+open("texels.bmp", "wb").write(struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 70, 0, 0, 54, 40, 2, 2, 1, 24, 0, 16, 0, 0, 0, 0) + texels[:6] + b"\0\0" + texels[6:] + b"\0\0")
+open("texels.tga", "wb").write(struct.pack("<BBBHHBHHHHBB", 0, 0, 2, 0, 0, 0, 0, 0, 2, 2, 24, 0) + texels)
+for name, mtl in (("bmp", "map_Kd texels.bmp"), ("tga", "map_Kd texels.tga"), ("whole", "Tr 1\nmap_Kd texels.bmp")):
+    open(name + ".mtl", "w").write("newmtl paint\nKd 1 1 1\n" + mtl + "\n")
+    open(name + ".obj", "w").write("mtllib " + name + ".mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl paint\nf 1/1 2/2 3/3 4/4\n")
+PYTHON
+for name in bmp tga whole; do
+  "$aureole" render $name.obj -q --spp 1 --width 16 -o $name.pfm || fail "$name.obj is not rendered"
+  cmp bmp.pfm $name.pfm || fail "$name.obj is another image than bmp.obj"
+done
+
 # A model at map coordinates is seen as the same one near 0, in every format that holds the digits: the coordinates are sums
 # of few powers of two, so that nothing is rounded in the files; what differs is the last digit of the camera's place.
 /usr/bin/python3 - <<'PYTHON' || fail "the models at map coordinates cannot be written"

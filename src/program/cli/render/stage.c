@@ -109,7 +109,7 @@ static aur_result parse_exposure(const char *text, void *field, aur_error *error
 }
 
 const cli_option cli_display_options[] = {
-    {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0, or auto for an overexposed model",
+    {CLI_TEXT(cli_display, exposure, "exposure", "STOPS", "0, or auto for models too bright or dim",
               "multiply radiance by 2^STOPS (PNG); auto: scale the geometric mean of the luminance to .18"),
      .parse = parse_exposure, .key.computed = true},
     {CLI_CHOICE(cli_display, tone, "tone", "CURVE", "srgb",
@@ -149,8 +149,8 @@ const char *cli_display_conflict(const cli_display *display, const char *output)
            "files";
 }
 
-/* Stops below which most pixels of an image without exposure are white. */
-static const double OVEREXPOSED = -3.0;
+/* With more stops than these away from it most pixels of an image without exposure are white, or black. */
+static const double TOO_FAR = 4.0;
 
 aur_result cli_display_write(const cli_display *display, const char *scene, const char *output,
                              const aur_image *image, const aur_warnings *warnings, aur_error *error) {
@@ -158,15 +158,17 @@ aur_result cli_display_write(const cli_display *display, const char *scene, cons
     const aur_row *format;
     aur_image_write_options_init(&options, NULL);
     const double automatic = automatic_exposure(image);
-    const bool adapts = !display->is_given && automatic < OVEREXPOSED && aur_scene_is_name(scene) &&
+    const bool adapts = !display->is_given && fabs(automatic) > TOO_FAR && aur_scene_is_name(scene) &&
                         aur_image_find_writer(output, NULL, &format, NULL) == AUR_OK &&
                         aur_row_find_key(format, "exposure") != NULL;
     options.exposure = display->automatic || adapts ? (float)automatic : display->exposure;
     options.tone = display->tone;
     if (adapts && warnings->function != NULL) {
         char text[128];
-        aur_format(text, sizeof text, "the lights of the model are bright: the image has --exposure %.3g",
-                   automatic);
+        aur_format(
+            text, sizeof text,
+            "the light of the model is too bright or too dim for an image: this one has --exposure %.3g",
+            automatic);
         warnings->function(warnings->user, text);
     }
     return aur_image_write(output, image, &options, error);

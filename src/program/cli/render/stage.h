@@ -30,7 +30,7 @@ extern const cli_option cli_display_options[]; /* cli_display */
 
 /* What is wrong with the options for this output, or NULL. */
 const char *cli_display_conflict(const cli_display *display, const char *output);
-/* `scene`: the file of the image's scene. Models and Radiance's files have lights in physical units: where
- * these leave most of an image white, and no exposure is given, it is automatic, with a warning. */
+/* `scene`: the file of the image's scene. Models and Radiance's files have lights of any units: where these
+ * leave most of an image white or black, and no exposure is given, it is automatic, with a warning. */
 aur_result cli_display_write(const cli_display *display, const char *scene, const char *output,
                              const aur_image *image, const aur_warnings *warnings, aur_error *error);

@@ -130,8 +130,9 @@ static bool read_material_line(aur_scanner *scanner, aur_word word, aur_mtl_mate
         read_number(scanner, &material->metal);
     else if (is_word(word, "Tr"))
         read_number(scanner, &transparency);
+    /* Some programs, as MeshLab, write "Tr 1" for a whole surface: nobody means one that is not there. */
     if (!isnan(transparency))
-        material->opacity = 1.0 - transparency;
+        material->opacity = transparency == 1.0 ? 1.0 : 1.0 - transparency;
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "points/base/file.h"
 
@@ -58,6 +59,12 @@ bool aur_named_is_picture(aur_named_files *self, const char *name, size_t size, 
     return good;
 }
 
+/* Only their names tell these files. */
+static bool is_targa(const char *name) {
+    const char *const dot = strrchr(name, '.');
+    return dot != NULL && strcasecmp(dot, ".tga") == 0;
+}
+
 aur_result aur_named_find_picture(aur_named_files *self, const char *name, char **used, aur_error *error) {
     char *data, quoted[300];
     size_t size;
@@ -65,7 +72,8 @@ aur_result aur_named_find_picture(aur_named_files *self, const char *name, char 
     snprintf(quoted, sizeof quoted, "'%s'", name);
     if (result == AUR_OK && data == NULL)
         list(&self->missing_pictures, "%s", quoted);
-    if (result != AUR_OK || data == NULL || !aur_named_is_picture(self, quoted, size, data)) {
+    if (result != AUR_OK || data == NULL ||
+        (!is_targa(*used) && !aur_named_is_picture(self, quoted, size, data))) {
         free(*used);
         *used = NULL;
     }
