@@ -2,7 +2,7 @@
 """Integrals over directions as four fields have them, by our points and weights and by those of other packages.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install scipy healpy soprano
-    /tmp/peers/bin/python bench/peers/fields.py [--program build/release/aureole]   # writes the table of docs/fields.md
+    /tmp/peers/bin/python bench/peers/fields.py [--program build/release/aureole]   # writes the table of bench/peers/fields.md
     /tmp/peers/bin/python bench/peers/fields.py --check                             # compares it; what is not installed is left out
 
 - powder: the free induction decay of a powder (magnetic resonance) after a time at which the anisotropy has turned the phase by
@@ -171,7 +171,7 @@ def agree(known, found):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default="build/release/aureole")
-    parser.add_argument("--page", default=os.path.join(HERE, "../../docs/fields.md"))
+    parser.add_argument("--page", default=os.path.join(HERE, "fields.md"))
     parser.add_argument("--check", action="store_true", help="compare the page's table with today's")
     parser.add_argument("--ours", action="store_true", help="with --check: only what needs no other package")
     parser.add_argument("--sizes", default=",".join(map(str, SIZES)), help="with --check: only these N")

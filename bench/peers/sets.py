@@ -3,7 +3,7 @@
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install scipy qmcpy healpy pylebedev qc-grid spaudiopy dipy orix quaternionic
     sudo apt install mrtrix3
-    /tmp/peers/bin/python bench/peers/sets.py [--program build/release/aureole]          # writes the tables of docs/sets-compared.md
+    /tmp/peers/bin/python bench/peers/sets.py [--program build/release/aureole]          # writes the tables of bench/peers/sets.md
     python3 bench/peers/sets.py --check                                                  # compares all but the times
 
 Figures are scaled by powers of N so that sets of nearly equal sizes can be compared; those of random and scrambled sets are
@@ -178,7 +178,7 @@ def check(page, begin, end, domains, only_ours):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default="build/release/aureole")
-    parser.add_argument("--page", default=os.path.join(HERE, "../../docs/sets-compared.md"))
+    parser.add_argument("--page", default=os.path.join(HERE, "sets.md"))
     parser.add_argument("--check", action="store_true", help="compare the page's figures with those of today, but for times")
     parser.add_argument("--ours", action="store_true", help="with --check: only our own sets")
     parser.add_argument("--domains", default=",".join(DOMAINS), help="with --check: only these")

@@ -21,22 +21,21 @@ within() {
     [ "$words" -le "$most" ] || wrong "$page has $words words: at most $most"
   done
 }
-within 600 README.md
-# Explanations and references; every other page describes one task.
-long='docs/architecture.md docs/choosing.md docs/compared.md docs/domains.md docs/guide.md docs/images.md docs/measures.md docs/mitsuba.md docs/reliability.md docs/scenes.md docs/sets.md docs/sets-compared.md docs/integrals.md docs/integrators.md docs/lab.md docs/rendering.md docs/view-factors.md'
-generated='docs/keys.md docs/options.md'
-# shellcheck disable=SC2086
-within 1500 $long docs/papers/*.md
-within 1200 docs/performance.md docs/glossary.md
-for page in docs/*.md; do
-  case " $long $generated docs/performance.md docs/glossary.md " in
-    *" $page "*) ;;
-    *) within 900 "$page" ;;
-  esac
+# A page describes one task, in 900 words; explanations, references, papers and tutorials have budgets of their own. Pages that programs
+# write from tables of the program have none.
+declare -A budget=([README.md]=600 [docs/performance.md]=1200)
+for page in architecture choosing integrators lab lighting-accuracy mitsuba models radiance reliability scenes view-factors measures; do
+  budget[docs/$page.md]=1500
+done
+generated='docs/keys.md docs/options.md docs/sets.md'
+for page in README.md docs/*.md docs/papers/*.md; do
+  case " $generated " in *" $page "*) continue ;; esac
+  case $page in docs/papers/*) usual=1500 ;; *) usual=900 ;; esac
+  within "${budget[$page]:-$usual}" "$page"
 done
 # shellcheck disable=SC2086
-all=$(words_of docs/*.md docs/*/*.md) known=$(words_of $generated)
-[ $((all - known)) -le 40000 ] || wrong "docs/ has $((all - known)) words without generated pages: at most 40000"
+all=$(cat docs/*.md docs/*/*.md | wc -w) written=$(cat $generated | wc -w)
+[ $((all - written)) -le 37000 ] || wrong "docs/ has $((all - written)) words without generated pages: at most 37000"
 
 awk '/^## / { release = $0; lines = 0 }
   /^- / { if (++lines == 61) { print "CHANGELOG.md: more than 60 lines in " release; bad = 1 }

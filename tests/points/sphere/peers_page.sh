@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Our own rows of the tables beside other packages say what the program computes today: those of docs/fields.md, and of
-# docs/sets-compared.md but for the sphere's, whose caps take long. Of each page one figure is changed, and the scripts name that one alone.
+# Our own rows of the tables beside other packages say what the program computes today: those of bench/peers/fields.md, and of
+# bench/peers/sets.md but for the sphere's, whose caps take long. Of each page one figure is changed, and the scripts name that one alone.
 set -u
 aureole=$1
 peers=$2/bench/peers
@@ -17,7 +17,7 @@ one_change() { # page, what sed changes in it, what the message begins with, scr
   cat message
   exit 1
 }
-docs=$2/docs
+docs=$2/bench/peers
 one_change fields.md 's/| `random` | 194 | 1 /| `random` | 194 | 1.1 /' 'found | `random` | 194 |' fields.py --sizes 194
-one_change sets-compared.md 's/^\(| `sobol` | 1024 | \)4.4 /\14.5 /' 'square, `sobol`: ' sets.py --domains square,rotations
+one_change sets.md 's/^\(| `sobol` | 1024 | \)4.4 /\14.5 /' 'square, `sobol`: ' sets.py --domains square,rotations
 exit 0
