@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Pages stay short and texts keep to the words of the field. Each page has a budget in words, the changelog one in lines, and
-# help, manual pages and lists of parameters use none of the words that readers could not search for.
+# help, manual pages, pages and lists of parameters use none of the words that readers could not search for.
 # usage: words.sh PROGRAM SOURCE_TREE
 set -u
 program=$1
@@ -49,5 +49,8 @@ awk '/^## / { release = $0; lines = 0 }
 } >"$texts" || wrong "aureole help fails"
 banned='pictures?|verbs?|rivals?|wish(ed|es)?|anew|is wanted|is asked|are asked|asked for|as asked|is told|are told|beside|what there is|samples a pixel|does not go with|one.s own|nothing but|who (looks|asks|names)'
 grep -nwiE "$banned" "$texts" && wrong "help or manual: words to replace, in the lines above"
+for page in README.md docs/*.md docs/papers/*.md packaging/*.md; do # without code and addresses
+  sed -e 's/`[^`]*`//g; s/\](\([^)]*\))/]/g; s/^    .*//' "$page" | grep -nwiE "$banned" && wrong "$page: words to replace, in the lines above"
+done
 rm -f "$texts"
 exit $status
