@@ -21,6 +21,15 @@ printf 'rvu -vtv -vp 0 0 0 -vd 0 1 0 -vh 90 -vv 53.13010235415598 -x 512\n' >wid
 "$aureole" render -q lamp.rad wide.txt --spp 1 -o wide.pfm && [ "$(sed -n 2p wide.pfm | tr -d '\0')" = "768 384" ] || fail "the shape of a view"
 "$aureole" convert front.pfm map.svg --luminance radiance --falsecolor 500 && grep -q 'cd/m2' map.svg && grep -q '>500<' map.svg || fail "a map"
 "$aureole" convert front.pfm map.png --luminance radiance --falsecolor 0 && [ "$(head -c 4 map.png | tail -c 3)" = PNG ] || fail "a map as PNG"
+"$aureole" convert front.pfm lines.svg --luminance radiance --falsecolor 500 --contours && [ "$(wc -c <lines.svg)" -gt "$(wc -c <map.svg)" ] || fail "contours"
+# Pages show luminances, and compare measures them: an image of double radiance differs by the luminance itself.
+"$aureole" view front.pfm --luminance radiance -o page.html >path.txt && grep -q 'data-unit="cd/m2"' page.html || fail "a page of luminances"
+"$aureole" view front.pfm -o plain.html >path.txt && ! grep -q 'data-unit=' plain.html || fail "a page of colours"
+sed 's/ 1 2 3$/ 2 4 6/;s/0 0 3 1 2 3/0 0 3 2 4 6/' lamp.rad >bright.rad
+"$aureole" render -q bright.rad front.vf --width 16 --spp 16 --filter box -o bright.pfm || fail "a brighter light"
+"$aureole" compare front.pfm bright.pfm --luminance radiance --tolerance 1000 -o off.svg --html off.html --format csv >off.csv || fail "compare"
+awk -F, -v y=322.235 'NR == 2 { d = $2 / (y * sqrt(8 / 256)) - 1; exit !(d * d < 1e-6) }' off.csv || fail "the RMSE in cd/m2: $(cat off.csv)"
+grep -q 'cd/m2' off.svg && grep -q 'data-unit="cd/m2"' off.html || fail "a map of differences"
 printf 'VIEW= -vta -vp 0 0 0\n' >bad.vf
 refused "bad.vf:1: view: only perspective views" lamp.rad bad.vf
 printf 'VIEW= -vtv -vp 0 0\n' >bad.vf
@@ -33,5 +42,6 @@ printf 'VIEW= -vd 0 0 0\n' >bad.vf
 refused "view: -vd and -vu must not be 0" lamp.rad bad.vf
 command=convert
 refused "--falsecolor is of --luminance" front.pfm map.png --falsecolor 5
+refused "--contours needs --falsecolor" front.pfm map.png --contours
 refused "map.what" front.pfm map.what --luminance radiance --falsecolor 5
 finish

@@ -119,8 +119,8 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
     snprintf(title, sizeof title, "%s%s", view, reduced ? " (means of 2 x 2 pixels)" : "");
     *shown = result == AUR_OK && (!p->small || aur_image_width(images[0]) >= SMALL_WIDTH);
     if (*shown)
-        result =
-            report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), count, pictures, error);
+        result = report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), NULL, count,
+                                    pictures, error);
     for (size_t i = 0; i < count; ++i)
         aur_image_destroy(images[i]);
     return result;

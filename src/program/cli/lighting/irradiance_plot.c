@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "program/cli/lighting/irradiance.h"
-#include "program/report/figure.h"
+#include "program/report/contours.h"
 
 enum { SIDE = 480 }; /* of the map, in pixels */
 
@@ -45,79 +45,23 @@ static bool find_cells(size_t count, const spread *x, const spread *y, double ce
     return ((x->high - x->low) / cell[0] + 1.0) * ((y->high - y->low) / cell[1] + 1.0) <= 4.0 * (double)count;
 }
 
-/* --- contours, by marching squares between the middles of cells */
-
-typedef struct cells {
-    size_t across, up;
-    spread x, y;
-    double step[2];
-    double *values; /* [up][across], NaN where no sensor stands */
-    size_t count, capacity;
-    report_point *segments;
-} cells;
-
-/* The value of each cell of a grid. */
-static bool take_cells(cells *self, size_t count, const report_point *points) {
-    self->across = (size_t)floor((self->x.high - self->x.low) / self->step[0] + 1.5);
-    self->up = (size_t)floor((self->y.high - self->y.low) / self->step[1] + 1.5);
-    self->values = malloc(self->across * self->up * sizeof *self->values);
-    for (size_t i = 0; i < self->across * self->up && self->values != NULL; ++i)
-        self->values[i] = NAN;
-    for (size_t i = 0; i < count && self->values != NULL; ++i) {
-        const size_t x = (size_t)floor((points[i].x - self->x.low) / self->step[0] + 0.5);
-        const size_t y = (size_t)floor((points[i].y - self->y.low) / self->step[1] + 0.5);
-        self->values[y * self->across + x] = points[i].value;
+/* The cells of a grid, and values at their middles: NaN where there is no sensor. */
+static bool take_cells(const spread spreads[2], size_t count, const report_point *points,
+                       report_contours *lines, double **values) {
+    const size_t across = (size_t)floor((spreads[0].high - spreads[0].low) / lines->step[0] + 1.5);
+    const size_t up = (size_t)floor((spreads[1].high - spreads[1].low) / lines->step[1] + 1.5);
+    double *const made = malloc(across * up * sizeof *made);
+    for (size_t i = 0; i < across * up && made != NULL; ++i)
+        made[i] = NAN;
+    for (size_t i = 0; i < count && made != NULL; ++i) {
+        const size_t x = (size_t)floor((points[i].x - spreads[0].low) / lines->step[0] + 0.5);
+        const size_t y = (size_t)floor((points[i].y - spreads[1].low) / lines->step[1] + 0.5);
+        made[y * across + x] = points[i].value;
     }
-    return self->values != NULL;
-}
-
-/* The lines of a level in the triangle of three cells' middles: one at most. */
-static bool cut_triangle(cells *self, double level, const size_t corners[3]) {
-    report_point ends[2];
-    size_t found = 0;
-    for (size_t i = 0; i < 3; ++i) {
-        const size_t a = corners[i], b = corners[(i + 1) % 3];
-        const double p = self->values[a], q = self->values[b];
-        if (!((p < level) != (q < level)) || found == 2)
-            continue;
-        const double t = (level - p) / (q - p), n = (double)self->across;
-        const double ax = fmod((double)a, n), bx = fmod((double)b, n), ay = floor((double)a / n),
-                     by = floor((double)b / n);
-        ends[found++] = (report_point){.x = self->x.low + self->step[0] * (ax + t * (bx - ax)),
-                                       .y = self->y.low + self->step[1] * (ay + t * (by - ay))};
-    }
-    if (found < 2)
-        return true;
-    if (self->count + 2 > self->capacity) {
-        const size_t capacity = 2 * self->capacity + 64;
-        report_point *const larger = realloc(self->segments, capacity * sizeof *larger);
-        if (larger == NULL)
-            return false;
-        self->segments = larger;
-        self->capacity = capacity;
-    }
-    self->segments[self->count++] = ends[0];
-    self->segments[self->count++] = ends[1];
-    return true;
-}
-
-/* Lines at round numbers, more of them than the scale has. */
-static bool add_contours(cells *self, double high) {
-    const report_ruler ruler = {.low = 0.0, .high = high, .from = 0.0, .to = 3.0 * SIDE};
-    double levels[REPORT_MOST_TICKS];
-    const size_t level_count = report_find_ticks(&ruler, levels);
-    bool fits = true;
-    for (size_t k = 0; k < level_count; ++k)
-        for (size_t j = 0; j + 1 < self->up && fits; ++j)
-            for (size_t i = 0; i + 1 < self->across && fits; ++i) {
-                const size_t at = j * self->across + i, above = at + self->across;
-                const double sum =
-                    self->values[at] + self->values[at + 1] + self->values[above] + self->values[above + 1];
-                fits =
-                    isnan(sum) || (cut_triangle(self, levels[k], (const size_t[3]){at, at + 1, above + 1}) &&
-                                   cut_triangle(self, levels[k], (const size_t[3]){at, above + 1, above}));
-            }
-    return fits;
+    lines->across = across;
+    lines->up = up;
+    lines->values = *values = made;
+    return made != NULL;
 }
 
 /* Along which axis the sensors spread least: the map is seen along it. */
@@ -152,31 +96,34 @@ static aur_result draw(const char *path, const char *unit, const aur_sensors_vie
     report_figure figure = {.width = SIDE + 80, .height = SIDE, .columns = 1, .panel_count = 1};
     spread spreads[3];
     const size_t *const axes = seen[find_view(sensors, room, spreads)];
-    cells grid = {.x = spreads[axes[0]], .y = spreads[axes[1]]};
+    const spread ground[2] = {spreads[axes[0]], spreads[axes[1]]};
+    report_contours lines = {.low = {ground[0].low, ground[1].low}};
+    double *values = NULL;
     report_series series[2] = {{.ink = REPORT_INK_SCALE, .count = sensors->count, .points = points},
                                {.ink = REPORT_INK_TEXT, .parts = REPORT_SEGMENTS}};
-    const bool gridded = find_cells(sensors->count, &grid.x, &grid.y, series[0].cell);
+    const bool gridded = find_cells(sensors->count, &ground[0], &ground[1], series[0].cell);
     series[0].parts = gridded ? REPORT_CELLS : REPORT_DOTS;
     figure.scale.high = take_points(sensors, results, axes, points);
-    memcpy(grid.step, series[0].cell, sizeof grid.step);
+    memcpy(lines.step, series[0].cell, sizeof lines.step);
     aur_result result = report_false_color(8, figure.scale.stops, error);
     if (result == AUR_OK && gridded &&
-        (!take_cells(&grid, sensors->count, points) || !add_contours(&grid, figure.scale.high)))
+        (!take_cells(ground, sensors->count, points, &lines, &values) ||
+         !report_find_contours(figure.scale.high, SIDE, &lines)))
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the contours");
-    series[1].count = grid.count;
-    series[1].points = grid.segments;
+    series[1].count = lines.count;
+    series[1].points = lines.segments;
     const report_panel panel = {.x = {.label = names[axes[0]]},
                                 .y = {.label = names[axes[1]]},
                                 .equal = true,
-                                .series_count = grid.count > 0 ? 2 : 1,
+                                .series_count = lines.count > 0 ? 2 : 1,
                                 .series = series};
     figure.panels = &panel;
     figure.scale.label = unit != NULL ? unit : "luminance";
     figure.scale.stop_count = 8;
     if (result == AUR_OK)
         result = report_figure_save(path, report_figure_format_of(path), &figure, error);
-    free(grid.values);
-    free(grid.segments);
+    free(values);
+    free(lines.segments);
     return result;
 }
 

@@ -22,7 +22,7 @@ static const cli_option rows[] = {
               "largest value allowed for every metric; 0: identical")},
     {CLI_TEXT(compare_options, outfile, "output", "FILE", NULL,
               "write the absolute difference (the FLIP map if the first metric is flip) in false colour "
-              "(PNG, EXR, ...)"),
+              "(PNG, EXR, ...); with --luminance with a scale in cd/m2 (PNG, SVG, PDF, TeX)"),
      .letter = 'o', .content = "file", .writes = true},
     {CLI_TEXT(compare_options, html, "html", "FILE", NULL,
               "write a page that shows the images: flip, slider, differences, values"),
@@ -86,9 +86,26 @@ static report_table *create_table(const compare_options *options) {
     return table;
 }
 
+/* Absolute differences of luminances with a scale in cd/m2. */
+static int draw_luminances(const aur_image *reference, const aur_image *image,
+                           const compare_options *options) {
+    aur_image *map = NULL;
+    aur_error error;
+    const size_t count = aur_image_width(image) * aur_image_height(image);
+    aur_result result = aur_image_create(aur_image_width(image), aur_image_height(image), 1, &map, &error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        aur_image_data(map)[i] = fabsf(aur_image_data(image)[i] - aur_image_data(reference)[i]);
+    if (result == AUR_OK)
+        result = cli_image_map(options->outfile, map, options->scale, false, &error);
+    aur_image_destroy(map);
+    return cli_status(result, &error);
+}
+
 /* Of FLIP its map, of every other metric the absolute difference. */
 static int write_difference(const aur_image *reference, const aur_image *image,
                             const compare_options *options) {
+    if (options->picture.luminance != CLI_LUMINANCE_NONE)
+        return draw_luminances(reference, image, options);
     aur_error error;
     aur_image *map = NULL, *colored = NULL;
     aur_result result;

@@ -1,13 +1,12 @@
 /* aureole convert: from one image format to another. */
 #include <string.h>
 
-#include "program/cli/render/luminance.h"
 #include "program/cli/render/picture.h"
 
 typedef struct convert_options {
     aur_image_write_options write;
-    cli_luminance luminance;
     double falsecolor; /* the end of the scale */
+    bool contours;
     cli_picture picture;
 } convert_options;
 
@@ -21,15 +20,12 @@ static const cli_option options[] = {
     {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
               "output format, if the extension of OUT does not select it"),
      .name = cli_picture_format},
-    {CLI_CHOICE(
-         convert_options, luminance, "luminance", "WEIGHTS", NULL,
-         "one channel Y in cd/m2: 179 lm/W and Radiance's weights of r, g, b; 179 lm/W and those of Rec. "
-         "709; or these and 683 lm/W"),
-     .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
     {CLI_REAL(
         convert_options, falsecolor, "falsecolor", "MAX", 0, 1e30, NULL,
         "draw a map of --luminance in false colours with a scale up to MAX cd/m2 (0: the largest): PNG, SVG, "
         "PDF or TeX")},
+    {CLI_FLAG(convert_options, contours, "contours",
+              "draw contours at round values on the map of --falsecolor")},
     {.key = {0}}};
 
 /* Options that would have no effect are mistakes. */
@@ -58,14 +54,11 @@ static int draw_map(const cli_call *call, const char *output) {
     convert_options *const given = call->options;
     aur_image *image = NULL;
     aur_error error;
-    if (cli_given(call, "luminance") == NULL)
+    if (given->picture.luminance == CLI_LUMINANCE_NONE)
         return cli_bad_usage("convert: --falsecolor is of --luminance WEIGHTS");
     int status = cli_read_picture(call->operands[0], &given->picture, &image);
     if (status == CLI_SUCCESS) {
-        aur_result result = cli_image_luminance(given->luminance, &image, &error);
-        if (result == AUR_OK)
-            result = cli_image_map(output, image, given->falsecolor, &error);
-        status = cli_status(result, &error);
+        status = cli_status(cli_image_map(output, image, given->falsecolor, given->contours, &error), &error);
     }
     aur_image_destroy(image);
     return status;
@@ -78,13 +71,13 @@ static int run(const cli_call *call) {
     aur_error error;
     if (cli_given(call, "falsecolor") != NULL)
         return draw_map(call, output);
+    if (given->contours)
+        return cli_bad_usage("convert: --contours needs --falsecolor MAX");
     int status = cli_status(aur_image_find_writer(output, given->write.format, &format, &error), &error);
     if (status != CLI_SUCCESS || !options_fit(call, format))
         return CLI_BAD_INPUT;
     aur_image *image = NULL;
     status = cli_read_picture(call->operands[0], &given->picture, &image);
-    if (status == CLI_SUCCESS && cli_given(call, "luminance") != NULL)
-        status = cli_status(cli_image_luminance(given->luminance, &image, &error), &error);
     if (status == CLI_SUCCESS) {
         warn_of_values(call->operands[0], image, format->name);
         given->write.size = sizeof given->write;

@@ -5,15 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "program/report/figure.h"
+#include "program/report/contours.h"
 
 enum { LONGEST = 480, STOPS = 8 }; /* of a map, in cells */
 
 aur_result cli_image_luminance(cli_luminance weights, aur_image **image, aur_error *error) {
     static const struct {
         double efficacy, weights[3];
-    } rows[] = {
-        {179.0, {0.265, 0.670, 0.065}}, {179.0, {0.2126, 0.7152, 0.0722}}, {683.0, {0.2126, 0.7152, 0.0722}}};
+    } rows[] = {{0.0, {0.0}},
+                {179.0, {0.265, 0.670, 0.065}},
+                {179.0, {0.2126, 0.7152, 0.0722}},
+                {683.0, {0.2126, 0.7152, 0.0722}}};
     const aur_image *const from = *image;
     const size_t width = aur_image_width(from), height = aur_image_height(from),
                  count = aur_image_channel_count(from);
@@ -64,7 +66,20 @@ static size_t take_cells(const aur_image *image, size_t block, report_point *cel
     return count;
 }
 
-aur_result cli_image_map(const char *path, const aur_image *image, double scale, aur_error *error) {
+/* The cells are row by row from the top. */
+static bool find_contours(const report_point *cells, double high, report_contours *lines) {
+    double *const values = malloc(lines->across * lines->up * sizeof *values);
+    for (size_t j = 0; j < lines->up && values != NULL; ++j)
+        for (size_t i = 0; i < lines->across; ++i)
+            values[j * lines->across + i] = cells[(lines->up - 1 - j) * lines->across + i].value;
+    lines->values = values;
+    const bool well = values != NULL && report_find_contours(high, LONGEST, lines);
+    free(values);
+    return well;
+}
+
+aur_result cli_image_map(const char *path, const aur_image *image, double scale, bool contours,
+                         aur_error *error) {
     const size_t width = aur_image_width(image), height = aur_image_height(image);
     const char *const format = report_figure_format_of(path);
     if (format == NULL)
@@ -75,15 +90,16 @@ aur_result cli_image_map(const char *path, const aur_image *image, double scale,
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the map");
     double most = 0.0;
     const double across = ceil((double)width / (double)block), up = ceil((double)height / (double)block);
-    report_series series = {
-        .ink = REPORT_INK_SCALE, .parts = REPORT_CELLS, .cell = {1.0, 1.0}, .points = cells};
-    series.count = take_cells(image, block, cells, &most);
+    report_series series[2] = {
+        {.ink = REPORT_INK_SCALE, .parts = REPORT_CELLS, .cell = {1.0, 1.0}, .points = cells},
+        {.ink = REPORT_INK_TEXT, .parts = REPORT_SEGMENTS}};
+    series[0].count = take_cells(image, block, cells, &most);
     const report_panel panel = {.x = {.low = 0.0, .high = across},
                                 .y = {.low = 0.0, .high = up},
                                 .equal = true,
                                 .border = REPORT_BORDER_FRAME,
-                                .series_count = 1,
-                                .series = &series};
+                                .series_count = contours ? 2 : 1,
+                                .series = series};
     report_figure figure = {.width = across + 30.0,
                             .height = up + 30.0,
                             .columns = 1,
@@ -91,9 +107,16 @@ aur_result cli_image_map(const char *path, const aur_image *image, double scale,
                             .panels = &panel,
                             .scale = {.label = "cd/m2", .stop_count = STOPS}};
     figure.scale.high = scale > 0.0 ? scale : most > 0.0 ? most : 1.0;
+    report_contours lines = {
+        .across = (size_t)across, .up = (size_t)up, .low = {0.5, 0.5}, .step = {1.0, 1.0}};
     aur_result result = report_false_color(STOPS, figure.scale.stops, error);
+    if (result == AUR_OK && contours && !find_contours(cells, figure.scale.high, &lines))
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the contours");
+    series[1].count = lines.count;
+    series[1].points = lines.segments;
     if (result == AUR_OK)
         result = report_figure_save(path, format, &figure, error);
+    free(lines.segments);
     free(cells);
     return result;
 }

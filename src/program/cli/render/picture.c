@@ -12,6 +12,10 @@ const cli_option cli_picture_options[] = {
      .list = true},
     {CLI_INTEGER(cli_picture, downsample, "downsample", "N", 1, INFINITY, "1",
                  "average blocks of N x N pixels")},
+    {CLI_CHOICE(cli_picture, luminance, "luminance", "WEIGHTS", "none",
+                "luminance in cd/m2 instead of colours: 179 lm/W and Radiance's weights of r, g, b; 179 lm/W "
+                "and those of Rec. 709; or these and 683 lm/W (photopic)"),
+     .key.words = (const char *const[]){"none", "radiance", "rec709", "photopic", NULL}},
     {.key = {0}}};
 
 const char *cli_picture_format(unsigned index) {
@@ -72,5 +76,7 @@ int cli_read_picture(const char *path, const cli_picture *options, aur_image **i
         result = aur_image_downsample(whole, options->downsample, image, &error);
         aur_image_destroy(whole);
     }
+    if (result == AUR_OK && options->luminance != CLI_LUMINANCE_NONE)
+        result = cli_image_luminance(options->luminance, image, &error);
     return cli_status(result, &error);
 }

@@ -4,11 +4,13 @@
 #include <aureole-render/image.h>
 
 #include "program/cli/options.h"
+#include "program/cli/render/luminance.h"
 
 /* Which part of an image is read. */
 typedef struct cli_picture {
     cli_list channels; /* of no count: all */
     size_t downsample; /* 1: as it is */
+    cli_luminance luminance;
 } cli_picture;
 
 extern const cli_option cli_picture_options[]; /* of a cli_picture */
@@ -26,7 +28,8 @@ int cli_read_picture(const char *path, const cli_picture *options, aur_image **i
 
 /* Pages with a viewer of images. */
 
-/* Writes a page with images of one size to `path`; the first is the reference of the others where `judged`.
+/* Writes a page with images of one size to `path`, luminances in false colours if `how` asks for them; the
+ * first is the reference of the others where `judged`.
  * Prints what is wrong and returns the exit status. */
 int cli_write_viewer(const char *path, size_t count, char **names, const cli_picture *how, double exposure,
                      bool judged);

@@ -5,15 +5,15 @@
 
 #include "program/report/page/page.h"
 
-static aur_result make_page(const char *path, double exposure, size_t count, const report_picture *pictures,
-                            aur_error *error) {
+static aur_result make_page(const char *path, double exposure, const char *unit, size_t count,
+                            const report_picture *pictures, aur_error *error) {
     char *text = NULL;
     size_t size = 0;
     FILE *const page = open_memstream(&text, &size);
     if (page == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     report_page_begin(page, "Aureole: images");
-    aur_result result = report_page_viewer(page, "", exposure, count, pictures, error);
+    aur_result result = report_page_viewer(page, "", exposure, unit, count, pictures, error);
     if (result == AUR_OK)
         result = report_page_end(page, error);
     if (fclose(page) != 0 && result == AUR_OK)
@@ -52,7 +52,9 @@ int cli_write_viewer(const char *path, size_t count, char **names, const cli_pic
             .name = short_name(count, names, i), .image = images[i], .reference = judged && i == 0};
     }
     if (status == CLI_SUCCESS)
-        status = cli_status(make_page(path, exposure, count, pictures, &error), &error);
+        status = cli_status(make_page(path, exposure, how->luminance != CLI_LUMINANCE_NONE ? "cd/m2" : NULL,
+                                      count, pictures, &error),
+                            &error);
     for (size_t i = 0; images != NULL && i < count; ++i)
         aur_image_destroy(images[i]);
     free(images);

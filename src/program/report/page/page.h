@@ -37,7 +37,8 @@ typedef struct report_picture {
 /* Writes an image as JSON that `unpack` of pictures.js takes. Errors: ARGUMENT without colour, MEMORY. */
 aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error);
 
-/* A viewer of images of one scene. `exposure` (stops) is what they are seen with first. Errors: ARGUMENT
- * for sizes that differ or an image without colour, MEMORY. */
-aur_result report_page_viewer(FILE *page, const char *title, double exposure, size_t count,
+/* A viewer of images of one scene. `exposure` (stops) is what they are seen with first. With a `unit` (else
+ * NULL) their values are seen first, in false colours. Errors: ARGUMENT for sizes that differ or an image
+ * without colour, MEMORY. */
+aur_result report_page_viewer(FILE *page, const char *title, double exposure, const char *unit, size_t count,
                               const report_picture *pictures, aur_error *error);

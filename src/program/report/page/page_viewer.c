@@ -110,7 +110,7 @@ aur_result report_put_picture(FILE *page, const report_picture *picture, aur_err
     return well ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
 }
 
-aur_result report_page_viewer(FILE *page, const char *title, double exposure, size_t count,
+aur_result report_page_viewer(FILE *page, const char *title, double exposure, const char *unit, size_t count,
                               const report_picture *pictures, aur_error *error) {
     const aur_image *const first = pictures[0].image;
     for (size_t i = 1; i < count; ++i)
@@ -121,7 +121,10 @@ aur_result report_page_viewer(FILE *page, const char *title, double exposure, si
                             pictures[i].name, aur_image_width(pictures[i].image),
                             aur_image_height(pictures[i].image), pictures[0].name, aur_image_width(first),
                             aur_image_height(first));
-    aur_print(page, "<figure class=\"viewer\" data-exposure=\"%g\"><figcaption>", exposure);
+    aur_print(page, "<figure class=\"viewer\" data-exposure=\"%g\"", exposure);
+    if (unit != NULL)
+        aur_print(page, " data-unit=\"%s\"", unit);
+    fputs("><figcaption>", page);
     report_escape(page, title);
     fputs("</figcaption>\n<script type=\"application/json\">[", page);
     aur_result result = AUR_OK;

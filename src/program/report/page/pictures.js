@@ -81,6 +81,29 @@ function errorShown(picture, reference, palette, largest) {
     }
   });
 }
+const grey = (picture, i) => (halves[picture.codes[0][i]] + halves[picture.codes[1][i]] + halves[picture.codes[2][i]]) / 3;
+function largestValue(picture) {
+  if (picture.largest === undefined) {
+    picture.largest = 0;
+    for (let i = 0; i < picture.codes[0].length; ++i) {
+      const value = grey(picture, i);
+      if (value < Infinity)
+        picture.largest = Math.max(picture.largest, value);
+    }
+  }
+  return picture.largest;
+}
+// Values in false colour up to `largest`; contours, eight of them, are where the pixel to the right or below lies in another band.
+function valuesShown(picture, palette, largest, contours) {
+  const {width, height} = picture, band = i => Math.floor(8 * Math.min(grey(picture, i) / largest, 1));
+  return painted(picture, data => {
+    for (let i = 0, k = 0; i < width * height; ++i, k += 4) {
+      const index = 3 * Math.max(0, Math.min(255, Math.round(255 * grey(picture, i) / largest))) || 0;
+      const edge = contours && ((i % width + 1 < width && band(i) !== band(i + 1)) || (i + width < width * height && band(i) !== band(i + width)));
+      data.set(edge ? [255, 255, 255, 255] : [palette[index], palette[index + 1], palette[index + 2], 255], k);
+    }
+  });
+}
 function statistics(picture, reference) {
   let squares = 0, largest = 0;
   for (let c = 0; c < 3; ++c)

@@ -1,7 +1,7 @@
 // The viewer of pictures of one scene: flip, split, side by side, differences; every state has an address behind #.
 'use strict';
 const modes = [['flip', 'One', 'f'], ['split', 'Slider', 's'], ['side', 'Side by side', 'g'], ['difference', 'Difference', 'd'],
-               ['error', 'False colour', 'c']];
+               ['error', 'False colour', 'c'], ['values', 'Values', 'v'], ['contours', 'Contours', 'l']];
 const viewers = [];
 class Viewer {
   constructor(figure, index, pictures) {
@@ -10,7 +10,9 @@ class Viewer {
     const reference = pictures.findIndex(p => p.reference);
     this.b = Math.max(reference, 0);
     this.a = this.b === 0 && pictures.length > 1 ? 1 : 0;
-    this.mode = 'flip';
+    this.unit = figure.dataset.unit || '';
+    this.mode = this.unit ? 'values' : 'flip';
+    this.valueStops = 0;
     this.exposure = Number(figure.dataset.exposure || 0);
     this.errorStops = 0;
     this.split = 0.5;
@@ -50,8 +52,8 @@ class Viewer {
     this.canvas.setAttribute('role', 'img');
     this.output = document.createElement('output');
     const help = document.createElement('details');
-    help.innerHTML = '<summary>Keys</summary>1 to 9, left, right: picture. Space: to and fro. f, s, g, d, c: one, slider, side by side, ' +
-      'difference, false colour. [ ]: move the slider. e, E: exposure. + - 0: zoom. Shift and arrows: move. Drag, wheel and two fingers work too.';
+    help.innerHTML = '<summary>Keys</summary>1 to 9, left, right: picture. Space: to and fro. f, s, g, d, c, v, l: one, slider, side by side, ' +
+      'difference, its false colour, values in false colour, with contours. [ ]: move the slider. e, E: exposure. + - 0: zoom. Shift and arrows: move. Drag, wheel and two fingers work too.';
     this.bar = bar(...this.names);
     this.figure.append(this.bar,
       bar(...this.modes, label, tone, button('\u2212', 'key -', () => this.zoomBy(0.5)), button('+', 'key +', () => this.zoomBy(2)),
@@ -68,10 +70,13 @@ class Viewer {
     this.a = i;
   }
   isError() { return this.mode === 'difference' || this.mode === 'error'; }
-  stops() { return this.isError() ? this.errorStops : this.exposure; }
+  isMap() { return this.mode === 'values' || this.mode === 'contours'; }
+  stops() { return this.isError() ? this.errorStops : this.isMap() ? this.valueStops : this.exposure; }
   setStops(stops) {
     if (this.isError())
       this.errorStops = stops;
+    else if (this.isMap())
+      this.valueStops = stops;
     else
       this.exposure = stops;
   }
@@ -107,18 +112,20 @@ class Viewer {
       Object.assign(this.canvas, {width, height});
   }
   source(i) {
-    const key = [i, this.isError() ? this.b : -1, this.mode === 'error', this.stops(), this.curve].join();
+    const key = [i, this.isError() ? this.b : -1, this.isError() || this.isMap() ? this.mode : '', this.stops(), this.curve].join();
     if (!this.cache.has(key)) {
       if (this.cache.size > 3 * this.pictures.length)
         this.cache.clear();
       const [p, r] = [this.pictures[i], this.pictures[this.b]];
-      this.cache.set(key, this.mode === 'error' ? errorShown(p, r, this.palette, this.scale())
+      this.cache.set(key, this.isMap() ? valuesShown(p, this.palette, this.scale(), this.mode === 'contours') : this.mode === 'error' ? errorShown(p, r, this.palette, this.scale())
         : this.mode === 'difference' ? differenceShown(p, r, this.stops()) : shown(p, this.stops(), this.curve));
     }
     return this.cache.get(key);
   }
-  // The difference that is drawn brightest.
+  // The value or difference that is drawn brightest.
   scale() {
+    if (this.isMap())
+      return Math.max(...this.pictures.map(largestValue)) * 2 ** -this.valueStops || 1;
     return (statistics(this.pictures[this.a], this.pictures[this.b]).largest || 1) * 2 ** -this.errorStops;
   }
   draw() {
@@ -141,7 +148,7 @@ class Viewer {
       this.caption(context, this.pictures[this.a].name, 0, 16 * scale, scale);
       this.caption(context, this.pictures[this.b].name, at + 2, 32 * scale, scale);
     }
-    if (this.mode === 'error')
+    if (this.mode === 'error' || this.isMap())
       this.colourBar(context, scale);
     this.tell();
   }
@@ -187,7 +194,7 @@ class Viewer {
       context.fillStyle = `rgb(${this.palette.slice(3 * i, 3 * i + 3)})`;
       context.fillRect(10 + i * width / 256, top, width / 256 + 1, 10 * scale);
     }
-    this.caption(context, `0 to ${this.scale().toPrecision(3)}`, 10, top + 24 * scale, scale);
+    this.caption(context, `0 to ${this.scale().toPrecision(3)} ${this.unit}`, 10, top + 24 * scale, scale);
   }
   // What is seen, in words: the state in the figure, the values of the pixel in the line below.
   tell() {
