@@ -45,6 +45,9 @@ static float at_most_one(float value) {
 static void base_color(writer *self, const struct aiMaterial *material, float color[4]) {
     color[0] = color[1] = color[2] = picture_exists(self, material, color_slot(self, material)) ? 1.0f : 0.6f;
     color[3] = writer_number(material, "$mat.opacity", 1.0f);
+    /* Programs disagree on which end of Collada's transparency is clear: nobody means what is not there. */
+    if (!self->is_gltf && color[3] == 0.0f)
+        color[3] = 1.0f;
     if (!writer_color(material, "$clr.base", color)) {
         const float opacity = color[3];
         writer_color(material, "$clr.diffuse", color);

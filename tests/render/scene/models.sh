@@ -425,6 +425,27 @@ for name in bmp tga whole; do
   cmp bmp.pfm $name.pfm || fail "$name.obj is another image than bmp.obj"
 done
 
+# A Collada material of opacity 0 is opaque, as programs write either end of the range for that.
+dae() { # NAME TRANSPARENCY
+  cat >"$1.dae" <<XML
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><up_axis>Y_UP</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><lambert><diffuse><color>.6 .3 .1 1</color></diffuse>
+<transparent><color>1 1 1 1</color></transparent><transparency><float>$2</float></transparency></lambert></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"><bind_material><technique_common><instance_material symbol="m" target="#m"/></technique_common></bind_material>
+</instance_geometry></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+XML
+  "$aureole" render "$1.dae" -q --spp 1 --width 16 -o "$1.pfm" || fail "$1.dae is not rendered"
+}
+dae opaque 1
+dae clear 0
+dae half 0.5
+cmp opaque.pfm clear.pfm || fail "a Collada material of opacity 0 is not there"
+cmp -s opaque.pfm half.pfm && fail "a Collada material of opacity .5 is opaque"
+
 # A model at map coordinates is seen as the same one near 0, in every format that holds the digits: the coordinates are sums
 # of few powers of two, so that nothing is rounded in the files; what differs is the last digit of the camera's place.
 /usr/bin/python3 - <<'PYTHON' || fail "the models at map coordinates cannot be written"
