@@ -69,6 +69,7 @@ done < <(gallery)
   echo "The bundled scenes ([how to build them](scenes.md)), rendered by \`scripts/gallery.sh\`, which writes this page. The error is the root mean"
   echo "square error relative to the mean of the image, with its 95 % interval, as the program reports it. CPU seconds are those of the whole"
   echo "program on shared processors ($(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo)). Images link to their full size."
+  echo "Models and scenes by others have [their own page](gallery-models.md)."
   echo
   old_section "At equal time"
   while IFS='|' read -r name scene options exposure tone title; do
