@@ -20,9 +20,9 @@ static double sum_after(size_t count, const double *variances, const uint32_t *b
 static void test_rounds_to_an_error_take_what_it_needs(void **state) {
     (void)state;
     for (double error = 0.01; error < 0.04; error *= 1.1) {
-        const aur_candidate candidate = {
-            .interval = {.estimate = 0.05, .high = 0.05}, .bound = 0.05, .rate = 1.0};
-        const aur_goal goal = {.error = error};
+        aur_candidate candidate = {.bound = 0.05, .rate = 1.0};
+        candidate.intervals[candidate.error_measure] = (aur_error_interval){.estimate = 0.05, .high = 0.05};
+        const aur_goal goal = {.error = error, .noise = error};
         const double needs = 0.05 * 0.05 / (error * error);
         const double takes = 1.0 / aur_candidate_factor(&candidate, &goal);
         assert_true(takes >= needs && takes <= 1.05 * needs);
