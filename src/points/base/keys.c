@@ -97,7 +97,7 @@ static void put_integer(const aur_key *key, uint64_t value, void *field) {
 }
 
 /* What a text is to a key. */
-typedef enum reading { READ, OUT_OF_RANGE, OF_OTHER_TYPE } reading;
+typedef enum reading { READ, OUT_OF_RANGE, OF_OTHER_TYPE, TOO_LONG } reading;
 
 static reading parse_integer(const aur_key *key, const char *text, void *field) {
     const char *const digits = aur_skip_spaces(text);
@@ -107,8 +107,11 @@ static reading parse_integer(const aur_key *key, const char *text, void *field) 
     const size_t count = strspn(start, "0123456789");
     if (count == 0 || *aur_skip_spaces(start + count) != '\0')
         return OF_OTHER_TYPE;
-    if (aur_read_integer(start, negative ? (uint64_t)INT64_MAX : UINT64_MAX, &magnitude) == NULL ||
-        !in_range(key, negative ? -(double)magnitude : (double)magnitude))
+    const bool fits =
+        aur_read_integer(start, negative ? (uint64_t)INT64_MAX : UINT64_MAX, &magnitude) != NULL;
+    if (!fits && !negative && isinf(key->maximum))
+        return TOO_LONG;
+    if (!fits || !in_range(key, negative ? -(double)magnitude : (double)magnitude))
         return OUT_OF_RANGE;
     put_integer(key, negative ? 0 - magnitude : magnitude, field);
     return READ;
@@ -207,6 +210,8 @@ bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t ca
         say_range(key, capacity, expected);
     else if (result == OF_OTHER_TYPE)
         say_type(key, capacity, expected);
+    else if (result == TOO_LONG)
+        aur_format(expected, capacity, "below 2^64");
     return result == READ;
 }
 

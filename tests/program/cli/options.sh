@@ -26,6 +26,9 @@ refuses "option '-n' needs a value" points sobol -n
 refuses "option '--seed' needs a value" points sobol --seed
 refuses "option '--quiet' takes no value" points sobol --quiet=yes
 refuses "--size: must be at least 1, not '0'" points sobol -n 0
+refuses "--size: must be below 2^64, not '18446744073709551616'" points sobol -n 18446744073709551616
+refuses "--seed: must be below 2^64, not '18446744073709551616'" points sobol -n 4 --seed 18446744073709551616
+refuses "--seed: must be at least 0, not '-1'" points sobol -n 4 --seed -1
 refuses "--size: must be an integer, not '1e3'" points sobol -n 1e3
 refuses "--samples: must be between 1 and 1073741824, not '0'" render a.xml --spp 0
 refuses "--smoothness: must be between 1 and 6, both exclusive, not '6'" points sobol -n 4 --smoothness 6
