@@ -73,7 +73,7 @@ awk -F, 'NR == 2 && $4 > 4 * .5 * (4 - .36) / 4 - .05 && $4 < 4 * .5 * (4 - .36)
 refused "expected a direction X,Y,Z" scene.xml --radiosity 0.5 --sun 1,2
 refused "expected a direction X,Y,Z" scene.xml --radiosity 0.5 --sun 0,0,0
 refused "need --radiosity" scene.xml --sky 2
-refused "there is no light" scene.xml --radiosity 0.5 --sky 0
+refused "no light: give sky" scene.xml --radiosity 0.5 --sky 0
 
 # --- odd meshes: counted warnings
 {

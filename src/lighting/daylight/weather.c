@@ -428,7 +428,7 @@ static aur_result read_year(const char *path, char *data, size_t size, aur_weath
         for (const char *at = data; at < zero; ++at)
             r.number += *at == '\n';
         ++r.number;
-        return aur_fail_at(error, place_of(&r), AUR_ERROR_FORMAT, "a zero byte: this is no text");
+        return aur_fail_at(error, place_of(&r), AUR_ERROR_FORMAT, "a zero byte: not a text file");
     }
     const aur_result result = read_header(&r, &weather->view);
     return result == AUR_OK ? read_hours(&r, weather) : result;

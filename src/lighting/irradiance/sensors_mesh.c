@@ -15,7 +15,7 @@ static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur
         count += facets->areas[i] > 0.0;
     if (count == 0)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
-                           "no facet has an area, so that there is no sensor");
+                           "no facet has an area: no sensor is placed");
     const aur_result result = aur_sensors_allocate(path, count, sensors, error);
     if (result != AUR_OK)
         return result;

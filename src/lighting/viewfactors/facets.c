@@ -95,7 +95,7 @@ static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
         const aur_shape *const shape = scene->shapes[i];
         if (shape->curved != NULL)
             return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
-                               "shape '%s' is no mesh of triangles: view factors are between plane facets",
+                               "shape '%s' is not a mesh of triangles: view factors are between plane facets",
                                shape->descriptor->row.name);
         if (shape->grouped)
             return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,

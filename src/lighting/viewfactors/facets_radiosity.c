@@ -204,7 +204,7 @@ static aur_result check(const aur_facets *facets, const aur_view_factors *factor
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the radiosity of the sky and the sun's irradiance must be finite and not negative");
     if (light->sky + emission + sun == 0.0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no light: give sky, emission or sun");
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "no light: give sky, emission or sun");
     if (factors != NULL && factors->rows != facets->row_count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the view factors are of %zu rows, the facets have %zu",
                         factors->rows, facets->row_count);

@@ -141,7 +141,7 @@ static aur_result check(const aur_view_factors *factors, const double *emittance
             return aur_fail(error, AUR_ERROR_ARGUMENT, "the emittance of row %zu must be in [0,1], not %g", i,
                             emittances[i]);
     if (factors->deviations == NULL && factors->starts[factors->rows] > 0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "these are no view factors of aur_view_factors_create");
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "expected view factors of aur_view_factors_create");
     if (factors->rows > MOST_ROWS)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "script F has all pairs of rows: at most %d, not %zu",
                         (int)MOST_ROWS, factors->rows);

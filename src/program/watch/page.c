@@ -9,7 +9,7 @@ char *watch_page(const char *title, size_t *size) {
     if (page == NULL)
         return NULL;
     report_page_begin(page, title);
-    fputs("<p id=\"said\" class=\"pale\" role=\"status\">Waiting for the picture.</p>\n"
+    fputs("<p id=\"said\" class=\"pale\" role=\"status\">Waiting for the image.</p>\n"
           "<progress id=\"share\" max=\"1\" value=\"0\"></progress>\n"
           "<figure class=\"viewer\" data-live></figure>\n",
           page);

@@ -159,7 +159,8 @@ static aur_result prepare(aur_render *render, aur_error *error) {
     if (result == AUR_OK)
         result = aur_sampler_create(s->sampler, s->samples_per_pixel, &s->warnings, &render->sampler, error);
     if (result == AUR_OK && s->shard_count != 0 && (s->shard == 0 || s->shard > s->shard_count))
-        result = aur_fail(error, AUR_ERROR_ARGUMENT, "there is no part %zu of %zu: 1 is the first", s->shard,
+        result = aur_fail(error, AUR_ERROR_ARGUMENT,
+                          "part must be from 1 to the number of parts (found %zu of %zu)", s->shard,
                           s->shard_count);
     if (result == AUR_OK && s->resumable)
         result = aur_render_identify(scene, s, &render->identity, error);

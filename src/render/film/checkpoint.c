@@ -153,7 +153,7 @@ aur_result aur_render_check_checkpoint(const char *path, aur_error *error) {
     (void)aur_io_agree(sizeof good, &good, NULL);
     return good ? AUR_OK
                 : aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
-                              "a checkpoint must not replace what is no checkpoint: choose another file");
+                              "a checkpoint must not replace another kind of file: choose another name");
 }
 
 void aur_checkpoint_release(aur_checkpoint *checkpoint) {

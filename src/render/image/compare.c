@@ -119,7 +119,7 @@ static aur_result mean_of_map(const color_metric *metric, const aur_image *refer
 aur_result aur_image_compare(const aur_image *reference, const aur_image *image, aur_image_metric which,
                              double value[4], aur_error *error) {
     if ((size_t)which >= AUR_IMAGE_METRIC_COUNT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no image metric number %d", (int)which);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown image metric %d", (int)which);
     aur_color_pair pair;
     const aur_result result = aur_image_check_pair(reference, image, &pair, error);
     if (result != AUR_OK)

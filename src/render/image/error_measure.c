@@ -169,7 +169,7 @@ static void copy_colors(const aur_image *image, const size_t channels[3], double
 aur_result aur_image_error(const aur_image *reference, const aur_image *image, aur_error_measure measure,
                            double *value, aur_error *error) {
     if ((size_t)measure >= AUR_ERROR_MEASURE_COUNT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no error measure number %d", (int)measure);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown error measure %d", (int)measure);
     aur_color_pair pair;
     const aur_result result = aur_image_check_pair(reference, image, &pair, error);
     if (result != AUR_OK)

@@ -6,7 +6,7 @@ aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error) {
         const aur_shape *const shape = scene->shapes[i];
         if (shape->curved != NULL)
             return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
-                               "shape '%s' is no mesh of triangles", shape->descriptor->row.name);
+                               "shape '%s' is not a mesh of triangles", shape->descriptor->row.name);
         if (shape->grouped)
             return aur_fail_at(
                 error, shape->location, AUR_ERROR_UNSUPPORTED,
@@ -16,7 +16,7 @@ aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error) {
     for (size_t i = 0; i < scene->emitter_count; ++i)
         if (!aur_emitter_glows(scene->emitters[i]))
             return aur_fail_at(error, scene->emitters[i]->location, AUR_ERROR_UNSUPPORTED,
-                               "emitter '%s' is no surface: only 'area' lights are",
+                               "emitter '%s' is not a surface: only 'area' lights are",
                                scene->emitters[i]->descriptor->row.name);
     return AUR_OK;
 }

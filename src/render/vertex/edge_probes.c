@@ -236,7 +236,7 @@ static void destroy(void *thing) {
 
 static aur_result survey_picture(const survey *s, const aur_integrator_context *context, aur_error *error) {
     const aur_parallel_options options = {
-        .threads = context->threads, .what = "looking for lamps", .flush_denormals = true};
+        .threads = context->threads, .what = "searching light edges", .flush_denormals = true};
     survey own = *s;
     aur_result result = aur_parallel_for(&options, s->view->height, survey_centres, &own, error);
     if (result == AUR_OK)

@@ -76,7 +76,7 @@ expect 2 "sobl.*sobol" box.xml --sampler sobl
 expect 2 "unknown filter 'bx'" box.xml --filter bx
 expect 2 "crop" box.xml --crop 4,2,0,8
 expect 2 "crop" box.xml --crop 0,99,0,8
-expect 2 "spp" box.xml --spp 0
+expect 2 "samples" box.xml --spp 0
 expect 2 "-D" box.xml -D nothing
 expect 2 "no_such" box.xml -D no_such=1
 expect 2 "unknown option" box.xml --photons

@@ -188,8 +188,8 @@ static void finds_files_beside_the_scene(void **state) {
     aur_scene_destroy(scene);
     static const char *const rows[][2] = {
         {"<shape type='obj'><string name='filename' value='/dev/zero'/></shape>",
-         "'/dev/zero' is no regular file"},
-        {"<shape type='ply'><string name='filename' value='.'/></shape>", "'.' is no regular file"},
+         "'/dev/zero' is not a regular file"},
+        {"<shape type='ply'><string name='filename' value='.'/></shape>", "'.' is not a regular file"},
         {"<integrator type='finalgather'><string name='pattern' value='file:none.csv'/></integrator>",
          "cannot find 'none.csv'; looked in"},
     };

@@ -161,7 +161,7 @@ static const struct bad_row {
     {"<include filename='no.xml'/>", 2, 1, "cannot find 'no.xml'"},
     {"<default name='a'/>", 2, 1, "<default> needs the attribute 'value'"},
     {"<shape type='$kind'/>", 2, 1, "$kind is not defined: give it a <default>, or a value by -D kind=..."},
-    {"<alias id='q' as='r'/>", 2, 1, "there is no id 'q'"},
+    {"<alias id='q' as='r'/>", 2, 1, "unknown id 'q'"},
     {"<bsdf type='diffuse'><texture type='checkerbord' name='reflectance'/></bsdf>", 2, 22,
      "unknown texture"},
     {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1, 300:0.2'/></bsdf>", 2, 22,

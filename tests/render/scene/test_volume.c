@@ -80,10 +80,10 @@ static void refuses_what_is_no_grid(void **state) {
         size_t at;
         int32_t number;
         const char *message;
-    } wrongs[] = {{0, 0x4d4c56, "no .vol file"}, {4, 2, "must be 1, floats"},
-                  {8, 0, "1 to 65536 voxels"},   {12, -1, "1 to 65536 voxels"},
-                  {16, 3, "not what its head"},  {20, 2, "1 or 3 channels"},
-                  {20, 3, "not what its head"},  {VOL_HEAD + 8, 0x7f800000, "not finite"}};
+    } wrongs[] = {{0, 0x4d4c56, "not a .vol file"}, {4, 2, "must be 1, floats"},
+                  {8, 0, "1 to 65536 voxels"},      {12, -1, "1 to 65536 voxels"},
+                  {16, 3, "not what its head"},     {20, 2, "1 or 3 channels"},
+                  {20, 3, "not what its head"},     {VOL_HEAD + 8, 0x7f800000, "not finite"}};
     for (size_t i = 0; i < sizeof wrongs / sizeof wrongs[0]; ++i) {
         char bytes[VOL_HEAD + 32];
         memcpy(bytes, good, size);

@@ -22,12 +22,12 @@ static void scenes_without_an_answer_are_refused(void **state) {
     (void)state;
     expect_refused("<shape type='cube'/>", NULL, AUR_ERROR_UNSUPPORTED, "no light");
     expect_refused("<emitter type='constant'/><shape type='cube'/>", NULL, AUR_ERROR_UNSUPPORTED,
-                   "emitter 'constant' is no surface");
+                   "emitter 'constant' is not a surface");
     expect_refused(
         "<shape type='cube'><emitter type='area'><rgb name='radiance' value='0'/></emitter></shape>", NULL,
         AUR_ERROR_UNSUPPORTED, "emit no radiance");
     expect_refused(ROOM "<shape type='sphere'/>", NULL, AUR_ERROR_UNSUPPORTED,
-                   "'sphere' is no mesh of triangles");
+                   "'sphere' is not a mesh of triangles");
     /* Radiance that is no number is refused before, by the loader. */
     aur_scene *scene = NULL;
     aur_error error = {0};

@@ -104,7 +104,7 @@ aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml
         return result;
     const aur_location location = (*target)->location;
     if (aur_loader_find_kind(self, (*target)->tag) == NULL)
-        return aur_xml_fail(child, self->error, "<%s> is no object to refer to", (*target)->tag);
+        return aur_xml_fail(child, self->error, "<%s> cannot be referenced", (*target)->tag);
     if ((*target)->state == AUR_XML_BUILDING)
         return aur_xml_fail(child, self->error,
                             "this refers to the object at %s:%zu:%zu, which contains it: a cycle",

@@ -132,7 +132,7 @@ static aur_result add_spectrum(aur_loader *self, const aur_xml_node *node, aur_p
         return result;
     if (aur_spectrum_clamp(use, rgb))
         aur_warn_at(self->warnings, node->location,
-                    "<spectrum> '%s' is no colour of sRGB: it is clamped to %g, %g, %g", name, rgb[0], rgb[1],
+                    "<spectrum> '%s' is outside of sRGB: clamped to %g, %g, %g", name, rgb[0], rgb[1],
                     rgb[2]);
     char text[96];
     aur_format(text, sizeof text, "%.17g %.17g %.17g", rgb[0], rgb[1], rgb[2]);

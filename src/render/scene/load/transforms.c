@@ -70,7 +70,7 @@ static aur_result read_matrix(const aur_xml_node *node, aur_transform *step, aur
     *step = aur_transform_identity();
     if (count != 16 && count != 9)
         return aur_xml_fail(node, error, "<matrix>: 'value' must be 16 numbers, row by row (or 9), not %s",
-                            count == SIZE_MAX ? "something that is no number" : "another count of them");
+                            count == SIZE_MAX ? "something that is not a number" : "another count of them");
     const size_t side = count == 16 ? 4 : 3;
     for (size_t i = 0; i < count; ++i)
         step->m[4 * (i / side) + i % side] = values[i];

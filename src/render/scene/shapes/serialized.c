@@ -127,7 +127,7 @@ static aur_result read_file(aur_mesh_file *file, aur_shape *shape) {
     const char *const data = file->scanner.at;
     const size_t size = (size_t)(file->scanner.end - data);
     if (size < 12 || little(data, 2) != MAGIC)
-        return aur_mesh_file_fail(file, "this is no serialized mesh file");
+        return aur_mesh_file_fail(file, "not a serialized mesh file");
     const uint64_t version = little(data + 2, 2);
     if (version != 3 && version != 4)
         return aur_mesh_file_fail(file, "version %u of the format is not known: it must be 3 or 4",

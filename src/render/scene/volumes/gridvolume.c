@@ -44,7 +44,7 @@ static int32_t integer_at(const char *file, size_t offset) {
 /* What is wrong with a file, or NULL. */
 static const char *check(const char *file, size_t bytes, grid *self) {
     if (bytes < HEAD || memcmp(file, "VOL", 3) != 0)
-        return "it is no .vol file";
+        return "not a .vol file";
     if (file[3] != 3)
         return "its version must be 3";
     if (integer_at(file, 4) != 1)

@@ -302,7 +302,7 @@ static aur_result read_all(obj *self) {
         if (result != AUR_OK)
             return result;
         if (*scanner->at == '\0' && scanner->at < scanner->end)
-            return aur_mesh_reader_fail(reader, "a zero byte: this is no OBJ file");
+            return aur_mesh_reader_fail(reader, "a zero byte: not an OBJ file");
     }
     for (size_t kind = 0; kind < 3; ++kind)
         if (self->largest[kind] > count_of(self, kind)) {

@@ -56,7 +56,7 @@ static aur_result add_polygon(aur_rad *self, const aur_rad_primitive *item, aur_
     double *const x = item->numbers;
     if (item->number_count % 3 != 0)
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
-                            "polygon: %zu numbers are no corners of three coordinates", item->number_count);
+                            "polygon: %zu numbers are not corners of three coordinates", item->number_count);
     for (size_t i = 0; i < count; ++i)
         place(self, x + 3 * i);
     /* A mirror image faces the same way as what it mirrors. */
@@ -159,7 +159,7 @@ static aur_result read_file_and_poses(aur_rad *self, const aur_rad_primitive *it
         result = aur_rad_read_xform(self, item->string_count - 1, item->strings + 1, &used);
     if (result == AUR_OK && used + 1 < item->string_count)
         result =
-            aur_rad_fail(self, file->line, AUR_ERROR_FORMAT, "%s: '%.*s' is no option of xform",
+            aur_rad_fail(self, file->line, AUR_ERROR_FORMAT, "%s: '%.*s' is not an option of xform",
                          item->row->name, (int)item->strings[used + 1].length, item->strings[used + 1].text);
     return result;
 }
@@ -168,7 +168,7 @@ static aur_result add_mesh(aur_rad *self, const aur_rad_primitive *item, aur_rad
     aur_rad_word file;
     aur_result result = read_file_and_poses(self, item, ".rtm", "OBJ file", &file);
     if (result == AUR_OK && !ends_with(file, ".obj"))
-        result = aur_rad_fail(self, file.line, AUR_ERROR_UNSUPPORTED, "mesh: '%.*s' is no OBJ file",
+        result = aur_rad_fail(self, file.line, AUR_ERROR_UNSUPPORTED, "mesh: '%.*s' is not an OBJ file",
                               (int)file.length, file.text);
     aur_nodes *const nodes = self->nodes;
     for (size_t i = 0; i < self->pose_count && result == AUR_OK; ++i) {

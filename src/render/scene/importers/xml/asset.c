@@ -192,8 +192,9 @@ aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location,
     aur_result result = aur_xml_find_folder(document, location, name, found, error);
     struct stat status;
     if (result == AUR_OK && !(aur_file_status(*found, &status) && S_ISREG(status.st_mode)))
-        result = aur_fail_at(error, location, AUR_ERROR_OPEN,
-                             "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
+        result =
+            aur_fail_at(error, location, AUR_ERROR_OPEN,
+                        "'%s' is not a regular file: a scene must not name folders, devices or pipes", name);
     else if (result == AUR_OK && !is_allowed(document, *found))
         result =
             aur_fail_at(error, location, AUR_ERROR_OPEN,

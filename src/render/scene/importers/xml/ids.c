@@ -46,8 +46,8 @@ static aur_result resolve_aliases(const aur_xml_document *document, aur_error *e
         for (size_t hops = 0; strcmp(last->node->tag, "alias") == 0; ++hops) {
             const aur_xml_id *const next = next_id(document, last);
             if (next == NULL || hops > document->tree.id_count)
-                return aur_fail_at(error, first->node->location, AUR_ERROR_NAME,
-                                   "<alias>: there is no id '%s'", aur_xml_attribute_value(last->node, "id"));
+                return aur_fail_at(error, first->node->location, AUR_ERROR_NAME, "<alias>: unknown id '%s'",
+                                   aur_xml_attribute_value(last->node, "id"));
             last = next;
         }
         for (aur_xml_id *item = first; strcmp(item->node->tag, "alias") == 0;) {
