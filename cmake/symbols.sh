@@ -18,11 +18,15 @@ names() {
 hidden=()
 for i in $(seq $#); do [ "${!i}" != --hide ] || { hidden=("${@:i+1}"); set -- "${@:1:i-1}"; break; }; done
 [ -n "$map" ] || { names "$kinds" "$@"; exit; }
-printf '%s_1 {\n  global:\n' "$node"
-names AUR_API "$@" | sed 's/.*/    &;/'
-printf '};\n%s_EXPERIMENTAL_%s {\n  global:\n' "$node" "$map"
-names AUR_EXPERIMENTAL "$@" | sed 's/.*/    &;/'
-printf '};\n%s_PRIVATE_%s {\n  global:\n    aur_*;\n  local:\n    *;\n' "$node" "$map"
-[ ${#hidden[@]} -eq 0 ] || "${NM:-nm}" --defined-only "${hidden[@]}" | sed -nE 's/.* T (aur_[a-z0-9_]+)$/\1/p' | sort -u |
-  comm -23 - <(names "$kinds" "$@") | sed 's/.*/    &;/'
-echo '};'
+# Written at once: another process may read it.
+map=$(
+  printf '%s_1 {\n  global:\n' "$node"
+  names AUR_API "$@" | sed 's/.*/    &;/'
+  printf '};\n%s_EXPERIMENTAL_%s {\n  global:\n' "$node" "$map"
+  names AUR_EXPERIMENTAL "$@" | sed 's/.*/    &;/'
+  printf '};\n%s_PRIVATE_%s {\n  global:\n    aur_*;\n  local:\n    *;\n' "$node" "$map"
+  [ ${#hidden[@]} -eq 0 ] || "${NM:-nm}" --defined-only "${hidden[@]}" | sed -nE 's/.* T (aur_[a-z0-9_]+)$/\1/p' | sort -u |
+    comm -23 - <(names "$kinds" "$@") | sed 's/.*/    &;/'
+  echo '};'
+)
+echo "$map"
