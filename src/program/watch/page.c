@@ -49,7 +49,7 @@ size_t watch_layers(const aur_image *image, watch_layer layers[WATCH_LAYER_LIMIT
         watch_layer *const layer = &layers[count++];
         *layer = (watch_layer){.channel = channel, .channel_count = next - channel};
         if (colour && stem == 0)
-            memcpy(layer->name, "picture", sizeof "picture");
+            memcpy(layer->name, "image", sizeof "image");
         else
             memcpy(layer->name, name, colour ? stem : strlen(name));
     }

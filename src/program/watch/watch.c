@@ -332,6 +332,8 @@ const char *watch_address(const watch_session *watch) {
 /* --- the render's side */
 
 void watch_set_source(watch_session *watch, const watch_source *source) {
+    if (watch->source.describe != NULL) /* as it is at its end */
+        watch->source.describe(watch->source.user, sizeof watch->pending, watch->pending);
     watch->source = *source;
 }
 
@@ -473,6 +475,7 @@ void watch_end(watch_session *watch, const aur_image *image, const char *words) 
         return;
     pthread_mutex_lock(&watch->lock);
     aur_format(watch->ended, sizeof watch->ended, "%s", words);
+    memcpy(watch->known, watch->pending, sizeof watch->known); /* of the whole image */
     watch->last = image;
     ++watch->serial;
     pthread_mutex_unlock(&watch->lock);

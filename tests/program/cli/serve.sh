@@ -58,6 +58,7 @@ assert states[0]["what"] in ("planning", "rendering"), states[0]
 assert pairs and all(pairs), [state["known"] for state in states]
 for pair in pairs:
     assert of_rounds.get(pair[1]) == pair.groups()[1:], (pair[0], of_rounds)
+assert pairs[-1][1] == max(of_rounds, key=float), "the end is told with the error of an earlier round"
 shares = [state["share"] for state in states]
 assert shares == sorted(shares), shares
 PY
@@ -93,7 +94,7 @@ for serial in 0 1 2 3 4 5 6 7 8 9; do
   grep -q '"name": "albedo"' <<<"$state" && break
 done
 status 200 "$state" "the state"
-for what in '"what": "rendering"' '"width": 64' '"name": "picture", "channels": \["R", "G", "B"\]' '"ended": ""'; do
+for what in '"what": "rendering"' '"width": 64' '"name": "image", "channels": \["R", "G", "B"\]' '"ended": ""'; do
   grep -q "$what" <<<"$state" || fail "no $what in $(tail -1 <<<"$state")"
 done
 picture=$(ask GET "/$token/picture/1")
@@ -166,9 +167,9 @@ status 200 "$(ask POST "/$token/stop")" "stop"
 wait "$pid"
 [ $? -eq 3 ] || fail "stopped: $(cat seen.txt)"
 wait "$chromium"
-for what in 'The render was stopped.' 'data-ended' 'z=16&amp;x=3&amp;y=5&amp;tone=filmic' 'Save EXR' '<output>pixel 3, 5   picture: '; do
+for what in 'The render was stopped.' 'data-ended' 'z=16&amp;x=3&amp;y=5&amp;tone=filmic' 'Save EXR' '<output>pixel 3, 5   image: '; do
   grep -qF "$what" dom.html || fail "no $what in the page: $(grep -o 'id="said"[^/]*' dom.html) $(grep -o 'data-state="[^"]*"' dom.html)"
 done
-grep -q 'pixel 3, 5   picture: 0.000 0.000 0.000' dom.html && fail "the page shows a black picture"
+grep -q 'pixel 3, 5   image: 0.000 0.000 0.000' dom.html && fail "the page shows a black picture"
 rm -rf chromium
 exit $((failures > 0))
