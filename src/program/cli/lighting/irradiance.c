@@ -299,6 +299,37 @@ static void warn_of_units(const irradiance_command *given, const aur_scene *scen
                           "--location 0,0 is in the sea: expected degrees north, then degrees east");
 }
 
+/* Sensors farther from the scene than its own size, as millimetres would be. */
+static void warn_of_places(const irradiance_command *given, const aur_scene *scene,
+                           const aur_sensors_view *sensors) {
+    const aur_warnings warnings = cli_warnings(given->common.quiet);
+    aur_scene_description d = {.size = sizeof d};
+    double extent = 0.0;
+    size_t count = 0, first = 0;
+    aur_scene_get_description(scene, &d, NULL);
+    for (size_t i = 0; i < 3; ++i)
+        extent = fmax(extent, d.upper[i] - d.lower[i]);
+    for (size_t i = 0; i < sensors->count; ++i) {
+        bool far = false;
+        for (size_t k = 0; k < 3; ++k) {
+            const double at = sensors->positions[3 * i + k];
+            far = far || at < d.lower[k] - 10.0 * extent || at > d.upper[k] + 10.0 * extent;
+        }
+        if (far && count++ == 0)
+            first = i;
+    }
+    if (count == 0 || !(extent > 0.0) || warnings.function == NULL)
+        return;
+    char text[AUR_ERROR_FILE_CAPACITY + 160], place[32] = "";
+    if (sensors->lines != NULL)
+        aur_format(place, sizeof place, ":%zu", sensors->lines[first]);
+    aur_format(text, sizeof text,
+               "%s%s: %zu of %zu sensors are more than ten times the size of the scene away from it (the "
+               "first is here): check the units",
+               sensors->file != NULL ? sensors->file : "sensors", place, count, sensors->count);
+    warnings.function(warnings.user, text);
+}
+
 static int run(const cli_call *call) {
     irradiance_command *const given = call->options;
     find_format(call, given);
@@ -327,6 +358,8 @@ static int run(const cli_call *call) {
         warn_of_units(given, scene);
     if (result == AUR_OK && given->sensors == NULL)
         result = place_grid(given, scene, &sensors, &error);
+    if (result == AUR_OK)
+        warn_of_places(given, scene, aur_sensors_get_view(sensors));
     if (result == AUR_OK)
         result = given->daylight.weather != NULL || given->daylight.coefficients
                      ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)
