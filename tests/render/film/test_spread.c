@@ -78,49 +78,60 @@ static void assert_same(aur_image *a, aur_image *b) {
     aur_image_destroy(b);
 }
 
+/* All samples of all pixels of a render, and where they lie. */
+static float values[PIXELS][SAMPLES][3], offsets[PIXELS][SAMPLES][2];
+
+static void take_samples(const fixture *f, aur_render *render) {
+    const aur_integrator *const integrator = aur_render_integrator(render);
+    aur_sampler *sampler = NULL;
+    assert_int_equal(aur_sampler_create(aur_scene_sampler(f->scene), SAMPLES, NULL, &sampler, NULL), AUR_OK);
+    const aur_view view = {.scene = f->scene,
+                           .sampler = sampler,
+                           .filter = aur_filter_find("box"),
+                           .width = WIDTH,
+                           .height = HEIGHT};
+    aur_counters counters = {0};
+    for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
+        const size_t pixel = i / SAMPLES, s = i % SAMPLES;
+        aur_camera_sample sample;
+        aur_view_sample(&view, pixel % WIDTH, pixel / WIDTH, (uint32_t)s, &sample);
+        const aur_vector l = integrator->descriptor->radiance(integrator, &sample, &counters);
+        memcpy(values[pixel][s], (const float[3]){l.x, l.y, l.z}, sizeof values[pixel][s]);
+        memcpy(offsets[pixel][s], sample.offset, sizeof sample.offset);
+    }
+    aur_sampler_destroy(sampler);
+}
+
+/* What sample `i` of all weighs in a pixel. */
+static double weight_of(const aur_filter *filter, size_t i, size_t pixel) {
+    const size_t other = i / SAMPLES, s = i % SAMPLES;
+    const double x = (double)(other % WIDTH) - (double)(pixel % WIDTH);
+    const double y = (double)(other / WIDTH) - (double)(pixel / WIDTH);
+    return fabs(x) > 4.0 || fabs(y) > 4.0 ? 0.0
+                                          : aur_filter_value(filter, x + (double)offsets[other][s][0]) *
+                                                aur_filter_value(filter, y + (double)offsets[other][s][1]);
+}
+
 /* Brute force: all samples of all pixels, weighed by the filter's definition. */
 static void pixels_are_the_weighed_means_of_all_samples(void **state) {
     const fixture *const f = *state;
-    static float values[PIXELS][SAMPLES][3], offsets[PIXELS][SAMPLES][2];
     for (size_t k = 0; k < FILTER_COUNT; ++k) {
         const aur_filter *const filter = aur_filter_find(filters[k]);
         const aur_render_options options = options_of("direct", filters[k]);
         aur_render *const render = start(f, &options);
-        const aur_integrator *const integrator = aur_render_integrator(render);
-        aur_sampler *sampler = NULL;
-        assert_int_equal(aur_sampler_create(aur_scene_sampler(f->scene), SAMPLES, NULL, &sampler, NULL),
-                         AUR_OK);
-        const aur_view view = {.scene = f->scene,
-                               .sampler = sampler,
-                               .filter = aur_filter_find("box"),
-                               .width = WIDTH,
-                               .height = HEIGHT};
-        aur_counters counters = {0};
-        for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
-            const size_t pixel = i / SAMPLES, s = i % SAMPLES;
-            aur_camera_sample sample;
-            aur_view_sample(&view, pixel % WIDTH, pixel / WIDTH, (uint32_t)s, &sample);
-            const aur_vector l = integrator->descriptor->radiance(integrator, &sample, &counters);
-            memcpy(values[pixel][s], (const float[3]){l.x, l.y, l.z}, sizeof values[pixel][s]);
-            memcpy(offsets[pixel][s], sample.offset, sizeof sample.offset);
-        }
+        take_samples(f, render);
         assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
         aur_image *const image = picture(render);
         for (size_t pixel = 0; pixel < PIXELS; ++pixel) {
             double sums[3] = {0}, weight = 0.0, sizes = 0.0, most = 0.0;
             for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
-                const size_t other = i / SAMPLES, s = i % SAMPLES;
-                const double x = (double)(other % WIDTH) - (double)(pixel % WIDTH);
-                const double y = (double)(other / WIDTH) - (double)(pixel / WIDTH);
-                if (fabs(x) > 4.0 || fabs(y) > 4.0)
-                    continue;
-                const double w = aur_filter_value(filter, x + (double)offsets[other][s][0]) *
-                                 aur_filter_value(filter, y + (double)offsets[other][s][1]);
+                const double w = weight_of(filter, i, pixel);
                 weight += w;
                 sizes += fabs(w);
                 for (size_t c = 0; c < 3; ++c) {
-                    sums[c] += w * (double)values[other][s][c];
-                    most = w != 0.0 ? fmax(most, (double)values[other][s][c]) : most;
+                    const double value = (double)values[i / SAMPLES][i % SAMPLES][c];
+                    sums[c] += w * value;
+                    most = w != 0.0 ? fmax(most, value) : most;
                 }
             }
             /* The table is wrong by 1e-5 of the filter's peak at most: of so many samples' weights. */
@@ -129,7 +140,57 @@ static void pixels_are_the_weighed_means_of_all_samples(void **state) {
                 assert_true(fabs((double)image->data[3 * pixel + c] - sums[c] / weight) <= bound);
         }
         aur_image_destroy(image);
-        aur_sampler_destroy(sampler);
+        aur_render_destroy(render);
+    }
+}
+
+/* Brute force: a pixel is the ratio of two sums over cells of pixels, s / w = v, whose steps of one sample
+ * are independent: the variance of the mean of s - v w over a cell's steps, added over cells, over w^2. */
+static double brute_error(const aur_filter *filter, size_t cell, size_t pixel) {
+    enum { CELLS_MOST = PIXELS };
+    static double sums[CELLS_MOST][SAMPLES][2]; /* of red, and of the weights */
+    double s = 0.0, w = 0.0, square = 0.0;
+    const size_t across = (WIDTH + cell - 1) / cell, cells = across * ((HEIGHT + cell - 1) / cell);
+    memset(sums, 0, sizeof sums);
+    for (size_t i = 0; i < PIXELS * SAMPLES; ++i) {
+        const size_t other = i / SAMPLES, step = i % SAMPLES;
+        const double weight = weight_of(filter, i, pixel);
+        double *const sum = sums[other / WIDTH / cell * across + other % WIDTH / cell][step];
+        sum[0] += weight * (double)values[other][step][0];
+        sum[1] += weight;
+        s += weight * (double)values[other][step][0];
+        w += weight;
+    }
+    for (size_t k = 0; k < cells; ++k) {
+        double mean = 0.0, spread = 0.0;
+        for (size_t step = 0; step < SAMPLES; ++step)
+            mean += (sums[k][step][0] - s / w * sums[k][step][1]) / SAMPLES;
+        for (size_t step = 0; step < SAMPLES; ++step)
+            spread += pow(sums[k][step][0] - s / w * sums[k][step][1] - mean, 2.0);
+        square += spread * SAMPLES / (SAMPLES - 1);
+    }
+    return sqrt(square) / w;
+}
+
+static void errors_are_those_of_the_steps(void **state) {
+    const fixture *const f = *state;
+    for (size_t k = 0; k < FILTER_COUNT; ++k) {
+        const aur_render_options options = options_of("direct", filters[k]);
+        aur_render *const render = start(f, &options);
+        take_samples(f, render);
+        for (size_t step = 0; step < SAMPLES; ++step)
+            assert_int_equal(aur_render_step(render, 1, NULL), AUR_OK);
+        const aur_film *const film = aur_render_film(render);
+        aur_image *errors = NULL;
+        double rmse[4], most = 0.0;
+        assert_int_equal(aur_film_error(film, rmse, &errors, NULL), AUR_OK);
+        for (size_t i = 0; i < PIXELS; ++i)
+            most = fmax(most, (double)errors->data[3 * i]);
+        for (size_t i = 0; i < PIXELS; i += 7) {
+            const double error = brute_error(aur_filter_find(filters[k]), film->spread->cell, i);
+            assert_near((double)errors->data[3 * i], error, 1e-3 * error + 1e-4 * most);
+        }
+        aur_image_destroy(errors);
         aur_render_destroy(render);
     }
 }
@@ -304,6 +365,7 @@ static void small_images(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_are_the_weighed_means_of_all_samples),
+                                       cmocka_unit_test(errors_are_those_of_the_steps),
                                        cmocka_unit_test(nothing_changes_a_bit),
                                        cmocka_unit_test(cells_count_alike_with_any_number_of_samples),
                                        cmocka_unit_test(gathers_count_where_they_lie),
