@@ -74,7 +74,7 @@ static int run(const cli_call *call) {
     if (wanted->count == 0 && !cli_has_size(source))
         return cli_bad_usage("nearest: -n is missing for the set '%s' (there is no such file)", source);
     if (!cli_is_file(call->operands[1]))
-        return cli_bad_usage("nearest: '%s' is not a file of queries", call->operands[1]);
+        return cli_bad_usage("nearest: cannot read '%s': expected a file of queries", call->operands[1]);
     wanted->from.domain_given = cli_given(call, "domain") != NULL;
     wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
     aur_points *points = NULL, *queries = NULL;
