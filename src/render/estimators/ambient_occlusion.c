@@ -15,7 +15,8 @@ typedef struct occlusion_data {
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(occlusion_data, "samples", pattern.count, 1, 1 << 30, "64",
                         "directions per pixel, split among its samples")},
-    {AUR_KEY_OF_TEXT(occlusion_data, "pattern", pattern.set, "spherical-fibonacci", "SET of the directions")},
+    {AUR_KEY_OF_TEXT(occlusion_data, "pattern", pattern.set, "spherical-fibonacci",
+                     "point set (SET) of the directions")},
     {AUR_KEY_OF_TEXT(occlusion_data, "map", map, "lambert",
                      "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
     {AUR_KEY_OF_TEXT(occlusion_data, "scramble", scramble, "rotate (nets: digit)",
@@ -26,7 +27,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(occlusion_data, "max_distance", occlusion.max_distance, 0.0, INFINITY, "infinity",
                      "largest distance of occluders, in scene units")},
     {AUR_KEY_OF_BOOLEAN(occlusion_data, "cosine", cosine, "true",
-                        "directions weighted by the cosine, else evenly")},
+                        "cosine-weighted directions; false: uniform ones")},
     {AUR_KEY_OF_CHOICE(occlusion_data, "pixel", pixel, "filter",
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
     {AUR_KEY_OF_INTEGER(occlusion_data, "pattern_seed", pattern.seed, 0, INFINITY, "0",

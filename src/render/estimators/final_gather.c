@@ -15,11 +15,11 @@ enum { MOST = 1 << 30, UNKNOWN_SPLIT = 8 };
 
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "diffuse_samples", diffuse_samples, 1, MOST, "64",
-                        "directions per pixel for the diffuse lobe, shared out among its samples")},
+                        "directions per pixel for the diffuse lobe, split among its samples")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "glossy_samples", glossy_samples, 1, MOST, "64",
                         "directions per pixel for each glossy lobe")},
     {AUR_KEY_OF_TEXT(aur_gather_settings, "pattern", pattern, "spherical-fibonacci",
-                     "SET of the directions")},
+                     "point set (SET) of the directions")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "split", split, 0, AUR_SAMPLES_PER_PIXEL_MAX, "0",
                         "number of samples that split one pattern; 0: all of a pixel")},
     {AUR_KEY_OF_CHOICE(
@@ -39,15 +39,15 @@ static const aur_key keys[] = {
                        "without light that paths cannot find, from points or suns over mirrors",
                        "false", "true", "only", "found")},
     {AUR_KEY_OF_REAL(aur_gather_settings, "continued", continued, 0.0, 1.0, "0.25",
-                     "of debias: the share of gather rays that go on as paths"),
+                     "of debias: share of gather rays that continue as paths"),
      .minimum_open = true},
     {AUR_KEY_OF_REAL(
         aur_gather_settings, "short_rays", short_rays, 0.0, 1e6, "2",
         "gather rays shorter than this number of widths of the texel that they hit continue as paths")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "light_samples", light_samples, 1, 65536, "1",
-                        "points on lights that each sample's shadow rays aim at")},
+                        "points on lights per sample")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "bright_samples", bright_samples, 0, 65536, "0",
-                        "rays per pixel to brightly lit surfaces, drawn as lights are")},
+                        "rays per pixel to brightly lit surfaces, sampled like lights")},
     {AUR_KEY_OF_CHOICE(aur_gather_settings, "direct", direct, "nee",
                        "direct light by shadow rays, by the gather rays, or not at all", "nee", "gather",
                        "none")},

@@ -9,8 +9,8 @@
 #define AUR_CLAMP_KEY(struct_)                                                                               \
     {                                                                                                        \
         AUR_KEY_OF_REAL(struct_, "clamp", clamp, 0.0, 1e30, "0",                                             \
-                        "most that light after the first surface adds to a sample, in its largest of R, G, " \
-                        "B; 0: no limit. Channels clamped.R, .G, .B have what that takes away")              \
+                        "limit of the light after the first surface in each sample, by the largest of R, "   \
+                        "G, B; 0: none. Channels clamped.R, .G, .B have the removed light")                  \
     }
 
 /* Adds the channels where there is a limit. The number of samples must be known: an error that is to be

@@ -24,13 +24,13 @@ typedef struct point_keys {
 } point_keys;
 
 static const aur_key point_table[] = {
-    {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power a steradian, RGB")},
+    {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power per steradian, RGB")},
     {AUR_KEY_OF_VECTOR(point_keys, "position", position, -AUR_REACH, AUR_REACH, "0 0 0", "where it is")},
     {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "applied to the position")},
 };
 
 static const aur_key spot_table[] = {
-    {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power a steradian along the axis, RGB")},
+    {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power per steradian along the axis, RGB")},
     {AUR_KEY_OF_COLOR(point_keys, "texture", picture, 1e30, NULL, "texture projected across the cone")},
     {AUR_KEY_OF_REAL(point_keys, "cutoff_angle", cutoff, 1e-3, 180.0, "20", "no light beyond, degrees")},
     {AUR_KEY_OF_REAL(point_keys, "beam_width", beam, 0.0, 180.0, "3/4 of cutoff_angle",

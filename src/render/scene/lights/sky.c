@@ -40,7 +40,7 @@ static const aur_key keys[] = {
         "(1993)",
         "uniform", "cie-overcast", "cie", "perez")},
     {AUR_KEY_OF_INTEGER(sky_keys, "cie_type", cie_type, 1, 15, "12",
-                        "which general sky; 12 is the clear one")},
+                        "type of ISO 15469 sky; 12 is the CIE clear sky")},
     {AUR_KEY_OF_TEXT(sky_keys, "coefficients", coefficients, NULL,
                      "a b c d e of a general sky, instead of cie_type")},
     {AUR_KEY_OF_COLOR(sky_keys, "irradiance", irradiance, 1e30, "1",

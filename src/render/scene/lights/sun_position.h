@@ -29,7 +29,7 @@ typedef struct aur_sun_keys {
         {AUR_KEY_OF_REAL(struct_, "latitude", sun.latitude, -90.0, 90.0, "0", "degrees to the north")},      \
         {AUR_KEY_OF_REAL(struct_, "longitude", sun.longitude, -180.0, 180.0, "0", "degrees to the east")}, { \
         AUR_KEY_OF_REAL(struct_, "timezone", sun.timezone, -14.0, 14.0, "0",                                 \
-                        "hours that clocks are ahead of UTC")                                                \
+                        "time zone: hours ahead of UTC")                                                     \
     }
 
 typedef struct aur_sun_position {

@@ -26,7 +26,7 @@ static const aur_row *const rows[] = {EMITTERS(ADDRESS)};
 
 static const aur_key common_keys[] = {
     {AUR_KEY_OF_REAL(aur_emitter, "sampling_weight", sampling_weight, 0.0, 1e6, "1",
-                     "factor of how often points on it are drawn; below 0.001 as 0.001")},
+                     "weight of light sampling; values below 0.001 count as 0.001")},
 };
 
 static const aur_row common = {

@@ -141,7 +141,7 @@ static const aur_row *const rows[] = {
     TYPE(create_grey, .name = "rawconstant", .summary = "read as uniform", AUR_ROW_KEYS(uniform_keys)),
     TYPE(create_grey, .name = "d65", .summary = "daylight: white", AUR_ROW_KEYS(d65_keys)),
     TYPE(create_srgb, .name = "srgb", .summary = "a colour", AUR_ROW_KEYS(srgb_keys)),
-    TYPE(create_blackbody, .name = "blackbody", .summary = "a glowing body", .source = "Planck 1900",
+    TYPE(create_blackbody, .name = "blackbody", .summary = "black body radiation", .source = "Planck 1900",
          AUR_ROW_KEYS(blackbody_keys)),
     TYPE(create_sampled, .name = "regular", .summary = "linear between values at equal steps",
          AUR_ROW_KEYS(regular_keys)),

@@ -186,7 +186,7 @@ static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, flo
 static const aur_key mask_keys[] = {
     {AUR_KEY_OF_COLOR(mixture, "opacity", weight, 1.0, "0.5",
                       "share of light that interacts with the nested bsdf")},
-    AUR_NESTED_BSDF_KEY("bsdf", NULL, "what is there; must be given"),
+    AUR_NESTED_BSDF_KEY("bsdf", NULL, "nested bsdf; must be given"),
 };
 
 static aur_result create_mask(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {

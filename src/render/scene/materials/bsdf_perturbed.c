@@ -16,7 +16,7 @@ typedef struct perturbed {
 #define PERTURBED_KEYS                                                                                       \
     AUR_NESTED_BSDF_KEY("bsdf", NULL, "nested bsdf; must be given"),                                         \
         {AUR_KEY_OF_BOOLEAN(perturbed, "flip_invalid_normals", flips, "true",                                \
-                            "normals that face away from the view are turned over")},                        \
+                            "flip normals that face away from the view")},                                   \
     {                                                                                                        \
         AUR_KEY_OF_BOOLEAN(perturbed, "use_shadowing_function", shadows, "true",                             \
                            "light fades out before it sets (Conty Estevez et al. 2019)")                     \

@@ -17,14 +17,15 @@ typedef struct aur_burley {
 /* Rows for tables of keys; the struct has an aur_burley called burley. */
 #define AUR_BURLEY_KEYS(struct_)                                                                             \
     AUR_KEY_OF_SHARE(struct_, "base_color", burley.base_color, "0.5", "of the material"),                    \
-        AUR_KEY_OF_SHARE(struct_, "roughness", burley.roughness, "0.5", "its square is the facets' alpha"),  \
+        AUR_KEY_OF_SHARE(struct_, "roughness", burley.roughness, "0.5",                                      \
+                         "roughness: the GGX alpha is its square"),                                          \
         AUR_KEY_OF_SHARE(struct_, "anisotropic", burley.anisotropic, "0",                                    \
-                         "how much longer than wide a highlight is: 1 is 10 to 1"),                          \
+                         "anisotropy of highlights: 1 stretches them 10 to 1"),                              \
         AUR_KEY_OF_SHARE(struct_, "spec_trans", burley.spec_trans, "0",                                      \
                          "share of glass in the non-metallic part"),                                         \
         AUR_KEY_OF_SHARE(struct_, "spec_tint", burley.spec_tint, "0",                                        \
                          "tint of non-metallic highlights by the base colour"),                              \
-        AUR_KEY_OF_SHARE(struct_, "sheen", burley.sheen, "0", "light at grazing angles, as cloth has"),      \
+        AUR_KEY_OF_SHARE(struct_, "sheen", burley.sheen, "0", "sheen at grazing angles, as of cloth"),       \
         AUR_KEY_OF_SHARE(struct_, "sheen_tint", burley.sheen_tint, "0",                                      \
                          "how much of the base's colour that has"),                                          \
         AUR_KEY_OF_SHARE(struct_, "flatness", burley.flatness, "0",                                          \

@@ -25,7 +25,7 @@ typedef struct aur_roughness {
 /* Rows for tables of keys; the struct is zeroed and has an aur_roughness called microfacet. */
 #define AUR_MICROFACET_KEYS(struct_)                                                                         \
     {AUR_KEY_OF_CHOICE(struct_, "distribution", microfacet.constant.distribution, "beckmann",                \
-                       "of the facets' normals", "beckmann", "ggx")},                                        \
+                       "distribution of facet normals", "beckmann", "ggx")},                                 \
         {AUR_KEY_OF_COLOR(struct_, "alpha", microfacet.alpha, 10.0, "0.1", "roughness"),                     \
          .minimum = AUR_LEAST_ALPHA},                                                                        \
         {AUR_KEY_OF_COLOR(struct_, "alpha_u", microfacet.alpha_u, 10.0, "alpha",                             \

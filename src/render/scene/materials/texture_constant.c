@@ -31,4 +31,4 @@ static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
 
 CONSTANT(uniform, "a number everywhere", value_keys);
 CONSTANT(rawconstant, "a number or three everywhere", value_keys);
-CONSTANT(srgb, "a colour everywhere", color_keys);
+CONSTANT(srgb, "one colour everywhere", color_keys);

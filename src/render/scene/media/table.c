@@ -22,7 +22,7 @@ typedef struct medium_keys {
 } medium_keys;
 
 static const aur_key common_keys[] = {
-    {AUR_KEY_OF_ITEM(medium_keys, "phase", phase, "isotropic", "how it scatters", "phase")},
+    {AUR_KEY_OF_ITEM(medium_keys, "phase", phase, "isotropic", "phase function", "phase")},
     {AUR_KEY_OF_BOOLEAN(medium_keys, "sample_emitters", sample_emitters, "true",
                         "sample points on lights at scattering events; else only paths find lights")},
 };

@@ -17,8 +17,8 @@ typedef struct lens_keys {
     {AUR_KEY_OF_REAL(lens_keys, "fov", fov, 1e-6, 180.0 - 1e-6, "by focal_length",                           \
                      "field of view, degrees"),                                                              \
      .computed = true},                                                                                      \
-        {AUR_KEY_OF_CHOICE(lens_keys, "fov_axis", fov_axis, "x", "the side of the film that fov spans", "x", \
-                           "y", "diagonal", "smaller", "larger")},                                           \
+        {AUR_KEY_OF_CHOICE(lens_keys, "fov_axis", fov_axis, "x", "axis of the image that fov refers to",     \
+                           "x", "y", "diagonal", "smaller", "larger")},                                      \
         {AUR_KEY_OF_REAL(lens_keys, "principal_point_offset_x", offset_x, -1e3, 1e3, "0",                    \
                          "horizontal shift, in image widths")},                                              \
         {AUR_KEY_OF_REAL(lens_keys, "principal_point_offset_y", offset_y, -1e3, 1e3, "0",                    \

@@ -24,9 +24,9 @@ typedef struct sensor_keys {
 
 static const aur_key common_keys[] = {
     {AUR_KEY_OF_TRANSFORM(sensor_keys, "to_world", to_world, "camera to world; the camera faces +z, +y up")},
-    {AUR_KEY_OF_REAL(sensor_keys, "near_clip", near_clip, 0.0, 1e30, "0.01", "nothing nearer is seen")},
-    {AUR_KEY_OF_REAL(sensor_keys, "far_clip", far_clip, 0.0, INFINITY, "10000", "nothing farther is seen")},
-    {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "image size and filter", "film")},
+    {AUR_KEY_OF_REAL(sensor_keys, "near_clip", near_clip, 0.0, 1e30, "0.01", "near clipping distance")},
+    {AUR_KEY_OF_REAL(sensor_keys, "far_clip", far_clip, 0.0, INFINITY, "10000", "far clipping distance")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "film: image size and filter", "film")},
     {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "sampler of the camera", "sampler")},
     {AUR_KEY_OF_ITEM(sensor_keys, "medium", medium, NULL, "medium around the camera", "medium")},
 };

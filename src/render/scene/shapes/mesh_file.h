@@ -38,10 +38,10 @@ typedef struct aur_mesh_file_keys {
     {AUR_KEY_OF_TEXT(aur_mesh_file_keys, "filename", filename, NULL,                                         \
                      "file, relative to the scene; required")},                                              \
         {AUR_KEY_OF_BOOLEAN(aur_mesh_file_keys, "face_normals", face_normals, "false",                       \
-                            "flat triangles, whatever normals the file has")},                               \
+                            "flat shading: ignore normals of the file")},                                    \
     {                                                                                                        \
         AUR_KEY_OF_REAL(aur_mesh_file_keys, "crease_angle", crease_angle, 0.0, 180.0, "180",                 \
-                        "degrees: triangles that meet at more keep a sharp edge, in files without normals")  \
+                        "edges of more than this angle in degrees stay sharp, in files without normals")     \
     }
 
 /* The `create` of shapes with a `read_file`. */

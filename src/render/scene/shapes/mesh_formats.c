@@ -80,7 +80,7 @@ static const aur_key keys[] = {AUR_MESH_FILE_KEYS};
 static const aur_key obj_keys[] = {
     AUR_MESH_FILE_KEYS,
     {AUR_KEY_OF_BOOLEAN(aur_mesh_file_keys, "flip_tex_coords", flip_v, "true",
-                        "v of the texture coordinates is turned over")},
+                        "flip v of the texture coordinates")},
 };
 
 const aur_shape_descriptor aur_shape_obj = {

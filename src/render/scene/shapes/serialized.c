@@ -158,7 +158,7 @@ static aur_result read_file(aur_mesh_file *file, aur_shape *shape) {
 static const aur_key keys[] = {
     AUR_MESH_FILE_KEYS,
     {AUR_KEY_OF_INTEGER(aur_mesh_file_keys, "shape_index", shape_index, 0, INFINITY, "0",
-                        "which mesh of the file")},
+                        "index of the mesh in the file")},
 };
 
 const aur_shape_descriptor aur_shape_serialized = {

@@ -33,7 +33,8 @@ static const aur_key common_keys[] = {
                         "normals point to the other side")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL, "material; without one grey, or black for a light",
                      "bsdf")},
-    {AUR_KEY_OF_ITEM(aur_shape_keys, "emitter", emitter, NULL, "makes it a light", "emitter")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "emitter", emitter, NULL, "emitter: makes the shape a light",
+                     "emitter")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "interior", interior, NULL, "medium inside", "medium")},
     {AUR_KEY_OF_ITEM(aur_shape_keys, "exterior", exterior, NULL, "medium outside", "medium")},
 };
