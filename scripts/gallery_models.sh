@@ -37,7 +37,7 @@ speeder|bevy|assets/models/ship/craft_speederD.gltf|$model --camera 35,20 --envi
 alpha|trimesh|models/AlphaBlendModeTest.glb|$model --camera 10,10|Alpha modes|Ed Mackey, Analytical Graphics, CC-BY 4.0
 box|bitterli|cornell-box/scene.xml|--integrator finalgather --width 400 --height 400 --samples 16 --exposure 1 --tone filmic|Cornell box|Benedikt Bitterli, CC0
 veach-mis|bitterli|veach-mis/scene.xml|--integrator path --width 480 --height 270 --samples 128 --tone filmic|Veach, MIS|Benedikt Bitterli, CC0
-veach-bidir|bitterli|veach-bidir/scene.xml|--integrator path --clamp 2 --width 400 --height 400 --samples 256 --tone filmic|Veach, bidirectional room|Benedikt Bitterli, CC0
+veach-bidir|bitterli|veach-bidir/scene.xml|--integrator path --clamp 2 --width 320 --height 320 --samples 256 --tone filmic|Veach, bidirectional room|Benedikt Bitterli, CC0
 modern-hall|bitterli|staircase2/scene.xml|--integrator finalgather --width 400 --height 400 --samples 16 --exposure 0.5 --tone filmic|Modern hall|NewSee2l035, CC-BY
 grey-room|bitterli|living-room/scene.xml|--integrator path --width 480 --height 270 --samples 256 --tone filmic|The grey and white room|Wig42, CC-BY
 staircase|bitterli|staircase/scene.xml|--integrator finalgather --width 270 --height 480 --samples 32 --tone filmic|The wooden staircase|Wig42, CC-BY
@@ -69,8 +69,7 @@ done < <(gallery)
 {
   echo "# Gallery of models and scenes by others"
   echo
-  echo "Models and scenes that were not made for Aureole, each rendered by the command below it (\`scripts/gallery_models.sh\`). Licences allow"
-  echo "their images: CC0, or CC-BY with the author's credit. CPU seconds are those of the whole program on shared processors. Files come from:"
+  echo "Rendered by \`scripts/gallery_models.sh\`. CPU seconds are those of the whole program on shared processors. Sources:"
   echo
   sources | while IFS='|' read -r source address; do echo "- $source: <$address>"; done
   echo

@@ -287,8 +287,8 @@ static void put_opacity(writer *self, const struct aiMaterial *material, picture
 static void put_normals(writer *self, const struct aiMaterial *material) {
     float scale = 1.0f;
     aiGetMaterialFloatArray(material, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), &scale, NULL);
-    if (fabsf(scale - 1.0f) > 1e-3f)
-        writer_note("the scale %g of a normal texture is left out", (double)scale);
+    if (isfinite(scale) && scale != 1.0f)
+        writer_property(self, "float", "scale", "%.9g", (double)scale);
     picture_put(self, material,
                 &(picture_use){normal_slot, "normalmap", "rgb", true, {1.0f, 1.0f, 1.0f}, 0.0f});
 }

@@ -176,6 +176,8 @@ void picture_put(writer *self, const struct aiMaterial *material, const picture_
     writer_property(self, "boolean", "raw", "%s", use->raw ? "true" : "false");
     writer_property(self, "string", "channel", "%s", use->channel);
     writer_property(self, "string", "wrap_mode", "%s", wrap_of(modes[0]));
+    if (modes[1] != modes[0])
+        writer_property(self, "string", "wrap_mode_v", "%s", wrap_of(modes[1]));
     writer_property(self, "string", "filter_type", "%s", filter == 9728 ? "nearest" : "bilinear");
     writer_property(self, "vector", "factor", "%.9g %.9g %.9g", (double)use->factor[0],
                     (double)use->factor[1], (double)use->factor[2]);

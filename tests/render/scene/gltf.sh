@@ -128,6 +128,20 @@ with open("body.ply", "w") as file:
     for i in range(0, len(indices), 3):
         file.write("3 %d %d %d\n" % tuple(indices[i:i + 3]))
 
+# Wrapping along v alone: u lies within the image, so that its wrapping does not matter to the nearest texel.
+m, attributes, index = build(False)
+attributes["TEXCOORD_0"] = m.add([(0.9 * u + 0.05, 3 * v - 1) for u, v in uvs], FLOAT)
+for name, wrap in (("clamped", (33071, 33071)), ("mixed", (10497, 33071)), ("repeated", (10497, 10497))):
+    tree = m.tree(attributes, index, [body])
+    tree["samplers"] = [{"wrapS": wrap[0], "wrapT": wrap[1], "magFilter": 9728}]
+    tree["textures"][0]["sampler"] = 0
+    m.write(name + ".gltf", tree)
+# Normals (.5, 0, 1) times a scale of 2 are (1, 0, 1).
+for name, normal in (("scaled", '<rgb name="normalmap" value="0.75 0.5 1"/><float name="scale" value="2"/>'), ("steep", '<rgb name="normalmap" value="1 0.5 1"/>')):
+    with open(name + ".xml", "w") as file:
+        file.write('<scene version="3.0.0"><shape type="ply"><string name="filename" value="body.ply"/><bsdf type="twosided"><bsdf type="normalmap">' + normal +
+                   '<bsdf type="diffuse"/></bsdf></bsdf></shape><sensor type="perspective"><sampler type="multijitter"/></sensor></scene>')
+
 # Motion: a node, a morph target and a skin half way between keys, beside models that stand there.
 m, attributes, index = build(False)
 times, moves = m.add([1.0, 3.0], FLOAT), m.add([(0, 0, 0), (2, 4, 0)], FLOAT)
@@ -232,6 +246,12 @@ for name in sheen specular volume sheet turned coated; do
   draw $name.xml scene.exr
   "$aureole" compare scene.exr made.exr --metric relative-rmse --tolerance 1e-5 >compared || fail "$name is not its scene: $(cat compared)"
 done
+for name in clamped mixed repeated scaled.xml steep.xml; do
+  case $name in *.xml) draw $name "${name%.xml}.pfm" ;; *) draw $name.gltf $name.pfm ;; esac
+done
+cmp clamped.pfm mixed.pfm || fail "wrapping along v is not that of the sampler"
+cmp -s repeated.pfm mixed.pfm && fail "wrapping along v does not matter"
+cmp scaled.pfm steep.pfm || fail "the scale of a normal map is no factor of x and y"
 for name in node morph skin; do
   draw $name.gltf made.exr --at 2
   draw $name-there.gltf there.exr

@@ -66,7 +66,7 @@ gltf = {
     "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 1}, {"source": 2}],
     "materials": [
         {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": turned}, "baseColorFactor": [0.8, 0.9, 1, 1],
-                                  "metallicFactor": 0.25, "roughnessFactor": 0.5}, "normalTexture": {"index": 2}},
+                                  "metallicFactor": 0.25, "roughnessFactor": 0.5}, "normalTexture": {"index": 2, "scale": 0.5}},
         {"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 1}, "baseColorFactor": [0.9, 0.6, 0.3, 1],
                                   "metallicFactor": 0.75}},
         {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}, "alphaMode": "MASK", "alphaCutoff": 0.5},
@@ -155,24 +155,25 @@ from math import cos, sin, atan, tan, degrees
 c, s = cos(0.5), sin(0.5)
 def bitmap(name, file, more):
     return f'<texture type="bitmap" name="{name}"><string name="filename" value="{file}"/>{more}</texture>'
+mirrored = '<string name="wrap_mode_v" value="mirror"/>'
 base = bitmap("base_color", "color.png", '<vector name="factor" value="0.8 0.9 1"/>'
               f'<transform name="to_uv"><matrix value="{2 * c} {0.5 * s} 0 0.25 {-2 * s} {0.5 * c} 0 0.125 0 0 1 0 0 0 0 1"/></transform>'
-              '<string name="wrap_mode" value="repeat"/>')
+              '<string name="wrap_mode" value="repeat"/>' + mirrored)
 nearest = '<string name="filter_type" value="nearest"/><string name="wrap_mode" value="clamp"/><boolean name="raw" value="true"/>'
 def principled(id, *inside, outside=("", "")):
     return f'{outside[0]}<bsdf type="twosided" {"" if outside[0] else f"""id="{id}" """}>{"".join(inside)}</bsdf>{outside[1]}'
 def number(name, value):
     return f'<float name="{name}" value="{value}"/>'
 materials = [
-    principled("a", '<bsdf type="normalmap">', bitmap("normalmap", "normal.png", '<boolean name="raw" value="true"/>'),
+    principled("a", '<bsdf type="normalmap">', bitmap("normalmap", "normal.png", '<boolean name="raw" value="true"/>') + '<float name="scale" value="0.5"/>',
                '<bsdf type="principled">', base, number("roughness", 0.5), number("metallic", 0.25), '</bsdf></bsdf>'),
     principled("b", '<bsdf type="principled"><rgb name="base_color" value="0.9 0.6 0.3"/>',
                bitmap("roughness", "rough.png", nearest + '<string name="channel" value="green"/>'),
                bitmap("metallic", "rough.png", nearest + '<string name="channel" value="blue"/>'
                       '<vector name="factor" value="0.75 0.75 0.75"/>'), '</bsdf>'),
-    principled("c", '<bsdf type="principled">', bitmap("base_color", "color.png", ""), number("roughness", 1),
+    principled("c", '<bsdf type="principled">', bitmap("base_color", "color.png", mirrored), number("roughness", 1),
                number("metallic", 0), '</bsdf>',
-               outside=('<bsdf type="mask" id="c">' + bitmap("opacity", "color.png", '<string name="channel" value="alpha"/>'
+               outside=('<bsdf type="mask" id="c">' + bitmap("opacity", "color.png", mirrored + '<string name="channel" value="alpha"/>'
                                                             '<float name="cutoff" value="0.5"/>'), '</bsdf>')),
     principled("d", '<bsdf type="principled"><rgb name="base_color" value="0"/>', number("roughness", 1), number("metallic", 0), '</bsdf>')]
 def shape(file, material, to_world, more=""):

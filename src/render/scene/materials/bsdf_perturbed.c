@@ -25,6 +25,7 @@ typedef struct perturbed {
 static const aur_key normal_keys[] = {
     {AUR_KEY_OF_COLOR(perturbed, "normalmap", map, 1.0, "0.5 0.5 1",
                       "normals in the surface's frame, (n + 1) / 2: a bitmap with raw=true")},
+    {AUR_KEY_OF_REAL(perturbed, "scale", scale, -1e30, 1e30, "1", "factor of the x and y of normals")},
     PERTURBED_KEYS,
 };
 static const aur_key bump_keys[] = {
@@ -74,7 +75,8 @@ static aur_result create_bump(aur_parameters *parameters, aur_bsdf *bsdf, aur_er
 static aur_vector normal_at(const perturbed *self, aur_bsdf_point point) {
     if (!self->by_height) {
         const aur_vector color = aur_color_at(&self->map, point);
-        return (aur_vector){2.0f * color.x - 1.0f, 2.0f * color.y - 1.0f, 2.0f * color.z - 1.0f};
+        return (aur_vector){self->scale * (2.0f * color.x - 1.0f), self->scale * (2.0f * color.y - 1.0f),
+                            2.0f * color.z - 1.0f};
     }
     float slope[2] = {0.0f, 0.0f};
     if (self->map.texture->descriptor->slope != NULL)

@@ -7,13 +7,13 @@
 #include "render/scene/materials/bitmap.h"
 #include "render/scene/materials/texture.h"
 
-typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;
+typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP, WRAP_SAME } wrap_mode;
 
 typedef struct bitmap {
     aur_bitmap texels; /* colours are not negative, heights may be */
     aur_uv_map to_uv;
     enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
-    wrap_mode wrap;
+    wrap_mode wrap, wrap_v; /* along u and v */
     /* Read, and of no use afterwards: */
     bool raw;
     enum { CHANNEL_RGB, CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_ALPHA } channel;
@@ -117,6 +117,8 @@ static const aur_key keys[] = {
                        "nearest", "trilinear", "ewa")},
     {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode", wrap, "repeat", "texture coordinates outside of the image",
                        "repeat", "mirror", "clamp")},
+    {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode_v", wrap_v, "same", "the same along v; same: as wrap_mode",
+                       "repeat", "mirror", "clamp", "same")},
     {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
     {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "image file, relative to the scene; required")},
     {AUR_KEY_OF_CHOICE(bitmap, "channel", channel, "rgb",
@@ -148,6 +150,8 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     if (result != AUR_OK)
         return result;
     self->to_uv = aur_uv_map_of(&self->uv);
+    if (self->wrap_v == WRAP_SAME)
+        self->wrap_v = self->wrap;
     return AUR_OK;
 }
 
@@ -179,13 +183,13 @@ static aur_vector texel_at(const bitmap *self, size_t x, size_t y) {
 
 static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
     return texel_at(self, wrapped(x, self->texels.width, self->wrap),
-                    wrapped(y, self->texels.height, self->wrap));
+                    wrapped(y, self->texels.height, self->wrap_v));
 }
 
 static float height_at(const bitmap *self, int64_t x, int64_t y) {
     float rgb[3];
     aur_bitmap_at(&self->texels, wrapped(x, self->texels.width, self->wrap),
-                  wrapped(y, self->texels.height, self->wrap), rgb);
+                  wrapped(y, self->texels.height, self->wrap_v), rgb);
     return aur_luminance((aur_vector){rgb[0], rgb[1], rgb[2]});
 }
 
@@ -216,8 +220,8 @@ static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
     const float s = at.s, t = at.t;
     const size_t x[2] = {wrapped(at.i, self->texels.width, self->wrap),
                          wrapped(at.i + 1, self->texels.width, self->wrap)};
-    const size_t y[2] = {wrapped(at.j, self->texels.height, self->wrap),
-                         wrapped(at.j + 1, self->texels.height, self->wrap)};
+    const size_t y[2] = {wrapped(at.j, self->texels.height, self->wrap_v),
+                         wrapped(at.j + 1, self->texels.height, self->wrap_v)};
     aur_vector sum = aur_vector_scale(texel_at(self, x[0], y[0]), (1.0f - s) * (1.0f - t));
     sum = aur_vector_add_scaled(sum, s * (1.0f - t), texel_at(self, x[1], y[0]));
     sum = aur_vector_add_scaled(sum, (1.0f - s) * t, texel_at(self, x[0], y[1]));
