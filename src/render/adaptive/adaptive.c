@@ -212,13 +212,11 @@ void aur_adaptive_destroy(aur_adaptive *adaptive) {
 
 /* --- rounds */
 
-/* How far the upper end moves towards the one at which rendering stops, half of the way in squares: where
- * rounds go on until the error looks small, the last one alone sees too little more often than too much. */
+/* How far the upper end moves towards that by the variances of all rounds, half of the way in squares: where
+ * rounds go on until the error looks small, the last one alone sees too little more often than too much.
+ * Lamps that may not have been met make rounds go on, and are no part of what was seen. */
 static double bound_part(const aur_adaptive *adaptive) {
-    const double high = adaptive->candidate.intervals[adaptive->target.measure].high;
-    const double bound = adaptive->candidate.bound;
-    const bool stops = adaptive->target.error > 0.0 && high > 0.0 && bound < INFINITY;
-    return stops && bound > high ? sqrt(0.5 + 0.5 * (bound / high) * (bound / high)) : 1.0;
+    return adaptive->target.error > 0.0 ? sqrt(0.5 + 0.5 * fmax(adaptive->candidate.pooled, 1.0)) : 1.0;
 }
 
 /* The interval of noise and bias together by a measure; its ends are those of both. */

@@ -45,6 +45,7 @@ static const struct field {
     FIELD(candidate.rays_planned),
     FIELD(candidate.measure.mean),
     FIELD(candidate.bound),
+    FIELD(candidate.pooled),
     FIELD(candidate.intervals),
     FIELD(candidate.rounds),
 };

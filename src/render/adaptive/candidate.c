@@ -53,6 +53,7 @@ aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m)
         candidate->intervals[m] = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
     candidate->bound = INFINITY;
+    candidate->pooled = 1.0;
     candidate->rate = 1.0;
     aur_cache *const cache = aur_renderer_cache(renderer);
     aur_cache_uses uses = {.outer = aur_cache_count(cache, NULL)};
@@ -158,6 +159,16 @@ bool aur_candidate_is_black(const aur_candidate *candidate) {
     return candidate->rounds > 0 && !(candidate->bound > 0.0) && !(candidate->measure.mean > 0.0);
 }
 
+/* A bound of what lamps make of a value's variance that replicas need not have met yet. */
+static double visible_variance(const aur_candidate *candidate, size_t i) {
+    const size_t pixel = i % candidate->replicas.pixel_count;
+    const aur_visible_emitters *const visible = &candidate->visible;
+    const uint32_t samples = candidate->targets[i];
+    const aur_rare_light rare = {aur_visible_emitters_variance(visible, pixel, samples),
+                                 visible->share != NULL ? visible->share[pixel] : 0.0, samples};
+    return aur_error_variance_bound(candidate->error_measure, &candidate->weights[pixel], &rare);
+}
+
 bool aur_candidate_plan(aur_candidate *candidate, double factor) {
     const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
     memcpy(candidate->earlier, candidate->targets, candidate->value_count * sizeof *candidate->targets);
@@ -215,6 +226,7 @@ static void pool_pixel(aur_pixel_spread *pool, double before, double variance, d
 /* What all rounds say of how few pixels have the error. */
 static void pool_pixels(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
+    double measured = 0.0, pooled = 0.0;
     for (size_t i = 0; i < replicas->pixel_count; ++i) {
         double now = 0.0;
         for (size_t r = 0; r < replicas->count; ++r) {
@@ -227,45 +239,36 @@ static void pool_pixels(aur_candidate *candidate) {
             pool_pixel(&candidate->pixels[i], pow(growth, candidate->rate), now, candidate->spreads[i]);
         else
             candidate->pixels[i] = (aur_pixel_spread){now, candidate->spreads[i]};
+        measured += now;
+        pooled += candidate->pixels[i].variance;
     }
+    candidate->pooled = measured > 0.0 ? pooled / measured : 1.0;
     aur_deviations_pool(&candidate->measure.deviations, replicas->count, replicas->pixel_count,
                         candidate->pixels);
 }
 
-/* What is thought of the variances. */
-typedef struct variance_sums {
-    double measured, pooled, visible; /* by the last round; by all; and of lamps that it need not have met */
-} variance_sums;
-
 /* Puts what the last round says of the variances together with what the rounds before led to expect. A
  * variance seen in a few replicas has few degrees of freedom: where they agree by chance now, they did not
- * always. */
-static variance_sums pool_variances(aur_candidate *candidate) {
-    const size_t pixels = candidate->replicas.pixel_count;
-    variance_sums sums = {.measured = 0.0};
+ * always. The bound is the interval's end where the rounds before told of more error, or lamps may that were
+ * not met. */
+static void pool_variances(aur_candidate *candidate) {
+    double measured = 0.0, pooled = 0.0, visible = 0.0;
     for (size_t i = 0; i < candidate->value_count; ++i) {
-        const double now = candidate->measured[i];
+        const double now = candidate->measured[i], lamps = visible_variance(candidate, i);
         const double all = candidate->rounds > 1 ? 0.5 * (candidate->variances[i] + now) : now;
-        const double visible = aur_error_variance_bound(
-            candidate->error_measure, &candidate->weights[i % pixels],
-            aur_visible_emitters_variance(&candidate->visible, i % pixels, candidate->targets[i]));
-        candidate->variances[i] = fmax(all, visible);
-        sums.measured += now;
-        sums.pooled += candidate->variances[i];
-        sums.visible += visible;
+        candidate->variances[i] = fmax(all, lamps);
+        measured += now;
+        pooled += candidate->variances[i];
+        visible += lamps;
     }
-    return sums;
-}
-
-/* The interval's end where the rounds before told of more error, or lamps do that were not met. */
-static double bound_of(const aur_candidate *candidate, const variance_sums *sums) {
-    if (!(candidate->measure.mean > 0.0))
-        return sums->visible > 0.0 ? INFINITY : 0.0;
-    if (sums->measured > 0.0)
-        return candidate->intervals[candidate->error_measure].high *
-               sqrt(fmax(sums->pooled / sums->measured, 1.0));
     const double count = (double)candidate->replicas.count; /* each replica has one part of the mean */
-    return sqrt(sums->pooled / (count * 3.0 * (double)candidate->value_count));
+    if (!(candidate->measure.mean > 0.0))
+        candidate->bound = visible > 0.0 ? INFINITY : 0.0;
+    else if (measured > 0.0)
+        candidate->bound =
+            candidate->intervals[candidate->error_measure].high * sqrt(fmax(pooled / measured, 1.0));
+    else
+        candidate->bound = sqrt(pooled / (count * 3.0 * (double)candidate->value_count));
 }
 
 void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure) {
@@ -337,8 +340,7 @@ aur_result aur_candidate_render(aur_candidate *candidate, double confidence, con
     candidate->finished = (double)spent.all.samples / (double)candidate->replicas.pixel_count;
     measure(candidate, confidence);
     smooth(candidate);
-    const variance_sums sums = pool_variances(candidate);
-    candidate->bound = bound_of(candidate, &sums);
+    pool_variances(candidate);
     learn_rate(candidate, earlier_error, earlier_samples);
     return AUR_OK;
 }

@@ -27,7 +27,9 @@ typedef struct aur_candidate {
     aur_error_measure error_measure;
     aur_replica_measure measure;
     aur_error_interval intervals[AUR_ERROR_MEASURE_COUNT];
-    double bound;           /* of the error, by the rounds before too: at least the interval's upper end */
+    double bound;           /* of the error, by the rounds before and for lamps not met yet: at least the
+                               interval's upper end */
+    double pooled;          /* the sum of variances as all rounds tell it over that of the last one */
     double rate;            /* the error's square falls as samples^-rate */
     double finished;        /* samples per pixel of all replicas after the last whole round */
     double rays_before;     /* of the samples before the round that is planned or rendered */

@@ -16,15 +16,14 @@ typedef struct error_scale {
     double exposure; /* shows the geometric mean of luminance as a medium grey */
 } error_scale;
 
-/* One measure: the weights of a pixel from the smoothed values, its differences, and a bound of their
- * variance.
- */
+/* One measure: the weights of a pixel from the smoothed values, its differences, and a bound of the variance
+ * that rare light makes in them. */
 typedef struct measure_row {
     const char *name;
     void (*weigh)(const double value[3], const error_scale *scale, double weight[3]);
     void (*differ)(const double weight[3], const double from[3], const double errors[3],
                    double differences[3]);
-    double (*bound)(const double weight[3], double variance);
+    double (*bound)(const double weight[3], const aur_rare_light *light);
 } measure_row;
 
 static double luminance_of(const double value[3]) {
@@ -73,17 +72,26 @@ static void displayed_differences(const double weight[3], const double from[3], 
 
 /* The sum of differences squared is at most that of the errors times that of the weights (Cauchy, Schwarz).
  */
-static double bound_of_sum(const double weight[3], double variance) {
-    return variance * (weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2]);
+static double bound_of_sum(const double weight[3], const aur_rare_light *light) {
+    return light->variance * (weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2]);
 }
 
-static double bound_of_three(const double weight[3], double variance) {
-    return variance * weight[0] * weight[0];
+static double bound_of_three(const double weight[3], const aur_rare_light *light) {
+    return light->variance * weight[0] * weight[0];
 }
 
-/* The variance of a value from 0 to 1 is at most a quarter. */
-static double bound_of_displayed(const double weight[3], double variance) {
-    return fmin(variance * weight[0] * weight[0], 0.75);
+/* A displayed value lies between 0 and 1, and between what one hit makes of it and 1 where there is a hit:
+ * the variance is at most that between the two cases and that within the second (a quarter of its range
+ * squared).
+ */
+static double bound_of_displayed(const double weight[3], const aur_rare_light *light) {
+    const double n = light->samples, p = light->share, missed = pow(1.0 - p, n);
+    const double linear = light->variance * weight[0] * weight[0];
+    if (!(p > 0.0 && p < 1.0))
+        return fmin(linear, 0.75);
+    const double hit = sqrt(light->variance * n / (3.0 * p * (1.0 - p))) / n;
+    const double range = 1.0 - aur_srgb_encode(weight[0] * hit);
+    return fmin(linear, 3.0 * (1.0 - missed) * (missed + 0.25 * range * range));
 }
 
 /* In the order of aur_error_measure. */
@@ -156,8 +164,9 @@ void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, 
     measures[measure].differ(weight->channel, from, errors, differences);
 }
 
-double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight, double variance) {
-    return measures[measure].bound(weight->channel, variance);
+double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight,
+                                const aur_rare_light *light) {
+    return measures[measure].bound(weight->channel, light);
 }
 
 static void copy_colors(const aur_image *image, const size_t channels[3], double (*values)[3]) {

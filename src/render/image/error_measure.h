@@ -24,5 +24,12 @@ void aur_error_smooth(size_t width, size_t height, const double (*values)[3], do
 /* The differences in a pixel whose values `from` change by `errors`. */
 void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, const double from[3],
                      const double errors[3], double differences[3]);
-/* A bound of the variance of the differences, from the variance of R, G and B together. */
-double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight, double variance);
+/* Light that a sample of a pixel meets with a small probability, its share. */
+typedef struct aur_rare_light {
+    double variance; /* of the mean of the samples in R, G and B together */
+    double share, samples;
+} aur_rare_light;
+
+/* A bound of the variance that it makes in the differences. */
+double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight,
+                                const aur_rare_light *light);

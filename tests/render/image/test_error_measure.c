@@ -131,9 +131,39 @@ static void test_clipped(void **state) {
     aur_image_destroy(reference);
 }
 
+/* A light that each of n samples meets with probability p, next to other light: the variance of what is
+ * displayed, by summing over all numbers of hits, is below the bound, which saturated pixels make small. */
+static void test_rare_light(void **state) {
+    (void)state;
+    static const double shares[] = {0.001, 0.03, 0.2, 0.9}, lights[] = {0.5, 5.0, 500.0},
+                        others[] = {0.0, 0.3};
+    for (size_t k = 0; k < 4 * 3 * 2; ++k)
+        for (unsigned n = 1; n <= 64; n *= 4) {
+            const double p = shares[k % 4], light = lights[k / 4 % 3], other = others[k / 12];
+            double probability = pow(1.0 - p, n), sum = 0.0, squares = 0.0;
+            for (unsigned hits = 0; hits <= n; ++hits) {
+                const double shown = aur_srgb_encode(other + light * hits / n);
+                sum += probability * shown;
+                squares += probability * shown * shown;
+                probability *= (double)(n - hits) / (hits + 1.0) * p / (1.0 - p);
+            }
+            const double exposure = 2.0,
+                         variance = 3.0 * p * (1.0 - p) * light * light / (exposure * exposure);
+            const aur_rare_light rare = {variance / n, p, n};
+            const aur_error_weight weight = {{exposure, exposure, exposure}};
+            const double bound = aur_error_variance_bound(AUR_ERROR_MEASURE_DISPLAY, &weight, &rare);
+            /* Where values are dark the display's slope is up to 12.92, which the linear part leaves out. */
+            assert_true(bound <= 0.75 + 1e-12);
+            if (light > 100.0)
+                assert_true(3.0 * (squares - sum * sum) <= bound * (1.0 + 1e-9) + 1e-15);
+            if (light > 100.0 && p * n > 8.0)
+                assert_true(bound < 0.01);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_constant), cmocka_unit_test(test_relative),
                                        cmocka_unit_test(test_negative), cmocka_unit_test(test_edges),
-                                       cmocka_unit_test(test_clipped)};
+                                       cmocka_unit_test(test_clipped),  cmocka_unit_test(test_rare_light)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
