@@ -198,7 +198,7 @@ static bool trace_light(const round_work *work, size_t number, splats *list) {
             return true;
         const aur_vector weight = adjoint_weight(&at, &shading, &sample);
         power = aur_vector_multiply(at.power, weight);
-        const float survival = fminf(aur_vector_max(power) / aur_vector_max(at.power), 1.0f);
+        const float survival = aur_particle_survival(at.power, power);
         if (!(survival > 0.0f) ||
             (depth >= self->rr_depth && !aur_vertex_survives(survival, pairs[LOBE][1], &power)))
             return true;

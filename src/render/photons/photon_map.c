@@ -126,10 +126,9 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         if (kind == AUR_PHOTONS_FOUND && hidden && specular_so_far && bent)
             return true;
         const aur_vector weight = adjoint_weight(&shading, &sample, in);
-        const float survival =
-            fminf(1.0f, aur_vector_max(aur_vector_multiply(power, weight)) / aur_vector_max(power));
-        power = aur_vector_multiply(power, weight);
-        if (!aur_vertex_survives(survival, lobe[1], &power))
+        const aur_vector before = power;
+        power = aur_vector_multiply(before, weight);
+        if (!aur_vertex_survives(aur_particle_survival(before, power), lobe[1], &power))
             return true;
         ray = aur_surface_ray(&surface, sample.light);
         if (unlimited && edge == limit)

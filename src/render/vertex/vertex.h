@@ -112,6 +112,11 @@ static inline float aur_survival(aur_vector beta) {
     return aur_smaller(aur_vector_max(beta), 0.95f);
 }
 
+/* The same of a particle, whose power a vertex changes: all that go on have nearly the same. */
+static inline float aur_particle_survival(aur_vector before, aur_vector after) {
+    return fminf(aur_vector_max(after) / aur_vector_max(before), 1.0f);
+}
+
 /* Whether u in [0,1) lets a path go on, whose beta grows by as much as others end. */
 static inline bool aur_vertex_survives(float survival, float u, aur_vector *beta) {
     if (!(u < survival))
