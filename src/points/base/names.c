@@ -152,7 +152,7 @@ aur_result aur_names_choose(aur_names names, const char *kind, const char *wante
     }
     char help[AUR_ERROR_MESSAGE_CAPACITY];
     return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'%s", kind, wanted,
-                       aur_names_suggest(names, wanted, "there are", help));
+                       error != NULL ? aur_names_suggest(names, wanted, "there are", help) : "");
 }
 
 const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names) {

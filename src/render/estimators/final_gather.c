@@ -51,9 +51,10 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_CHOICE(aur_gather_settings, "direct", direct, "nee",
                        "direct light by shadow rays, by the gather rays, or not at all", "nee", "gather",
                        "none")},
-    {AUR_KEY_OF_INTEGER(
-        aur_gather_settings, "max_depth", max_depth, -1, 1 << 20, "-1",
-        "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
+    {AUR_KEY_OF_INTEGER(aur_gather_settings, "max_depth", max_depth, -1, 1 << 20, "-1",
+                        "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is "
+                        "unlimited; behind mirrors "
+                        "and glass, light from photons may come by longer ones")},
     {AUR_KEY_OF_INTEGER(aur_gather_settings, "edges", edge_samples, 0, 65536, "128",
                         "extra camera rays at edges of objects")},
     {AUR_KEY_OF_CHOICE(aur_gather_settings, "pixel", pixel, "filter",
