@@ -116,9 +116,10 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_get_candidate(const aur_adaptive *adapt
 AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);
 
 /* The image, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
- * error of each value as the replicas tell it, in the image's units. Channels that an integrator adds are
- * left out, which aur_adaptive_create warns of. It and aur_adaptive_get_report may also be called from the
- * progress callback. Errors: UNSUPPORTED while there is no image yet, MEMORY. */
+ * error of each value as the replicas tell it, in the image's units. With aur_render_options' `clamp` also
+ * clamped.R, .G, .B; other channels that an integrator adds are left out, which aur_adaptive_create warns of.
+ * It and aur_adaptive_get_report may also be called from the progress callback. Errors: UNSUPPORTED while
+ * there is no image yet, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                                  aur_error *error) AUR_NONNULL(1, 3);
 

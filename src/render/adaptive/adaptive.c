@@ -157,7 +157,8 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
     result = aur_adaptive_begin(adaptive, integrator, error);
     if (result != AUR_OK)
         return result;
-    if (aur_render_film(adaptive->candidate.replicas.renders[0])->layout.channel_count > 3)
+    if (aur_render_film(adaptive->candidate.replicas.renders[0])->layout.channel_count > 3 &&
+        !aur_replicas_clamp(&adaptive->candidate.replicas))
         aur_warn_at(&own.warnings, (aur_location){0},
                     "an image to a target error, time or number of rays has only R, G and B: further "
                     "channels of the integrator are left out");

@@ -7,6 +7,7 @@
 #include "points/base/error.h"
 #include "points/base/random.h"
 #include "render/driver/renderer.h"
+#include "render/film/clamp.h"
 #include "render/film/film.h"
 
 aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options,
@@ -308,13 +309,19 @@ void aur_replicas_average(const aur_replicas *replicas, size_t side, double *var
         }
 }
 
-/* A pixel's means of some replicas and their standard errors. */
+bool aur_replicas_clamp(const aur_replicas *replicas) {
+    const aur_film *const film = replicas->count > 0 ? aur_render_film(replicas->renders[0]) : NULL;
+    return film != NULL && film->layout.channel_count >= 6 &&
+           strcmp(film->channels[3].name, AUR_CLAMPED_CHANNEL) == 0;
+}
+
+/* A pixel's means of some replicas in three channels, and their standard errors. */
 static void develop_pixel(const aur_replicas *replicas, size_t first, size_t step, size_t pixel,
-                          float values[6]) {
+                          size_t channel, float values[6]) {
     const double count = (double)((replicas->count - first + step - 1) / step);
     for (size_t c = 0; c < 3; ++c) {
         double d[AUR_REPLICAS_MAX], squares = 0.0, sum = 0.0;
-        const double mean = deviations_at(replicas, pixel, c, d);
+        const double mean = deviations_at(replicas, pixel, channel + c, d);
         for (size_t r = 0; r < replicas->count; ++r)
             squares += d[r] * d[r];
         for (size_t r = first; r < replicas->count; r += step)
@@ -326,23 +333,29 @@ static void develop_pixel(const aur_replicas *replicas, size_t first, size_t ste
 
 aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size_t step, bool errors,
                                 aur_image **image, aur_error *error) {
-    static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"};
+    static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"},
+                             *const taken[] = {AUR_CLAMPED_CHANNEL, "clamped.G", "clamped.B"};
     if (replicas->pixel_count == 0) /* they are being made */
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no image yet");
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    const size_t channels = errors ? 6 : 3;
+    const size_t own = errors ? 6 : 3, channels = own + (aur_replicas_clamp(replicas) ? 3 : 0);
     const aur_result result =
         aur_image_create(layout->x1 - layout->x0, layout->y1 - layout->y0, channels, image, error);
     if (result != AUR_OK)
         return result;
     for (size_t c = 0; c < channels; ++c)
-        aur_image_name_channel(*image, c, names[c], NULL);
+        aur_image_name_channel(*image, c, c < own ? names[c] : taken[c - own], NULL);
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_lock(aur_render_film(replicas->renders[r])->lock);
     for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel) {
         float values[6];
-        develop_pixel(replicas, first, step, pixel, values);
-        memcpy(aur_image_data(*image) + pixel * channels, values, channels * sizeof *values);
+        float *const to = aur_image_data(*image) + pixel * channels;
+        develop_pixel(replicas, first, step, pixel, 0, values);
+        memcpy(to, values, own * sizeof *values);
+        if (channels > own) {
+            develop_pixel(replicas, first, step, pixel, 3, values);
+            memcpy(to + own, values, (channels - own) * sizeof *values);
+        }
     }
     for (size_t r = 0; r < replicas->count; ++r)
         pthread_mutex_unlock(aur_render_film(replicas->renders[r])->lock);

@@ -79,8 +79,11 @@ void aur_replicas_smooth(const aur_replicas *replicas, double *variances, double
 /* Each becomes the mean of its cell of `side` x `side` pixels, which get equal numbers of samples. */
 void aur_replicas_average(const aur_replicas *replicas, size_t side, double *variances);
 
+/* Whether channels 3 to 5 have the mean of what a limit of samples takes away. */
+bool aur_replicas_clamp(const aur_replicas *replicas);
+
 /* The mean of the replicas first, first + step, ..., and with `errors` three more channels with its standard
- * error by the spread of all of them. May be called while a replica is in a step. Errors: UNSUPPORTED before
- * the replicas are made, MEMORY. */
+ * error by the spread of all of them; three more where aur_replicas_clamp. May be called while a replica is
+ * in a step. Errors: UNSUPPORTED before the replicas are made, MEMORY. */
 aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size_t step, bool errors,
                                 aur_image **image, aur_error *error);

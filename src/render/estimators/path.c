@@ -39,8 +39,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
      * are sampled. */
     if (aur_parameters_find(parameters, "lamp_rays") == NULL)
         data->lamp_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
-    const aur_result result = aur_clamp_prepare(data->clamp, parameters, context, integrator, error);
-    return result == AUR_OK ? aur_path_prepare(data, context->scene, error) : result;
+    aur_clamp_prepare(data->clamp, integrator);
+    return aur_path_prepare(data, context->scene, error);
 }
 
 /* Hidden lamps are not looked at. */

@@ -18,8 +18,10 @@ static const aur_key keys[] = {
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     aur_volume_path *const data = integrator->data;
+    (void)parameters, (void)error;
     data->passes = aur_panes_exist(context->scene);
-    return aur_clamp_prepare(data->clamp, parameters, context, integrator, error);
+    aur_clamp_prepare(data->clamp, integrator);
+    return AUR_OK;
 }
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,

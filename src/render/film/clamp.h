@@ -13,22 +13,16 @@
                         "G, B; 0: none. Channels clamped.R, .G, .B have the removed light")                  \
     }
 
-/* Adds the channels where there is a limit. The number of samples must be known: an error that is to be
- * reached does not count what the limit takes away. Errors: UNSUPPORTED. */
-static inline aur_result aur_clamp_prepare(float clamp, const aur_parameters *parameters,
-                                           const aur_integrator_context *context, aur_integrator *integrator,
-                                           aur_error *error) {
-    static const char *const names[] = {"clamped.R", "clamped.G", "clamped.B"};
+/* The first of the channels that have what a limit takes away. */
+#define AUR_CLAMPED_CHANNEL "clamped.R"
+
+/* Adds the channels where there is a limit. */
+static inline void aur_clamp_prepare(float clamp, aur_integrator *integrator) {
+    static const char *const names[] = {AUR_CLAMPED_CHANNEL, "clamped.G", "clamped.B"};
     if (!(clamp > 0.0f))
-        return AUR_OK;
-    if (!aur_integrator_knows_samples(context))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "integrator '%s': 'clamp' needs a number of samples: the error that renders to an "
-                           "error reach does not count the light that it takes away",
-                           parameters->plugin);
+        return;
     integrator->extra_count = 3;
     integrator->extra_names = names;
-    return AUR_OK;
 }
 
 /* What the limit leaves of a sample, of which `straight` comes from the first surface itself. */

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --clamp reports what it takes away, in words and as JSON, and renders to an error refuse it.
+# --clamp reports what it takes away, in words and as JSON, with a number of samples and with a target.
 . "$(dirname "$0")/common.sh.inc"
 cat >lamp.xml <<'XML'
 <scene version="3.0.0"><integrator type="path"/>
@@ -17,6 +17,8 @@ mean_of() { "$aureole" compare whole.exr "$1" --format csv --channels R --tolera
 awk -v part="$part" -v left="$(mean_of limited.exr)" -v whole="$(mean_of whole.exr)" \
   'BEGIN { d = part - (1 - left / whole); exit !(whole > 0 && d < 1e-4 && d > -1e-4) }' || fail "$part is not the light that is missing"
 grep -q "removed" whole.said && fail "without a limit: $(cat whole.said)"
-"$aureole" render lamp.xml --error 5% --clamp 1 -o never.exr 2>never.said && fail "an error with a limit"
-grep -q "'clamp' needs a number of samples" never.said || fail "$(cat never.said)"
+"$aureole" render lamp.xml --error 5% --clamp .2 --json -o target.exr >target.json 2>target.said || fail "target: $(cat target.said)"
+grep -q -- "--clamp removed .* of the light" target.said || fail "$(cat target.said)"
+awk -v part="$part" -v own="$(tr ',{' '\n\n' <target.json | sed -n 's/.*"clamped": *\([0-9.e-]*\).*/\1/p')" \
+  'BEGIN { exit !(own > 0.9 * part && own < 1.1 * part) }' || fail "a target's image: $(cat target.json)"
 exit $((failures > 0))

@@ -1,7 +1,7 @@
 /* A limit on what light after the first surface adds to a sample. */
 #include "render/scene/scene_text.h"
 
-#include <aureole-render/render.h>
+#include <aureole-render/adaptive.h>
 
 enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
 
@@ -97,7 +97,6 @@ static void refuses(void **state) {
         {"finalgather", 1.0, 4, "'clamp'"},
         {"path", -1.0, 4, "'clamp'"},
         {"path:clamp=2", 1.0, 4, "'clamp'"},
-        {"path", 1.0, AUR_SAMPLES_PER_PIXEL_MAX, "needs a number of samples"},
     };
     aur_scene *const scene = must_load_body(body);
     aur_renderer *renderer = NULL;
@@ -118,11 +117,55 @@ static void refuses(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* The interval of a target is that of the limited image, next to a long render with the same limit. */
+static void has_an_interval(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    aur_image *const truth = render(scene, "path", 0.05, 4096);
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    size_t missed = 0;
+    for (uint64_t seed = 1; seed <= 5; ++seed) {
+        aur_render_options options = {.size = sizeof options};
+        assert_int_equal(aur_render_options_init(&options, NULL), AUR_OK);
+        aur_adaptive_options target = {.size = sizeof target};
+        assert_int_equal(aur_adaptive_options_init(&target, NULL), AUR_OK);
+        options.integrator = "path";
+        options.width = options.height = SIDE;
+        options.filter = "box";
+        options.clamp = 0.05;
+        options.seed = seed;
+        target.error = 0.05;
+        target.measure = AUR_ERROR_MEASURE_MEAN;
+        aur_adaptive *adaptive = NULL;
+        aur_image *image = NULL;
+        aur_adaptive_report report = {.size = sizeof report};
+        double error = 0.0;
+        assert_int_equal(aur_adaptive_create(renderer, &options, &target, &adaptive, NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_run(adaptive, NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_get_report(adaptive, &report, NULL), AUR_OK);
+        assert_int_equal(aur_adaptive_develop(adaptive, false, &image, NULL), AUR_OK);
+        assert_int_equal(aur_image_channel_count(image), 6);
+        assert_string_equal(aur_image_channel_name(image, 3), "clamped.R");
+        assert_int_equal(aur_image_error(truth, image, target.measure, &error, NULL), AUR_OK);
+        print_message("%g in [%g, %g]\n", error, report.error_low, report.error_high);
+        assert_true(report.error_high <= target.error);
+        missed += error < report.error_low || error > report.error_high;
+        aur_image_destroy(image);
+        aur_adaptive_destroy(adaptive);
+    }
+    assert_true(missed <= 1); /* at 95 %, more in one of 44 */
+    aur_image_destroy(truth);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(takes_no_more_than_it_says),
         cmocka_unit_test(changes_nothing_below),
         cmocka_unit_test(refuses),
+        cmocka_unit_test(has_an_interval),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

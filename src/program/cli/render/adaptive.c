@@ -137,7 +137,8 @@ void cli_say_denoised(const aur_error_figures *figures, aur_error_measure measur
               100.0 * figures->error, measure_words[measure], 100.0 * figures->high);
 }
 
-static aur_result print_json(const aur_adaptive *adaptive, const char *output, aur_error *error) {
+static aur_result print_json(const aur_adaptive *adaptive, const char *output, const aur_image *image,
+                             aur_error *error) {
     aur_adaptive_report report = {.size = sizeof report};
     aur_adaptive_get_report(adaptive, &report, NULL);
     const cli_render_summary summary = {.output = output,
@@ -149,6 +150,7 @@ static aur_result print_json(const aur_adaptive *adaptive, const char *output, a
                                         .mean = report.mean,
                                         .rounds = (double)report.rounds,
                                         .samples_per_pixel = report.samples_per_pixel,
+                                        .clamped = cli_clamped_part(image),
                                         .measures = report.errors,
                                         .adaptive = adaptive,
                                         .statistics = report.statistics};
@@ -187,6 +189,6 @@ aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *o
     if (result == AUR_OK && !beside->quiet)
         say(adaptive, target, beside->output, beside->verbose);
     if (result == AUR_OK && beside->json && aur_ranks_rank() == 0)
-        result = print_json(adaptive, beside->output, error);
+        result = print_json(adaptive, beside->output, *image, error);
     return result;
 }

@@ -246,11 +246,14 @@ static bool check_output(const char *path) {
     return known;
 }
 
-static void say_end(render_command *command, const aur_image *image) {
+static void say_clamped(const aur_image *image) {
     const double clamped = cli_clamped_part(image);
     if (clamped > 0.0)
         aur_print(stderr, "aureole: --clamp removed %.2g %% of the light (an estimate of the bias)\n",
                   100.0 * clamped);
+}
+
+static void say_end(render_command *command, const aur_image *image) {
     if (command->denoise.wanted)
         command->end.error = 0.0; /* it is that of the noisy image */
     if (command->options.shard_count > 0)
@@ -368,6 +371,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         result = cli_denoise_keep(&command->denoise, command->output, made.image, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
+    if (result == AUR_OK && !command->common.quiet && made.image != NULL)
+        say_clamped(made.image);
     if (result == AUR_OK && !command->common.quiet &&
         !cli_is_target(&command->target)) /* which says it itself */
         say_end(command, made.image);
