@@ -208,7 +208,7 @@ static double angle_across(const writer *self, const struct aiCamera *camera) {
 static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
     aur_import_camera *const made = &self->camera;
     if (made->is_there != 0) {
-        writer_note("the camera '%s' is left out: the first one is taken", camera->mName.data);
+        ++self->further_cameras;
         return;
     }
     /* assimp gives cameras of glTF the place of their node, which the node gives them again. */
@@ -262,4 +262,6 @@ void writer_put_nodes(writer *self) {
     count_uses(self, self->scene->mRootNode, root);
     put_groups(self);
     place_node(self, self->scene->mRootNode, root, &unmoved);
+    if (self->further_cameras > 0)
+        writer_note("the first of %u cameras is used", self->further_cameras + 1);
 }

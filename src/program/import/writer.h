@@ -51,6 +51,7 @@ typedef struct writer {
     struct gltf_buffer *gltf_buffers; /* those of the JSON's list that were needed; NULL: none yet */
     struct writer_picture *pictures;  /* beside the model, that were asked for */
     aur_import_camera camera;
+    unsigned further_cameras;
 } writer;
 
 #define NO_FILE UINT32_MAX

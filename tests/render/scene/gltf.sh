@@ -207,6 +207,9 @@ lit = m.tree(attributes, index, [body, {"extensions": {"KHR_lights_punctual": {"
 lit["extensionsUsed"].append("KHR_lights_punctual")
 lit["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 20000}]}}
 m.write("lit.gltf", lit)
+eyes = m.tree(attributes, index, [body] + [{"camera": i, "name": "eye %d" % i, "translation": [0, 0, 9 + i]} for i in range(3)], red)
+eyes["cameras"] = [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}] * 3
+m.write("eyes.gltf", eyes)
 def odd(name, required=(), mode=None, textures=None, extensions=None):
     m, attributes, index = build(False)
     tree = m.tree(attributes, index, [body], {"pbrMetallicRoughness": base, "extensions": extensions or {}})
@@ -290,6 +293,7 @@ refused() {
 refused "unknown variant 'sea': it has 'night', 'deep sea'" variants.gltf --variant sea
 refused "compressed by meshopt (EXT_meshopt_compression)" odd-meshopt.gltf
 refused "only points and lines" odd-points.gltf
+noted "the first of 3 cameras is used" eyes.gltf
 noted "it has no variants" blue.gltf --variant sea
 noted "1 of 2 primitives are points or lines" odd-lines.gltf
 noted "the model requires the extension 'VENDOR_thing'" odd-unknown.gltf
