@@ -105,7 +105,7 @@ refuses "expected a number such as 1e9, not 'many'" --rays many
 refuses "--bias: expected 1% or .01, from above 0 to 100%, not '0'" --error 1% --integrator path --bias 0
 refuses "below the target error" --error 1% --integrator path --bias 2%
 refuses "goes with an integrator that is named" --error 1% --bias .5%
-refuses "--spp' cannot be used with" --error 1% --spp 4
+refuses "--samples' cannot be used with" --error 1% --spp 4
 refuses "--error-map' needs" --error-map
 
 # An interrupt leaves what there is beside the previous image, with and without a target. There is something once a checkpoint is

@@ -77,7 +77,7 @@ sed "s|meshes/red-wall.obj|/dev/zero|" $scene >box/device.xml
 for command in 'info fifo' 'convert fifo out.exr' 'points file:fifo' 'measure file:fifo -m energy' 'info box/fifo.xml' 'render fifo -o out.exr' 'merge fifo -o out.exr' \
   'irradiance box/cornell-box.xml --sensors fifo' 'viewfactors fifo' 'render box/cornell-box.xml --checkpoint fifo --resume -o out.exr'; do
   # shellcheck disable=SC2086
-  refuses 'pipe\|not a regular file\|no checkpoint\|unknown\|fifo' 2 timeout -s KILL 20 "$aureole" $command
+  refuses 'pipe\|not a regular file\|another kind of file\|unknown\|fifo' 2 timeout -s KILL 20 "$aureole" $command
 done
 for command in 'info /dev/zero' 'convert /dev/zero out.exr' 'info box/device.xml' 'points file:/dev/zero'; do
   # shellcheck disable=SC2086

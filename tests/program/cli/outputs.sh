@@ -88,7 +88,7 @@ echo precious >notes
 mkfifo fifo
 mkdir folder
 cp "$box/cornell-box.xml" scene.xml
-for name in notes scene.xml fifo folder a.exr; do refuses 'no checkpoint' 2 timeout 20 $render --spp 100000 -o c.exr --checkpoint "$name"; done
+for name in notes scene.xml fifo folder a.exr; do refuses 'another kind of file' 2 timeout 20 $render --spp 100000 -o c.exr --checkpoint "$name"; done
 [ "$(cat notes)" = precious ] && cmp -s scene.xml "$box/cornell-box.xml" || fail "a checkpoint replaced another file"
 : >empty
 for name in empty fresh; do for _ in 1 2; do $render --spp 1 -o c.exr --checkpoint $name || fail "no checkpoint in '$name'"; done; done

@@ -60,7 +60,7 @@ refuses "'meshes/red-wall.obj' has changed" 2 render --spp 2 -o b.exr --checkpoi
 cp red-wall.obj box/meshes/red-wall.obj
 head -c 3000 kept >cut
 refuses 'cut short' 2 render --spp 2 -o b.exr --checkpoint cut --resume
-refuses 'no checkpoint' 2 render --spp 2 -o b.exr --checkpoint a.exr --resume
+refuses 'another kind of file' 2 render --spp 2 -o b.exr --checkpoint a.exr --resume
 refuses "needs '--checkpoint'" 2 render --spp 2 -o b.exr --resume
 refuses 'needs' 2 render --spp 2 -o b.exr --checkpoint-every 5s
 refuses "5min or 1h, not 'soon'" 2 render --spp 2 -o b.exr --checkpoint kept --checkpoint-every soon
