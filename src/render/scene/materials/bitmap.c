@@ -1,15 +1,19 @@
 #include "render/scene/materials/bitmap.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 enum { TILE_BITS = 6, BYTE_NUMBERS = 256, SHORT_NUMBERS = 65536 };
+
+typedef struct slot {
+    uint32_t bits;        /* of the value */
+    uint32_t next_number; /* its number + 1; 0: free */
+} slot;
 
 /* The different values of an image, numbered as they come. */
 typedef struct numbering {
     size_t count, most;
     size_t slot_mask;
-    uint32_t *slots; /* number + 1; 0: free */
+    slot *slots;
     float *values;
 } numbering;
 
@@ -41,15 +45,15 @@ static size_t number_of(numbering *self, float value) {
     uint32_t hash = bits * UINT32_C(0x9e3779b1);
     hash ^= hash >> 15;
     for (size_t i = hash & self->slot_mask;; i = (i + 1) & self->slot_mask) {
-        const size_t number = self->slots[i];
-        if (number > 0 && memcmp(&self->values[number - 1], &value, sizeof value) == 0)
-            return number - 1;
-        if (number > 0)
+        slot *const at = &self->slots[i];
+        if (at->next_number > 0 && at->bits == bits)
+            return at->next_number - 1;
+        if (at->next_number > 0)
             continue;
         if (self->count == self->most)
             return self->most;
         self->values[self->count++] = value;
-        self->slots[i] = (uint32_t)self->count;
+        *at = (slot){bits, (uint32_t)self->count};
         return self->count - 1;
     }
 }
@@ -145,8 +149,9 @@ static void measure(const packing *self) {
             float rgb[3];
             aur_bitmap_at(self->texels, x, y, rgb);
             for (size_t c = 0; c < 3; ++c) {
-                range->sum[c] += (double)fmaxf(rgb[c], 0.0f);
-                range->maximum = fmaxf(range->maximum, rgb[c]);
+                const float value = rgb[c] > 0.0f ? rgb[c] : 0.0f;
+                range->sum[c] += (double)value;
+                range->maximum = value > range->maximum ? value : range->maximum;
             }
         }
     }
