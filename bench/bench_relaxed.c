@@ -29,7 +29,7 @@ static void relax(void *data) {
 static bool run_row(const bench_options *options, const char *names[2], relaxed_context context,
                     const size_t counts[2]) {
     for (size_t i = 0; i < 2; ++i) {
-        context.count = options->quick ? (size_t)64 << i : counts[i];
+        context.count = options->quick ? (size_t)16 << i : counts[i];
         const bench_work work = {relax, &context, 1.0};
         bench_print_seconds(options, names[i], &work);
     }
