@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""CPU seconds that Mitsuba 3 and `aureole render --error` take to the same target error, scene by scene.
+
+    python3 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy scipy
+    /tmp/peers/bin/python bench/peers/target_error.py build/release/aureole SCENE.xml[:WIDTHxHEIGHT]... [--errors .05,.02] [--measure relative]
+
+Mitsuba is llvm_ad_rgb with multi-jittered samples and the scene's own filter, on one thread. Its samples grow fourfold from 16 until the
+target is met or the next image would take more than --seconds; beyond, the power law between the last two errors gives the samples, and the line
+between their times the seconds. Its error is half the difference of two images with different seeds, by the measure of --measure as in
+docs/target-error.md, because path tracing has no bias. Only the call that renders counts, after a first one that compiles. Aureole's
+seconds are those of the whole process, until it states that the target is met: its stated error has an upper end, Mitsuba's has none.
+A ratio above 1 means that Aureole is faster. The last line has the median of the ratios and the least."""
+import argparse
+import json
+import math
+import os
+import re
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+
+FIRST, STEP, MOST_LANES = 16, 4, 1 << 24
+
+
+def cpu_seconds(who):
+    usage = resource.getrusage(who)
+    return usage.ru_utime + usage.ru_stime
+
+
+def error_of(first, second, measure):
+    """The root mean square error of their mean's halves, each an image of its own."""
+    import numpy as np
+    from scipy.ndimage import uniform_filter
+    weights = np.array([0.2126, 0.7152, 0.0722])
+    mean, half = (first + second) / 2, (first - second) / math.sqrt(2)
+    if measure == "mean":
+        return float(np.sqrt(np.mean(half**2)) / np.mean(mean))
+    light = mean @ weights
+    scale = uniform_filter(np.abs(light), 5, mode="nearest") + 0.01 * light.mean()
+    return float(np.sqrt(np.mean((half @ weights / scale) ** 2)))
+
+
+def mitsuba_child(path, width, height, errors, measure, most_seconds):
+    """Prints a JSON line: seconds to each error, and what was measured."""
+    import drjit as dr
+    import mitsuba as mi
+    import numpy as np
+    mi.set_variant("llvm_ad_rgb")
+    with open(path, encoding="utf-8") as file:
+        text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', file.read())
+    path_traced = '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>'
+    text = re.sub(r"<integrator.*</integrator>", path_traced, text, flags=re.S)
+    with tempfile.NamedTemporaryFile("w", suffix=".xml", dir=os.path.dirname(os.path.abspath(path))) as copy:
+        copy.write(text)
+        copy.flush()
+        scene = mi.load_file(copy.name, parallel=False)
+    dr.set_thread_count(1)
+    sensor = scene.sensors()[0]
+    parameters = mi.traverse(sensor)
+    parameters["film.size"] = parameters["film.crop_size"] = [width, height]
+    parameters.update()
+    samples, found = FIRST, []
+    while True:
+        images, seconds = [], []
+        for seed in (999, 1, 2):  # the first compiles
+            start = cpu_seconds(resource.RUSAGE_SELF)
+            images.append(np.array(mi.render(scene, sensor=sensor, spp=samples, seed=seed), dtype=np.float64)[:, :, :3])
+            seconds.append(cpu_seconds(resource.RUSAGE_SELF) - start)
+        found.append((samples, error_of(images[1], images[2], measure), statistics.mean(seconds[1:])))
+        met = found[-1][1] <= min(errors) or STEP * found[-1][2] > most_seconds or samples * STEP * width * height > MOST_LANES
+        if met and len(found) > 1:
+            break
+        samples *= STEP
+    (few, error, less), (many, least, more) = found[-2:]
+    slope = math.log(least / error) / math.log(many / few)
+    each = (more - less) / (many - few)
+    counts = [many * (target / least) ** (1 / slope) for target in errors]
+    print(json.dumps({"seconds": [max(each * count / 2, more + each * (count - many)) for count in counts], "found": found, "slope": slope}))
+
+
+def ours(aureole, path, width, height, error, measure, most_seconds):
+    """Seconds to the target, and what the program states; None where the time ends first."""
+    with tempfile.TemporaryDirectory() as folder:
+        before = cpu_seconds(resource.RUSAGE_CHILDREN)
+        run = subprocess.run([aureole, "render", path, "--width", str(width), "--height", str(height), "-t", "1", "--error", repr(error),
+                              "--error-measure", measure, "--json", "-o", os.path.join(folder, "image.exr"), "--time-limit", str(most_seconds)],
+                             capture_output=True, text=True)
+        seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - before
+    if run.returncode != 0:
+        return None, run.stderr.strip().splitlines()[-1:] or [f"exit status {run.returncode}"]
+    report = json.loads(run.stdout)
+    return seconds, report
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("aureole")
+    parser.add_argument("scenes", nargs="+")
+    parser.add_argument("--errors", type=lambda text: [float(word) for word in text.split(",")], default=[0.05, 0.02])
+    parser.add_argument("--measure", choices=["relative", "mean"], default="relative")
+    parser.add_argument("--seconds", type=float, default=30)
+    parser.add_argument("--child", metavar="WIDTHxHEIGHT", help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.child:
+        width, height = map(int, given.child.split("x"))
+        return mitsuba_child(given.scenes[0], width, height, given.errors, given.measure, given.seconds)
+    ratios = []
+    print("| scene | error | Mitsuba | Aureole | ratio | integrator |\n|---|---|---|---|---|---|")
+    for text in given.scenes:
+        path, _, size = text.partition(".xml:")
+        path, size = (path + ".xml", size) if size else (text, "160x120")
+        width, height = map(int, size.split("x"))
+        name = os.path.join(os.path.basename(os.path.dirname(os.path.abspath(path))), os.path.basename(path))
+        errors = ",".join(map(repr, given.errors))
+        child = subprocess.run([sys.executable, os.path.abspath(__file__), given.aureole, path, "--errors", errors, "--measure", given.measure,
+                                "--seconds", str(given.seconds), "--child", size], capture_output=True, text=True)
+        if child.returncode != 0:
+            print(f"| {name} | | not measured: {(child.stderr.strip().splitlines() or ['?'])[-1]} | | | |", flush=True)
+            continue
+        peer = json.loads(child.stdout.strip().splitlines()[-1])
+        for error, theirs in zip(given.errors, peer["seconds"]):
+            seconds, report = ours(given.aureole, path, width, height, error, given.measure, 20 * given.seconds)
+            if seconds is None:
+                print(f"| {name} | {error:g} | {theirs:.3g} | {report[0]} | | |", flush=True)
+                continue
+            ratios.append(theirs / seconds)
+            print(f"| {name} | {error:g} | {theirs:.3g} | {seconds:.3g} | {ratios[-1]:.2f} | {report.get('integrator', '')[:60]} |", flush=True)
+    if ratios:
+        print(f"{len(ratios)} ratios: median {statistics.median(ratios):.2f}, least {min(ratios):.2f}")
+
+
+sys.exit(main())
