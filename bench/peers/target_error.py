@@ -91,7 +91,7 @@ def ours(aureole, path, width, height, error, measure, most_seconds):
     if run.returncode != 0:
         return None, run.stderr.strip().splitlines()[-1:] or [f"exit status {run.returncode}"]
     report = json.loads(run.stdout)
-    return seconds, report
+    return seconds, report[0] if isinstance(report, list) else report
 
 
 def main():
