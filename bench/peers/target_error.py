@@ -121,7 +121,7 @@ def main():
             continue
         peer = json.loads(child.stdout.strip().splitlines()[-1])
         for error, theirs in zip(given.errors, peer["seconds"]):
-            seconds, report = ours(given.aureole, path, width, height, error, given.measure, 20 * given.seconds)
+            seconds, report = ours(given.aureole, path, width, height, error, given.measure, 100 * given.seconds)
             if seconds is None:
                 print(f"| {name} | {error:g} | {theirs:.3g} | {report[0]} | | |", flush=True)
                 continue
