@@ -33,7 +33,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_poin
                             surface_points->bounces, lobe));
     uint64_t tile = aur_hash4(plan->seed, aur_gather_points_hash(surface_points, surface_points->tile),
                               surface_points->bounces, lobe);
-    /* Where the samples of a pixel do not split a pattern, each has it rotated again. */
+    /* Without splitting, each sample of a pixel gets another rotation. */
     if (plan->rules.method != NULL)
         tile = aur_hash2(tile, surface_points->index);
     if (rule->nested) {
@@ -44,7 +44,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_points *surface_poin
     }
     const uint32_t rank =
         aur_gather_splits(surface_points, lobe_rule) ? 0 : aur_group_rank(surface_points->group);
-    /* Sixteen patterns would show as texture, were they the same in every tile. */
+    /* Sixteen patterns repeated in every tile would be visible as texture. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (rank ^ (tile & 15u)) * rule->rotation_count / 16;
         aur_gather_rotation rotation = aur_gather_rule_rotation(rule, k);
@@ -74,7 +74,7 @@ size_t aur_gather_prepared_rotation(const aur_gather_points *surface_points, siz
     return (aur_group_rank(surface_points->group) ^ (hash & 15u)) * rotations / 16;
 }
 
-/* Whether all lanes have one rotation. */
+/* Whether all lanes share one rotation. */
 static bool rotate_together(const aur_gather_plan *plan, const aur_gather_rule *rule) {
     const aur_gather_decorrelation how = plan->policy.decorrelation;
     return rule->square == NULL && !rule->nested &&

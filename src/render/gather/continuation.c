@@ -7,19 +7,20 @@
 typedef struct continuation_walk {
     aur_walk path;
     uint64_t hash;
-    bool known; /* the map has answered for the rest of the path, which had this sum then */
+    bool known; /* the map has estimated the rest of the path; known_sum is the sum at that point */
     aur_vector known_sum;
 } continuation_walk;
 
-/* The emission that the ray meets; `surface` NULL: the sky. Behind mirrors it is the caustic map's. */
+/* Adds the emission that the ray hits; `surface` NULL: the sky. Emission behind mirrors belongs to the
+ * caustic map. */
 static void add_emission(const aur_continuation *continuation, const aur_surface *surface,
                          continuation_walk *walk) {
     if (!walk->path.bounce.specular_bounce || continuation->caustics == NULL)
         aur_walk_add_emission(continuation->scene, surface, &walk->path);
 }
 
-/* Roulette. Where the map answers for all that the surface scatters, what a path that ends would still have
- * brought is taken from it, and from one that goes on it is taken away again. */
+/* Russian roulette. If the map covers all scattering of the surface, it is the control variate: a path that
+ * ends adds the map's estimate of the rest, and a path that continues subtracts it in proportion. */
 static bool survives(const aur_continuation *continuation, const aur_hit *hit, const aur_shading *shading,
                      aur_vector view, continuation_walk *walk) {
     const float go_on = continuation->share > 0.0f ? 0.5f : 0.0f;
@@ -57,7 +58,7 @@ typedef struct continuation_walks {
     const aur_continuation *continuation;
     uint32_t alive;
     aur_vertex_lobes
-        lobes; /* of the surface that the path began at those that the map answers for, then all */
+        lobes; /* of each path's current surface: at the first one the lobes that the map covers, then all */
     continuation_walk walk[AUR_PACKET_SIZE];
     aur_surface met[AUR_PACKET_SIZE];
     aur_vector view[AUR_PACKET_SIZE];
@@ -65,7 +66,7 @@ typedef struct continuation_walks {
     aur_packet packet;
 } continuation_walks;
 
-/* Few rays are traced one by one: they would leave a packet nearly empty. */
+/* Few rays are traced one by one: a packet would be nearly empty. */
 static bool is_packet(const aur_continuation *continuation, uint32_t lanes) {
     return continuation->packets && aur_lane_count(lanes) >= AUR_PACKET_SIZE / 4;
 }
@@ -122,7 +123,7 @@ static void add_direct_light(continuation_walks *walks) {
     }
 }
 
-/* The rays that go on; returns those that meet something. */
+/* Traces the active rays; returns the lanes that hit a surface. */
 static uint32_t trace(continuation_walks *walks) {
     const aur_scene *const scene = walks->continuation->scene;
     aur_packet_empty(&walks->packet);
@@ -143,7 +144,7 @@ static uint32_t trace(continuation_walks *walks) {
                : aur_scene_intersect_each(scene, &walks->packet);
 }
 
-/* The surface that a path meets; false where the path ends there. */
+/* Computes the surface that a path hits; false if the path ends there. */
 static bool meet(continuation_walks *walks, size_t k) {
     const aur_continuation *const continuation = walks->continuation;
     continuation_walk *const walk = &walks->walk[k];

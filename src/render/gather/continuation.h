@@ -1,9 +1,8 @@
-/* Paths that go on from a surface, in place of a photon map's estimate there. Rays that met a texel nearly as
- * wide as they are long always go on, for the place that they left sees how the light differs within it.
- * Others go on now and then, to take away what the map is wrong by: the map is a control variate. A sample
- * with light M of the map and light L of a path, drawn with probability p, counts M + (L - M) / p, whose mean
- * is that of L whatever the map says (two levels of Giles 2008; Misso and others 2022 have the same for other
- * biased estimators). */
+/* Continues paths from a surface in place of the photon map's estimate. Rays that are short compared with the
+ * texel that they hit always continue, because radiance varies within the texel as seen from their origin.
+ * Others continue with probability p to correct the map's bias: the map is a control variate. With the map's
+ * radiance M and a path's radiance L, a continued sample counts M + (L - M) / p. Its mean is that of L for
+ * any map (two levels of Giles 2008; Misso and others 2022 have the same for other biased estimators). */
 #pragma once
 
 #include "points/base/random.h"
@@ -13,10 +12,10 @@
 typedef struct aur_continuation {
     const aur_scene *scene;
     const aur_irradiance_map *map;
-    const aur_irradiance_map *caustics; /* of light that specular bounces brought, if `map` lacks it */
+    const aur_irradiance_map *caustics; /* light after specular bounces, if `map` lacks it */
     uint32_t max_depth;                 /* edges of a light path; UINT32_MAX: no limit */
     float share;  /* p, in [0, 1]; with 0 a path ends at the first texel that is far enough */
-    float reach;  /* rays that are shorter than so many widths of the texel that they meet go on */
+    float reach;  /* rays shorter than this many widths of the texel that they hit continue */
     bool single;  /* the correction counts without what it corrects */
     bool packets; /* rays of several paths are traced together */
 } aur_continuation;
@@ -25,16 +24,16 @@ typedef struct aur_continuation {
 typedef struct aur_continuation_start {
     aur_surface surface;
     aur_vector view;  /* unit, of the world */
-    uint32_t edges;   /* that have led from the eye to the surface */
-    uint64_t hash;    /* of what chance decides */
+    uint32_t edges;   /* from the camera to the surface */
+    uint64_t hash;    /* seed of the random decisions */
     bool near;        /* the texel is: see aur_continuation_is_near */
     aur_vector known; /* the map's light */
 } aur_continuation_start;
 
-/* The light of a path where the texel is near, else the map's corrected by a path: the mean over hashes, if
- * aur_continuation_is_due says which are corrected, is the surface's true light, if the share is not 0. A
- * lone correction is what that is more than it would be with a share of 0. At most sixteen paths go on
- * together, bounce by bounce: each as it would alone, but for the rounding of packets. */
+/* Returns the radiance of a path where the texel is near; else the map's radiance corrected by a path. With a
+ * share above 0, and aur_continuation_is_due selecting the corrected samples, the mean over hashes is
+ * unbiased. With `single`, the result is only the difference from a share of 0. At most sixteen paths are
+ * traced together, bounce by bounce, each as it would be alone up to the rounding of packets. */
 void aur_continuation_correct(const aur_continuation *continuation, size_t count,
                               const aur_continuation_start *starts, aur_vector *radiance);
 /* Whether a ray of this length is short for a texel of this area. */
@@ -42,7 +41,7 @@ static inline bool aur_continuation_is_near(const aur_continuation *continuation
                                             float area) {
     return distance * distance < continuation->reach * continuation->reach * area;
 }
-/* Whether the sample that a hash stands for is one that is corrected, and what counts of one that is not. */
+/* Whether the sample with this hash is corrected; and what a sample that is not corrected counts. */
 static inline bool aur_continuation_is_due(const aur_continuation *continuation, uint64_t hash) {
     return aur_unit_float((uint32_t)(hash >> 32)) < continuation->share;
 }

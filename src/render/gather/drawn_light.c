@@ -1,7 +1,7 @@
 #include "render/gather/estimators.h"
 #include "render/vertex/vertex.h"
 
-/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
+/* BSDF * cos towards a light, with each lobe's MIS weight against its gather rays. */
 static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_point *surface_point,
                                  const aur_light_sample *light) {
     const aur_surface *const surface = &surface_point->surface;
@@ -35,7 +35,7 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
     return sum;
 }
 
-/* Adds the light of one point a lane if nothing lies between; the pdfs count all draws of a sample. */
+/* Adds one light sample per lane if it is unoccluded; the pdfs count all draws of a sample. */
 static void add_lights(const aur_gather_points *surface_points, aur_embree_order order,
                        const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums) {
     aur_packet *const packet = &sums->rays.packet;
@@ -65,7 +65,7 @@ static void add_lights(const aur_gather_points *surface_points, aur_embree_order
 
 void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_gather_sums *sums) {
     const aur_gather_plan *const plan = surface_points->plan;
-    /* Lanes without a place stand where the first one is: nothing is drawn for them, or it is thrown away. */
+    /* Lanes without a shading point take the position of the first lane; their samples are discarded. */
     aur_lane_vectors position, normal;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         const size_t from =
@@ -99,7 +99,8 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
     }
 }
 
-/* A point on a bright texel as a light seen from `position`; the hash is that of a path that corrects it. */
+/* A point on a bright texel as a light sample seen from `position`; `hash` seeds the path that corrects it.
+ */
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
                                    aur_vector position, uint64_t hash) {
     const aur_gather_light *const from = &plan->light;

@@ -1,5 +1,5 @@
-/* GGX lobes by a pattern with optimal weights: the material draws its own directions by the pattern's points,
- * and says what they reflect; the rule says what each counts. */
+/* GGX lobes by a pattern with optimal weights: the BSDF samples visible normals with the pattern's points and
+ * returns their throughput; the rule gives the weights. */
 #include "render/gather/estimators.h"
 
 void aur_gather_by_ggx(const aur_gather_points *surface_points, size_t lobe, uint32_t lanes,

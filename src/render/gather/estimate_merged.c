@@ -1,6 +1,6 @@
-/* Places with a diffuse and one glossy lobe, gathered with both patterns' rays for both lobes. Lanes with
- * different glossy lobes go together, and diffuse places among them send their one pattern in the same
- * packets: a packet costs nearly the same for few lanes as for many. */
+/* Shading points with a diffuse and one glossy lobe: the rays of both patterns count for both lobes. Lanes
+ * with different glossy lobes are processed together, and diffuse points among them trace their single
+ * pattern in the same packets, because a packet costs nearly the same for few lanes as for many. */
 #include "points/base/random.h"
 #include "render/gather/estimators.h"
 #include "render/trace/interleave.h"
@@ -8,13 +8,13 @@
 /* One pattern's part of this sample, and the lanes that send it. */
 typedef struct merged_pattern {
     uint32_t lanes;
-    bool alike; /* all have the same directions in their frames */
+    bool alike; /* all lanes have the same local directions */
     const float *directions[3][AUR_PACKET_SIZE];
     size_t stride[AUR_PACKET_SIZE]; /* from one direction to the next */
     aur_lobe_frames frames;
 } merged_pattern;
 
-/* One subset of both patterns at the places of a group. */
+/* One subset of both patterns at the shading points of a group. */
 typedef struct merged {
     const aur_gather_points *surface_points;
     merged_pattern patterns[2];
@@ -24,11 +24,11 @@ typedef struct merged {
     float *weights;                          /* see aur_gather_sums */
     const float *densities[AUR_PACKET_SIZE]; /* of the first pattern's directions, in diffuse lanes */
     aur_vector coefficients[AUR_PACKET_SIZE][2];
-    float times_cosine[AUR_PACKET_SIZE]; /* 1: what the glossy lobe gathers is times the cosine, else 0 */
+    float times_cosine[AUR_PACKET_SIZE]; /* 1: the glossy lobe's integrand includes the cosine; else 0 */
     float sum[2][3][AUR_PACKET_SIZE];    /* of weight * radiance, by lobe and channel */
 } merged;
 
-/* The weights of a sample for a lobe, a lane after another. What idle lanes have is never used. */
+/* The weights of a sample for a lobe, one per lane. Values of inactive lanes are never used. */
 static float *weights_of(const merged *work, size_t lobe, size_t sample) {
     return work->weights + (lobe * work->samples + sample) * AUR_PACKET_SIZE;
 }
@@ -66,7 +66,7 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
         work->weights[i * AUR_PACKET_SIZE + lane] = looked_up[i];
 }
 
-/* A diffuse place has its rule's directions and weights. */
+/* A diffuse shading point uses its rule's directions and weights. */
 static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays *rays) {
     const aur_gather_lobe_rule *const lobe_rule = &work->surface_points->plan->rules.lobes[0];
     const aur_gather_rule *const rule = &lobe_rule->rule;
@@ -91,7 +91,7 @@ static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays 
         work->weights[i * AUR_PACKET_SIZE + lane] = 0.0f;
 }
 
-/* Whether the only light that a place gathers is that of one diffuse lobe, its number in `lobe`. */
+/* Whether a shading point gathers for one diffuse lobe only; its number goes to `lobe`. */
 static bool is_diffuse(const aur_gather_plan *plan, const aur_gather_point *surface_point, size_t *lobe) {
     size_t gathered = 0;
     bool diffuse = false;
@@ -107,8 +107,8 @@ static bool is_diffuse(const aur_gather_plan *plan, const aur_gather_point *surf
     return gathered == 1 && diffuse && plan->rules.lobes[0].rule.square == NULL;
 }
 
-/* Finds whether all lanes have the same directions. Lanes without any get those of the first lane, so that
- * loops over all lanes read what is there; what comes of it is masked out. */
+/* Determines whether all lanes have the same directions. Lanes without any copy the first lane's, so that
+ * loops over all lanes read valid memory; their results are masked out. */
 static void finish_pattern(merged_pattern *pattern) {
     const size_t first = aur_first_lane(pattern->lanes);
     pattern->alike = true;
@@ -122,7 +122,7 @@ static void finish_pattern(merged_pattern *pattern) {
     }
 }
 
-/* Frames, directions and weights of all lanes; returns those that are served. */
+/* Sets frames, directions and weights of all lanes; returns the lanes that this estimator handles. */
 static uint32_t prepare(merged *work, aur_gather_rays *rays, aur_counters *counters) {
     const aur_gather_plan *const plan = work->surface_points->plan;
     const uint32_t lanes = work->surface_points->lanes;

@@ -1,4 +1,4 @@
-/* Lobes gathered by the caller's own method, and what it does so with. */
+/* Lobes gathered by a method that the caller supplies, and the functions that it calls. */
 #include "render/gather/estimators.h"
 
 _Static_assert((int)AUR_GATHER_LANES == (int)AUR_PACKET_SIZE,

@@ -1,7 +1,6 @@
-/* Where a gather ray meets a plainly diffuse surface, its radiance is one read of the irradiance map. At
- * every other one it finds the light that the surface emits, what the photon maps know of the light that it
- * scatters, and, by lobes that they do not answer for - mirrors, glass, rough facets -, light drawn from the
- * lights; and it goes on by one of those lobes. */
+/* Radiance along gather rays. At a purely diffuse surface it is one look-up in the irradiance map. Elsewhere
+ * it is the surface's emission, the photon maps' estimate of scattered light, and light samples for the lobes
+ * that the maps do not cover (mirrors, glass, rough microfacets); the ray continues by one of those lobes. */
 #include "render/gather/incident.h"
 
 #include "render/vertex/vertex.h"
@@ -20,20 +19,20 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
     return aur_scene_occluded_each(plan->scene, packet);
 }
 
-/* --- a ray that goes on */
+/* --- a continued ray */
 
 /* A path of mirrors and rough facets, and how it came to where it is. */
 typedef struct gather_chain {
     aur_walk path;
     size_t lane;       /* of the gather ray */
-    uint64_t hash;     /* of what chance decides on its way */
+    uint64_t hash;     /* seed of the random decisions along the chain */
     uint32_t length;   /* bounces since the gathering point */
     bool specular;     /* all of them */
-    float length_seen; /* of the rays from the last place that scattered other than as a mirror */
+    float length_seen; /* length of the rays since the last non-specular scattering */
 } gather_chain;
 
-/* Adds the part of the emission that the ray counts: a surface's, or the sky's where there is none (NULL).
- * The rest is found by sampling the lights, and, where all bounces were specular, by caustic photons. */
+/* Adds the MIS-weighted emission of a surface, or of the sky if `surface` is NULL. Light sampling finds the
+ * rest; after specular bounces only, caustic photons do. */
 static void add_emission(const aur_gather_plan *plan, const aur_surface *surface, gather_chain *chain) {
     aur_walk *const path = &chain->path;
     if (plan->counts_emitters)
@@ -44,16 +43,16 @@ static void add_emission(const aur_gather_plan *plan, const aur_surface *surface
     aur_walk_add_emission(plan->scene, surface, path);
 }
 
-/* Paths in place of what the map knows: they wait until there are sixteen, or all rays have been looked at.
- */
+/* Paths that replace the map's estimate: they are queued until there are sixteen, or until all rays are
+ * processed. */
 typedef struct waiting_paths {
     size_t count;
     aur_continuation_start starts[AUR_PACKET_SIZE];
-    aur_vector weights[AUR_PACKET_SIZE]; /* of their light in that of the ray */
+    aur_vector weights[AUR_PACKET_SIZE]; /* of the path's radiance in the ray's */
     size_t lanes[AUR_PACKET_SIZE];
 } waiting_paths;
 
-/* Adds their light to that of the rays. */
+/* Traces the queued paths and adds their radiance to the rays. */
 static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_gather_rays *rays) {
     aur_vector radiance[AUR_PACKET_SIZE];
     if (waiting->count > 0)
@@ -68,7 +67,7 @@ static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_
     waiting->count = 0;
 }
 
-/* The path whose start is the next one waits, too. */
+/* Adds the path whose start is the next free one to the queue. */
 static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector weight, waiting_paths *waiting,
                           aur_gather_rays *rays) {
     waiting->weights[waiting->count] = weight;
@@ -77,8 +76,8 @@ static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector w
         walk_paths(plan, waiting, rays);
 }
 
-/* Adds the light that leaves a surface by what the photon maps know; where a path is to find it, the path
- * waits. */
+/* Adds the radiance that the photon maps estimate for a surface; where a path replaces it, the path is
+ * queued. */
 static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const aur_surface *surface,
                           waiting_paths *waiting, aur_gather_rays *rays, gather_chain *chain) {
     aur_vector radiance = {0};
@@ -103,7 +102,7 @@ static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const
         aur_vector_add(chain->path.radiance, aur_vector_multiply(chain->path.beta, radiance));
 }
 
-/* Adds a point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. */
+/* Adds a light sample reflected by the sampled lobe, MIS-weighted against the continued ray. */
 static void add_sampled_light(const aur_gather_plan *plan, const aur_shading *shading, gather_chain *chain) {
     float u[3];
     aur_shadow shadow;
@@ -114,7 +113,7 @@ static void add_sampled_light(const aur_gather_plan *plan, const aur_shading *sh
             aur_vector_add(chain->path.radiance, aur_vector_multiply(chain->path.beta, shadow.radiance));
 }
 
-/* Goes on by lobes that the photon map does not answer for; false where the path ends. */
+/* Continues by lobes that the photon map does not cover; false if the path ends. */
 static bool scatter(const aur_shading *shading, float distance, gather_chain *chain, aur_counters *counters) {
     aur_walk *const path = &chain->path;
     float u[3];
@@ -133,7 +132,7 @@ static bool scatter(const aur_shading *shading, float distance, gather_chain *ch
     return true;
 }
 
-/* `hit` is the ray's first one, or NULL when it left the scene. */
+/* `hit` is the ray's first hit, or NULL if it left the scene. */
 static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const aur_hit *hit,
                                  waiting_paths *waiting, aur_gather_rays *rays, aur_counters *counters) {
     const aur_scene *const scene = plan->scene;
@@ -146,7 +145,7 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         const aur_shading shading =
             aur_shading_at(&surface, aur_vector_scale(chain.path.ray.direction, -1.0f));
         const unsigned kinds = aur_bsdf_scatters(surface.bsdf, shading.view.z);
-        /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
+        /* Two edges lead here and one per link of the chain; a photon adds at least one more. */
         const bool deeper = chain.length + 3 <= plan->policy.max_depth;
         add_emission(plan, &surface, &chain);
         if (deeper && (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0)
@@ -171,7 +170,7 @@ static float density_of(const aur_gather_rays *rays, size_t lane) {
                                    aur_vector_dot(rays->axes[lane][1], direction));
 }
 
-/* The part of a bright texel's light that gathering counts; the rest is found by drawing bright texels. */
+/* The part of a bright texel's light that gathering counts; sampling of bright texels adds the rest. */
 static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
                            aur_vector known) {
     const float texel = aur_bright_texels_density(plan->light.bright, known);
@@ -186,8 +185,8 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), other_pdf) : 1.0f;
 }
 
-/* Of a surface that is diffuse, without emission, in no instance: what the map knows, or a path where the
- * texel is near or the map is corrected. */
+/* Radiance of a diffuse surface without emission and outside instances: from the map, or from a path where
+ * the texel is near or the map is corrected. */
 static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiting_paths *waiting,
                                  aur_gather_rays *rays) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
@@ -220,7 +219,7 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiti
     return aur_vector_scale(known.caustics, weight);
 }
 
-/* The lanes whose light is read from the map without a look at their surface. */
+/* The lanes whose radiance is read from the map without evaluating their surface. */
 static uint32_t plain_lanes(const aur_gather_plan *plan, const aur_packet *packet, uint32_t found) {
     uint32_t plain = 0;
     for (uint32_t rest = plan->light.map != NULL ? found : 0; rest != 0; rest &= rest - 1) {
@@ -285,7 +284,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         if (aur_has_lane(plain, lane)) {
             radiance = plain_radiance(plan, lane, &waiting, rays);
         } else {
-            /* Only light that is sampled too asks for the density. */
+            /* The density is needed only for light that is sampled too. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
             const aur_bounce bounce = {.from = rays->reference[lane],
                                        .pdf = weighed ? density_of(rays, lane) : 0.0f,

@@ -17,7 +17,7 @@ static void destroy_map(void *map) {
     aur_irradiance_map_destroy(map);
 }
 
-/* Stands for all that a sampler has, also for points that come from a file. */
+/* A hash of the whole state of a sampler, including points that come from a file. */
 static uint64_t digest(const aur_sampler *sampler) {
     uint64_t hash = aur_hash2(sampler->kind, sampler->size);
     for (size_t i = 0; i < sampler->size; ++i)
@@ -29,8 +29,8 @@ static void destroy_text(void *text) {
     free(text);
 }
 
-/* What every photon map depends on: the scene's files by their content, this program, and how Embree finds
- * hits. NULL where that is not known. */
+/* The cache key of photon maps: the contents of the scene's files, this program, and how Embree intersects.
+ * NULL if that cannot be determined. */
 static const char *scene_key(const aur_integrator_context *context) {
     static const char name[] = "what photon maps depend on";
     char *const known = aur_cache_find(context->cache, name);
@@ -49,7 +49,7 @@ static const char *scene_key(const aur_integrator_context *context) {
     return key != NULL && aur_cache_store(context->cache, name, key, 0, destroy_text) == AUR_OK ? key : NULL;
 }
 
-/* A map of an earlier run, or one that is left for later ones. */
+/* Loads the map from the file cache, or traces it and writes it there. */
 static aur_result find_or_trace(const aur_integrator_context *context,
                                 const aur_irradiance_map_options *options, const char *key,
                                 aur_irradiance_map **map, aur_error *error) {
@@ -80,7 +80,7 @@ static aur_result find_or_trace(const aur_integrator_context *context,
     return result;
 }
 
-/* A photon map, shared by all renders that ask for the same one. */
+/* A photon map, shared by all renders with the same options. */
 static aur_result find_map(const aur_gather_settings *p, const aur_integrator_context *context,
                            aur_photon_options photons, const aur_irradiance_map **found, aur_error *error) {
     aur_sampler *sampler;
@@ -112,8 +112,8 @@ static aur_result find_maps(const aur_gather_settings *p, const aur_integrator_c
     const bool leaves_out = p->debias == AUR_DEBIAS_FOUND && aur_scene_has_hidden_light(context->scene);
     const uint64_t own_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
     aur_photon_options photons = {.count = p->photons,
-                                  /* What the eye sees at one gather ray's end is two edges on; caustics are
-                                   * seen without a gather ray. */
+                                  /* A diffuse surface at the end of a gather ray is two edges from the
+                                     camera; caustics are seen without a gather ray. */
                                   .max_edges = p->max_depth == UINT32_MAX ? SIZE_MAX : p->max_depth - 2,
                                   .kind = apart        ? AUR_PHOTONS_OTHER
                                           : leaves_out ? AUR_PHOTONS_FOUND
@@ -140,7 +140,7 @@ static void destroy_bright(void *bright) {
     free(bright);
 }
 
-/* A map's bright texels, shared like the map, whose address in the cache names them. */
+/* A map's bright texels, shared like the map: the cache key is the map's address. */
 static aur_result find_bright(const aur_integrator_context *context, const aur_irradiance_map *map,
                               const aur_shape_class *classes, const aur_bright_texels **found,
                               aur_error *error) {
@@ -165,7 +165,7 @@ static aur_result find_light(const aur_gather_settings *p, const aur_integrator_
                              aur_gather_plan *plan, aur_error *error) {
     aur_gather_light *const light = &plan->light;
     light->draws = p->light_samples;
-    /* Where gather rays go on from every surface, there is no use for photons. */
+    /* If gather rays continue from every surface, no photons are needed. */
     const bool wants_photons = p->incident != AUR_INCIDENT_EMITTERS && p->max_depth >= 3 &&
                                (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
     aur_result result = wants_photons ? find_maps(p, context, light, error) : AUR_OK;

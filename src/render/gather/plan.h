@@ -1,67 +1,65 @@
-/* What final gathering compiles once an image, and nothing changes while the image is rendered.
+/* Data that final gathering computes once per image and that is constant while the image is rendered:
  *
- *     rules.c                   what gathers each kind of lobe, of rule.c and rule_*.c
- *     plan.c                    these rules, maps of photons, and what the keys ask for
+ *     rules.c                   directions and weights for each kind of lobe, from rule.c and rule_*.c
+ *     plan.c                    these rules, photon maps and the integrator's parameters
  *
- * What happens at sixteen pixels at a time takes the plan, the surface points that the pixels see (points.h),
- * the sums to add to and working memory (sums.h):
+ * Functions that process sixteen pixels at a time take the plan, the surface points that the pixels see
+ * (points.h), the sums to add to and working memory (sums.h):
  *
  *     incident.c                radiance along gather rays
- *     aim.c                     directions of a rule made into rays at the places, and traced
- *     estimate_*.c              the light of a lobe by such rays; no estimator calls another
- *     drawn_light.c             the light of points on lights and on bright texels
- *     shade.c                   all of these for all lobes of the places
- *     strata.c, pooling.c       what a pixel's samples have seen, where edges are, and irradiance that
- *                               neighbouring pixels have in common
- *     tile.c                    what the eye sees, also through mirrors and glass: sixteen groups of sixteen
- *                               pixels (render/trace/interleave.h)
- */
+ *     aim.c                     turns a rule's directions into rays at the shading points, and traces them
+ *     estimate_*.c              radiance of a lobe by such rays; no estimator calls another
+ *     drawn_light.c             samples of lights and of bright texels
+ *     shade.c                   calls the above for all lobes of the shading points
+ *     strata.c, pooling.c       surfaces that a pixel's samples hit, edges, and irradiance pooled between
+ *                               neighbouring pixels
+ *     tile.c                    what the camera sees, also through mirrors and glass: sixteen groups of
+ *                               sixteen pixels (render/trace/interleave.h) */
 #pragma once
 
 #include "render/gather/continuation.h"
 #include "render/gather/rules.h"
 #include "render/photons/bright_texels.h"
 
-/* What gather rays find: light that photons brought to the surfaces, and how often it is drawn as lights are.
- */
+/* Light that gather rays collect: photon maps, and the number of light samples. */
 typedef struct aur_gather_light {
     /* Owned by the cache. NULL when incident light is the emitters' alone. */
     const aur_irradiance_map *map;
-    /* The light that specular bounces brought, which `map` then lacks; or NULL. Owned by the cache. */
+    /* Light after specular bounces, which `map` then lacks; or NULL. Owned by the cache. */
     const aur_irradiance_map *caustics;
-    uint32_t draws;                  /* points on lights that one sample draws */
-    uint32_t bright_draws;           /* points on bright texels that one sample draws; 0: there are none */
-    const aur_bright_texels *bright; /* of `map`, owned by the cache; NULL where nobody asks for them */
+    uint32_t draws;                  /* light samples per sample of a pixel */
+    uint32_t bright_draws;           /* samples of bright texels per sample of a pixel; 0: none */
+    const aur_bright_texels *bright; /* of `map`, owned by the cache; NULL: not used */
 } aur_gather_light;
 
 typedef struct aur_gather_plan {
     const aur_scene *scene;
-    aur_gather_settings policy; /* whose texts are gone */
+    aur_gather_settings policy; /* its strings are no longer valid */
     size_t samples_per_pattern; /* among which the directions of a pattern are shared out in as many parts */
-    size_t part_stride;         /* from the part of one sample to that of the next one, modulo that number */
-    bool renews;                /* samples after those have other patterns, else the same again */
-    uint64_t seed;              /* of the rules' rotations */
+    size_t part_stride; /* from the part of one sample to that of the next, modulo samples_per_pattern */
+    bool renews;        /* later samples use new patterns; else the patterns repeat */
+    uint64_t seed;      /* of the rules' rotations */
     aur_gather_rules rules;
     aur_gather_light light;
-    aur_shape_class *classes; /* one a shape */
-    /* Whether gather rays count the lights that they meet in full. Under next-event estimation they count
-     * them by multiple importance sampling. */
+    aur_shape_class *classes; /* one per shape */
+    /* Whether gather rays count emission in full. Under next-event estimation they weigh it by multiple
+     * importance sampling. */
     bool counts_emitters;
-    bool gathers;               /* whether gather rays can bring any light */
-    const uint16_t *lamp_edges; /* of the image's pixels: not 0 where the edge of a small lamp is; or NULL */
-    aur_continuation continuation; /* in place of the map, where it is too coarse or is corrected */
+    bool gathers;                  /* whether gather rays can carry any light */
+    const uint16_t *lamp_edges;    /* per pixel of the image: not 0 at the edge of a small emitter; or NULL */
+    aur_continuation continuation; /* replaces the map where it is too coarse, or corrects it */
 } aur_gather_plan;
 
-/* `method` is the caller's way to gather lobes, or NULL. The maps of photons come from the context's cache,
- * which outlives the plan. Errors: MEMORY, those of aur_irradiance_map_create, and what the patterns and
- * weights say. */
+/* `method` is the caller's gathering method, or NULL. Photon maps come from the context's cache, which
+ * outlives the plan. Errors: MEMORY, those of aur_irradiance_map_create, and those of patterns and weights.
+ */
 aur_result aur_gather_plan_create(const aur_gather_settings *p, const aur_gather_method *method,
                                   const aur_integrator_context *context, aur_gather_plan **plan,
                                   aur_error *error);
 void aur_gather_plan_destroy(aur_gather_plan *plan); /* NULL is allowed */
 
-/* Adds the means of the tile's samples to its pixels, and the directions that were gathered with to an extra
- * channel where the caller's method chose them. Fails with MEMORY only. */
+/* Adds the means of the tile's samples to its pixels. With a caller's method, an extra channel gets the
+ * number of gathered directions. Fails with MEMORY only. */
 aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile);
 
 /* Whether the light of a lobe comes by gather rays. */
@@ -72,7 +70,7 @@ static inline bool aur_gather_plan_gathers(const aur_gather_plan *plan, const au
            lobe->diffuse == (plan->policy.component == AUR_COMPONENT_DIFFUSE);
 }
 
-/* What the photon maps know of a point of a plain triangle. */
+/* The photon maps' radiance at a point of a plain triangle. */
 typedef struct aur_photon_radiance {
     aur_vector radiance; /* by the first map */
     aur_vector caustics; /* by the second one */

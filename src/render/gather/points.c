@@ -1,8 +1,8 @@
 #include "render/gather/points.h"
 #include "render/trace/packet_rays.h"
 
-/* The merged rule of a place whose lobes are one diffuse and one glossy lobe, both with a formula, and
- * specular ones. */
+/* Finds the merged rule of a shading point with one diffuse and one glossy lobe, both analytic; specular
+ * lobes are allowed. */
 static void find_merged(aur_gather_point *surface_point) {
     bool found[2] = {false, false};
     surface_point->merged = NULL;
@@ -39,7 +39,7 @@ void aur_gather_point_set(const aur_gather_plan *plan, const aur_ray *ray, const
         find_merged(surface_point);
 }
 
-/* Whether a packet from these places is coherent: from normals and positions, never from timing. */
+/* Whether packets from these points are coherent: decided by normals and positions, never by timing. */
 static bool are_flat(const aur_gather_points *surface_points) {
     if (aur_lane_count(surface_points->lanes) < AUR_PACKET_SIZE / 2)
         return false;

@@ -11,12 +11,12 @@ typedef struct aur_gather_point {
     aur_surface surface;
     aur_vector view;   /* local */
     aur_vector origin; /* of rays that leave the surface on the side that it is seen from */
-    float side;        /* 1 where it is seen from the side of its normal, else -1 */
+    float side;        /* 1 if seen from the side of the normal, else -1 */
     size_t lobe_count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     const aur_gather_lobe_rule *const *rules; /* what gathers each lobe with a formula */
     const aur_ggx_rule *ggx; /* of its sampled lobe, where that is GGX and weights are optimal */
-    /* Where the place has just a diffuse and a glossy lobe, and merged samples serve them: the rule, and the
+    /* If the point has only a diffuse and a glossy lobe and merged samples serve both: the rule and the
      * lobes' numbers. Else NULL. */
     const aur_merged_rule *merged;
     size_t merged_lobes[2];
@@ -25,9 +25,9 @@ typedef struct aur_gather_point {
 /* What all sixteen are gathered with; estimators only read it. */
 typedef struct aur_gather_points {
     const aur_gather_plan *plan;
-    uint32_t lanes;         /* those that have a place */
-    uint32_t bounces;       /* specular ones on the way from the eye */
-    aur_embree_order order; /* of packets of rays that leave the places in one direction each */
+    uint32_t lanes;         /* those with a shading point */
+    uint32_t bounces;       /* specular ones between the camera and the points */
+    aur_embree_order order; /* of packets with one ray from each point */
     uint32_t group, index;  /* of the tile's sixteen groups; of the samples of a pixel */
     uint64_t arrangement;   /* of the tile's pixels in groups (render/trace/interleave.h) */
     uint64_t tile;          /* hash of the tile's corner */
@@ -43,20 +43,19 @@ static inline aur_light_reference aur_gather_point_reference(const aur_gather_po
     return aur_shading_reference(&shading);
 }
 
-/* The place where a ray of the eye meets a surface. */
+/* Sets up the shading point where a camera ray hits a surface. */
 void aur_gather_point_set(const aur_gather_plan *plan, const aur_ray *ray, const aur_hit *hit,
                           aur_gather_point *surface_point);
 
-/* A hash of what has randomisations of its own at the places, a tile or a pixel, and in it of those samples
- * that share a pattern. */
+/* A seed for the randomisation of a tile or pixel, given its hash `of`, distinct for each pattern. */
 static inline uint64_t aur_gather_points_hash(const aur_gather_points *surface_points, uint64_t of) {
     const aur_gather_plan *const plan = surface_points->plan;
     const uint64_t pattern = plan->renews ? surface_points->index / plan->samples_per_pattern : 0;
     return pattern > 0 ? aur_hash2(of, pattern) : of;
 }
 
-/* Which part of a pattern the sample has. Groups begin at different ones: else all pixels that have fewer
- * samples than there are parts would lack the same ones, and be wrong alike. */
+/* The part of a pattern that this sample uses. Groups start at different parts: otherwise all pixels with
+ * fewer samples than parts would miss the same ones, and their errors would be correlated. */
 static inline size_t aur_gather_part(const aur_gather_points *surface_points) {
     const aur_gather_plan *const plan = surface_points->plan;
     const uint64_t hash =
@@ -66,15 +65,15 @@ static inline size_t aur_gather_part(const aur_gather_points *surface_points) {
     return (first + surface_points->index % parts * plan->part_stride) % parts;
 }
 
-/* How packets are traced whose rays leave the places in like directions. */
+/* The coherence of packets whose rays leave the points in similar directions. */
 aur_embree_order aur_gather_points_order(const aur_gather_points *surface_points);
 
-/* Whether the place has that one of its material's lobes. */
+/* Whether the point has that lobe of its material. */
 static inline bool aur_gather_point_has(const aur_gather_point *surface_point, size_t lobe) {
     return !aur_vector_is_zero(surface_point->lobes[lobe].coefficient);
 }
 
-/* The density of the directions that both lobes' merged samples have towards a local one, a steradian. */
+/* The solid-angle density of both lobes' merged samples in a local direction. */
 static inline float aur_gather_point_merged_density(const aur_gather_point *surface_point, aur_vector local) {
     return aur_merged_rule_density(
         surface_point->merged,

@@ -2,8 +2,8 @@
 
 #include "render/gather/strata.h"
 
-/* Pixels pool where their normals differ by less than 8 degrees from those of the first pixel seen of a
- * surface, and they lie near its plane. */
+/* Pixels are pooled if their normals differ by less than 8 degrees from the normal of the first pixel seen of
+ * a surface, and they lie near its plane. */
 static const float LEAST_AGREEMENT = 0.99f;
 static const float MOST_ELEVATION_SQUARED = 0.01f;
 
@@ -13,7 +13,7 @@ enum { NO_SURFACE = -1 };
 /* One surface of the tile. */
 typedef struct pooled_surface {
     uint64_t key;
-    aur_vector position, normal; /* where it was first met */
+    aur_vector position, normal; /* where it was first hit */
 } pooled_surface;
 
 typedef struct pooled_tile {
@@ -56,7 +56,7 @@ static void find_surfaces(pooled_tile *tile) {
         }
 }
 
-/* Along one axis: where the window of a pixel begins, and what its pixels count. */
+/* Along one axis: the first pixel of a pixel's window, and the weights of the window's pixels. */
 static size_t set_window(size_t at, float weights[WINDOW]) {
     const bool inside = at >= REACH && at + REACH < SIDE;
     for (size_t i = 0; i < WINDOW; ++i)
@@ -68,9 +68,10 @@ static size_t set_window(size_t at, float weights[WINDOW]) {
     return at < REACH ? 0 : SIDE - AUR_GROUPS_A_SIDE;
 }
 
-/* The same of three pixels about it. What the neighbours count was chosen by measurement: more lowers the
- * error further, but not that of means over 8 x 8 pixels, which would be more than 1.5 times what independent
- * errors leave there. Before the tile's first pixel, where the window begins at -1, nothing counts. */
+/* The same for a window of three pixels. The neighbours' weight was chosen by measurement. A larger weight
+ * lowers the error of single pixels further but not that of means over 8 x 8 pixels, which would exceed that
+ * of independent errors by more than 1.5. At the tile's first pixel the window begins at -1, where the weight
+ * is 0. */
 static size_t set_near_window(size_t at, float weights[WINDOW]) {
     const float beside = 0.16f;
     for (size_t i = 0; i < WINDOW; ++i)

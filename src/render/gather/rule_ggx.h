@@ -1,6 +1,6 @@
-/* A rule for a GGX lobe of one roughness: the pattern becomes the directions of visible normals, and has
- * optimal weights from a table over the angle of the view. It is turned in K prepared ways relative to the
- * plane of the view, or mirrored in it, so that a weight depends on that angle only. */
+/* A rule for a GGX lobe of one roughness: the pattern is mapped to visible normals, and its optimal weights
+ * are tabulated over the view angle. It is turned in K prepared ways relative to the plane of the view, or
+ * mirrored in it, so that a weight depends on that angle only. */
 #pragma once
 
 #include "points/quadrature/tables/weight_table.h"
@@ -11,7 +11,7 @@ typedef struct aur_ggx_rule_options {
     aur_gather_rule_options pattern; /* at least one rotation */
     float alpha;
     double regularization;
-    size_t threads; /* that make the table; 0: all */
+    size_t threads; /* that build the table; 0: all */
     aur_progress progress;
 } aur_ggx_rule_options;
 
@@ -32,7 +32,7 @@ void aur_ggx_rule_release(aur_ggx_rule *rule);
 typedef struct aur_ggx_view {
     const float (*square)[2];
     const float *below, *above; /* rows of weights */
-    float part;                 /* of the way between them */
+    float part;                 /* interpolation parameter between them */
     float circles;              /* the view's azimuth */
     float sign;                 /* -1: mirrored */
     float mass;                 /* of the lobe */
@@ -42,7 +42,7 @@ typedef struct aur_ggx_view {
 /* `view` is local, on either side of the surface. */
 aur_ggx_view aur_ggx_rule_view(const aur_ggx_rule *rule, size_t rotation, bool mirrored, aur_vector view);
 
-/* Direction `index` as the two numbers with which a BSDF draws visible normals. */
+/* Direction `index` as the pair of numbers with which a BSDF samples visible normals. */
 static inline void aur_ggx_view_square(const aur_ggx_view *view, size_t index, float point[2]) {
     const float circles = view->circles + view->sign * view->square[index][0];
     point[0] = fminf(circles - floorf(circles), 0x1.fffffep-1f);

@@ -5,9 +5,10 @@
 #include "points/base/error.h"
 #include "points/quadrature/tables/weight_table.h"
 
-/* --- making one */
+/* --- creation */
 
-/* Linear interpolation loses less than 0.2 % of the gain with so many angles: 32 for m = 20, 64 for 200. */
+/* With this many angles, linear interpolation loses less than 0.2 % of the gain: 32 for m = 20, 64 for 200.
+ */
 static size_t angle_count(double exponent) {
     size_t count = 32;
     while (count < 256 && (double)(count * count) < 20.0 * exponent)
@@ -44,7 +45,7 @@ static aur_result allocate(aur_merged_rule *rule, aur_error *error) {
     return AUR_OK;
 }
 
-/* The patterns in all their rotations; at the angle 0 both stand about +z. */
+/* The patterns in all their rotations; at the angle 0 both axes are +z. */
 static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options *options, aur_error *error) {
     const size_t size = rule->count[0] + rule->count[1];
     double *const xyz = malloc(3 * size * sizeof *xyz);
@@ -81,8 +82,8 @@ static void fill_densities(aur_merged_rule *rule) {
     }
 }
 
-/* Where the weight of sample i, of both patterns', for a lobe stands in the order of subsets, each of which
- * has 2 * samples one after another. */
+/* The index of the weight of sample i (of both patterns) for a lobe in the order of subsets, each of which
+ * has 2 * samples weights in sequence. */
 static size_t slot_of(const aur_merged_rule *rule, size_t lobe, size_t i) {
     const size_t samples = aur_merged_rule_samples(rule);
     const size_t pattern = i < rule->count[0] ? 0 : 1, index = i - pattern * rule->count[0];
@@ -90,8 +91,8 @@ static size_t slot_of(const aur_merged_rule *rule, size_t lobe, size_t i) {
            index / rule->subsets;
 }
 
-/* The table's rows in that order, for integrals of the lobes as they are written: of mass pi for the diffuse
- * lobe; that of the glossy one depends on the angle and is left for the look-up. */
+/* Copies the table's rows in that order and scales them to the lobes' integrals: pi for the diffuse lobe. The
+ * integral of the glossy lobe depends on the angle and is applied at look-up. */
 static aur_result compile(aur_merged_rule *rule, aur_error *error) {
     const size_t size = rule->count[0] + rule->count[1];
     const size_t row_count = aur_weight_table_rows(rule->table);
@@ -109,7 +110,7 @@ static aur_result compile(aur_merged_rule *rule, aur_error *error) {
 }
 
 static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
-    /* The published method has no constraint of the sum. */
+    /* The published method does not constrain the sum. */
     const aur_weights_options weights = {.size = sizeof weights,
                                          .regularization = options->regularization,
                                          .sum_constraint = options->method == AUR_WEIGHTS_OSWA};

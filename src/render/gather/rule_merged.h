@@ -2,9 +2,9 @@
  * glossy lobe, in which every ray counts for both lobes (Marques 2018 section 5.3).
  *
  * Both patterns are fixed relative to the normal and the plane of reflection, in one of K prepared rotations
- * and its mirror image, so what a sample weighs depends on the angle of reflection only: a look-up in a
- * table, made once an image. The directions of a pattern are split among the samples of a pixel: subset s of
- * S has every S-th. */
+ * and its mirror image. So a sample's weight depends only on the angle of reflection and is looked up in a
+ * table, computed once per image. The directions of a pattern are split among the samples of a pixel: subset
+ * s of S has every S-th. */
 #pragma once
 
 #include <aureole/quadrature.h>
@@ -13,8 +13,8 @@
 #include "render/sampling/rule.h"
 
 typedef struct aur_merged_rule_options {
-    /* Both patterns; its count is the diffuse one's. At least one rotation is prepared. The set is scrambled
-     * once. */
+    /* For both patterns; its count is the diffuse one's. At least one rotation is prepared. The set is
+     * scrambled once. */
     aur_gather_rule_options pattern;
     aur_gather_weights method; /* OSWA, MIS or SOLVE */
     size_t glossy_count;
@@ -22,30 +22,30 @@ typedef struct aur_merged_rule_options {
     double exponent; /* of the glossy lobe */
     bool clipped;    /* OSWA: the glossy lobe ends at the horizon */
     double regularization;
-    size_t threads; /* that make the table; 0: all */
+    size_t threads; /* that compute the table; 0: all */
     bool use_cache; /* of earlier runs, for the table */
     aur_progress progress;
 } aur_merged_rule_options;
 
 enum { AUR_MERGED_DENSITY_STEPS = 1024 };
 
-/* Immutable. Patterns are numbered 0 (diffuse) and 1 (glossy). Their directions stand in the order of
- * subsets: those of subset s begin at s * count / subsets. */
+/* Immutable. Patterns are numbered 0 (diffuse) and 1 (glossy). Their directions are stored by subset: those
+ * of subset s begin at s * count / subsets. */
 typedef struct aur_merged_rule {
     aur_gather_weights method;
     size_t subsets, rotations;
-    size_t count[2], subset_count[2]; /* directions of a pattern, and of it in one subset */
+    size_t count[2], subset_count[2]; /* directions per pattern, and per pattern in one subset */
     double exponent;
     float *direction[2][3]; /* x, y, z: rotation after rotation, about the pattern's axis */
-    /* Directions a steradian that one subset has, by the cosine to the pattern's axis: what a light's own
-     * sampling is weighed against. */
+    /* Directions per steradian in one subset, by the cosine to the pattern's axis: the pdf for MIS against
+     * light sampling. */
     float density[2][AUR_MERGED_DENSITY_STEPS + 1];
     double drawn_exponent[2];
     aur_oswa *oswa; /* SOLVE */
     uint64_t seed;
     aur_weight_table *table; /* OSWA: where angles lie */
-    /* OSWA: for each row of the table, for each subset, weights of its samples for one lobe, then the other.
-     */
+    /* OSWA: for each row of the table and each subset, the weights of its samples for one lobe, then for the
+     * other. */
     float *rows;
 } aur_merged_rule;
 
@@ -53,20 +53,20 @@ aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_me
                                   aur_error *error);
 void aur_merged_rule_destroy(aur_merged_rule *rule); /* NULL is allowed */
 
-/* Samples of both patterns that one subset has. */
+/* The samples of both patterns in one subset. */
 static inline size_t aur_merged_rule_samples(const aur_merged_rule *rule) {
     return rule->subset_count[0] + rule->subset_count[1];
 }
 
-/* Weights of a subset's samples, the diffuse pattern's first, for the diffuse lobe and, behind them, for the
- * glossy one: weights[2 * samples]. `cosine` is that of the angle between normal and mirror direction. The
- * mean over the subsets of the sum of weight * f estimates the integral of cos * f, and that of cos^exponent
- * * f, over the hemisphere (of solid angle). False when a system could not be solved: the weights are NaN. */
+/* Weights of a subset's samples, the diffuse pattern's first: for the diffuse lobe, then for the glossy one,
+ * weights[2 * samples]. `cosine` is the cosine of the angle between normal and mirror direction. The mean
+ * over the subsets of the sum of weight * f estimates the integral over the hemisphere (solid angle) of cos *
+ * f, and of cos^exponent * f. False if a system could not be solved: the weights are NaN. */
 bool aur_merged_rule_weights(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                              float *weights);
 
-/* The sum of both patterns' densities in a direction whose cosines to the normal and to the mirror direction
- * are given. */
+/* The sum of both patterns' densities in a direction, given its cosines to the normal and to the mirror
+ * direction. */
 static inline float aur_merged_rule_density(const aur_merged_rule *rule, float normal_cosine,
                                             float mirror_cosine) {
     const float steps = (float)AUR_MERGED_DENSITY_STEPS;

@@ -5,7 +5,8 @@
 
 #include "points/base/error.h"
 
-/* Directions first .. first + count - 1: in float, but of unit length in double, as the solver wants them. */
+/* Copies directions first .. first + count - 1 from float to double and normalises them in double, as the
+ * solver requires. */
 static void widen(const aur_gather_rule *rule, size_t first, size_t count, double *xyz) {
     for (size_t i = 0; i < count; ++i) {
         const double x = (double)rule->x[first + i], y = (double)rule->y[first + i],
@@ -29,7 +30,7 @@ static aur_result solve(size_t count, const double *xyz, const aur_potential *po
     return result;
 }
 
-/* Memory for so many directions and as many numbers, and the potential of the rule's lobe. */
+/* Allocates memory for `count` directions and numbers, and creates the potential of the rule's lobe. */
 static aur_result begin(const aur_gather_rule *rule, size_t count, double smoothness, double **xyz,
                         aur_potential **potential, aur_error *error) {
     const aur_density density = {.size = sizeof density, .exponent = rule->exponent};
@@ -79,7 +80,7 @@ void aur_gather_horizon_fill(double exponent, aur_gather_horizon *horizon) {
         horizon->visible[i] = (float)(1.0 - 0.5 * hidden[i] / hidden[AUR_HORIZON_STEPS]);
 }
 
-/* The mean weight over all directions, of those above the surface. */
+/* The mean over all directions of the weights of those above the surface. */
 static float visible_mean(const aur_gather_rule *rule, const aur_gather_rotation *rotation,
                           aur_vector normal) {
     float sum = 0.0f;

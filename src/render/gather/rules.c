@@ -10,15 +10,15 @@ size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
     return (wanted + samples_per_pixel - 1) / samples_per_pixel * samples_per_pixel;
 }
 
-/* What rules of one kind, diffuse or glossy, have in common. */
+/* Common data of the rules of one kind, diffuse or glossy. */
 typedef struct rule_maker {
     const aur_gather_settings *p;
     const aur_integrator_context *context;
     aur_gather_rule_options pattern;
-    size_t base;                     /* directions that are asked for */
+    size_t base;                     /* requested directions */
     size_t pixels;                   /* that split one pattern */
     const aur_gather_method *method; /* the caller's; or NULL */
-    char set[256];                   /* that the method chose in place of the pattern */
+    char set[256];                   /* chosen by the method in place of the pattern */
 } rule_maker;
 
 /* The pattern of all rules, but for its count. */
@@ -86,7 +86,7 @@ static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse,
     return aur_merged_rule_create(&options, &lobe->merged, error);
 }
 
-/* The rule of a lobe with a formula, made where there is none yet. */
+/* The rule of an analytic lobe, created on first use. */
 static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wanted, aur_gather_rules *rules,
                                const aur_gather_lobe_rule **found, aur_error *error) {
     size_t i = wanted->diffuse ? 0 : 1;
@@ -106,7 +106,8 @@ static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wan
                : result;
 }
 
-/* Rules for the lobes of all surfaces, also those that a texture makes black somewhere. */
+/* Finds or creates rules for the lobes of all surfaces, including lobes that a texture makes black in places.
+ */
 static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
     const aur_scene *const scene = maker->context->scene;
     aur_result result = AUR_OK;
@@ -120,7 +121,7 @@ static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules,
     return result;
 }
 
-/* Never by the caller's method, and weighed by the draws themselves. */
+/* Sampled lobes never use the caller's method; their draws carry the weights. */
 static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sampled, aur_error *error) {
     aur_gather_rule_options options = maker->pattern;
     options.set = maker->p->pattern;
@@ -129,7 +130,7 @@ static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sa
     return aur_gather_rule_create(&options, 0.0, &sampled->rule, error);
 }
 
-/* The roughness of a material's sampled lobe, where it is a GGX lobe; else 0. */
+/* The roughness of a material's sampled lobe if it is a GGX lobe; else 0. */
 static float ggx_alpha_of(const aur_bsdf *bsdf) {
     for (size_t k = 0; k < bsdf->lobe_count; ++k)
         if (bsdf->lobes[k].shape == AUR_LOBE_SHAPE_SAMPLED)
@@ -137,7 +138,7 @@ static float ggx_alpha_of(const aur_bsdf *bsdf) {
     return 0.0f;
 }
 
-/* Rules for GGX lobes, of the pattern of sampled ones. */
+/* Creates rules for GGX lobes with the pattern of sampled ones. */
 static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
     const aur_scene *const scene = maker->context->scene;
     aur_ggx_rule_options options = {.pattern = maker->pattern,
@@ -188,7 +189,7 @@ aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gathe
         result = make(&maker, 1.0, &rules->lobes[0], error);
     maker.pixels = 1;
     maker.pattern.nested = false;
-    maker.pattern.warnings = (aur_warnings){0}; /* the diffuse pattern has given them */
+    maker.pattern.warnings = (aur_warnings){0}; /* already given with the diffuse pattern */
     if (result == AUR_OK)
         result = prepare(&maker, p->glossy_samples, error);
     if (result == AUR_OK)

@@ -1,5 +1,4 @@
-/* What gathers each kind of lobe in the scene: one rule for diffuse lobes, one for each exponent of glossy
- * ones. */
+/* The rules of all lobes in the scene: one rule for diffuse lobes, one for each exponent of glossy ones. */
 #pragma once
 
 #include "render/film/integrator.h"
@@ -8,12 +7,12 @@
 #include "render/gather/settings.h"
 #include "render/sampling/rule.h"
 
-/* Weights of one rule in the place of p/q: optimal ones for its own lobe (Marques 2018, section 5.2), and
- * weights mended where a lobe dips below the surface. */
+/* Weights of one rule that replace p/q: optimal weights for its lobe (Marques 2018, section 5.2), and weights
+ * corrected where a lobe extends below the surface. */
 
-/* Replaces the weights of a rule whose directions are prepared by the optimal ones for its lobe, their sum
- * held. Rotating a pattern about its axis changes none. Errors: UNSUPPORTED for directions that are made at
- * the shading point. */
+/* Replaces the weights of a rule with prepared directions by the optimal ones for its lobe, with the same
+ * sum. Weights do not depend on rotations of the pattern about its axis. Errors: UNSUPPORTED for directions
+ * that are computed at the shading point. */
 aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, double regularization,
                                     aur_error *error);
 
@@ -21,27 +20,26 @@ aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, do
 
 enum { AUR_HORIZON_STEPS = 256 };
 
-/* For one exponent: the part of a lobe cos^exponent that is above the surface when its axis is tilted from
- * the normal by i steps of 90 degrees / AUR_HORIZON_STEPS. */
+/* For one exponent: the part of a lobe cos^exponent above the surface when its axis is tilted from the normal
+ * by i steps of 90 degrees / AUR_HORIZON_STEPS. */
 typedef struct aur_gather_horizon {
     float visible[AUR_HORIZON_STEPS + 1];
 } aur_gather_horizon;
 
 void aur_gather_horizon_fill(double exponent, aur_gather_horizon *horizon);
 
-/* What the weights of the samples that are left above the surface are to be multiplied by, so that their sum
- * is the integral of the lobe's visible part (a ratio estimate: constants are exact). `normal` is the
- * surface's in the frame of the lobe. 1 where the whole lobe is visible, 0 where no sample is. */
+/* The factor for the weights of the samples above the surface with which their sum is the integral of the
+ * lobe's visible part (a ratio estimate: exact for constants). `normal` is the surface's in the frame of the
+ * lobe. 1 if the whole lobe is visible, 0 if no sample is. */
 float aur_gather_horizon_factor(const aur_gather_rule *rule, const aur_gather_horizon *horizon,
                                 const aur_gather_rotation *rotation, aur_vector normal);
 
 typedef struct aur_gather_lobe_rule {
     aur_gather_rule rule;
-    float
-        directions; /* that one sample of a pixel sends; with a caller's method, those that were asked for */
-    bool clipped;   /* the lobe ends at the horizon, and has a table of how much of it is left */
+    float directions; /* per sample of a pixel; with a caller's method, the requested number */
+    bool clipped;     /* the lobe ends at the horizon, with a table of its visible part */
     aur_gather_horizon horizon;
-    void *state;             /* of the caller's method, which gathers by the rule; NULL: it is used whole */
+    void *state; /* of the caller's method, which gathers by the rule; NULL: all directions are traced */
     aur_merged_rule *merged; /* of glossy rules: serves the lobe together with a diffuse one; or NULL */
 } aur_gather_lobe_rule;
 
@@ -50,26 +48,27 @@ typedef struct aur_gather_rules {
     size_t count;                    /* at least 1 */
     /* lobes[0] is for diffuse lobes; the exponents of the others differ. */
     aur_gather_lobe_rule *lobes;
-    /* Evenly over the hemisphere, for lobes without a formula: see aur_gather_rule_square. Empty where no
+    /* Uniform over the hemisphere, for lobes without a formula: see aur_gather_rule_square. Empty if no
      * material has one. */
     aur_gather_lobe_rule sampled;
-    /* With optimal weights, what gathers the lobes that are GGX instead: one for each roughness, and the one
-     * of each shape's material or NULL. */
+    /* With optimal weights, the rules for GGX lobes: one for each roughness; and the rule of each shape's
+     * material, or NULL. */
     size_t ggx_count;
     aur_ggx_rule *ggx;
     const aur_ggx_rule **ggx_of_shape;
-    /* Diffuse pattern of all merged rules, which differ in the glossy one; NULL when none are merged. */
+    /* Diffuse pattern of all merged rules, which differ in the glossy one; NULL if none are merged. */
     const aur_merged_rule *merged;
     /* What gathers each lobe of each shape's material; NULL for lobes without a formula. */
     const aur_gather_lobe_rule *(*of_shape)[AUR_BSDF_LOBE_CAPACITY];
     unsigned scatters; /* the kinds of all surfaces' lobes, AUR_SCATTERS_* */
 } aur_gather_rules;
 
-/* Errors: MEMORY, and what the patterns and weights say. The rules are to be released in every case. */
+/* Errors: MEMORY, and those of patterns and weights. The rules must be released in every case. */
 aur_result aur_gather_rules_create(const aur_gather_settings *p, const aur_gather_method *method,
                                    const aur_integrator_context *context, aur_gather_rules *rules,
                                    aur_error *error);
 void aur_gather_rules_release(aur_gather_rules *rules);
 
-/* A count of directions or draws made one that the samples of a pixel split evenly: at least one each. */
+/* Rounds a count of directions or draws to one that the samples of a pixel split evenly: at least one each.
+ */
 size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel);

@@ -6,7 +6,7 @@
 
 #include "points/base/error.h"
 
-/* What options ask for, a bit each, as far as something excludes it. */
+/* Options that exclude others, as a bit mask. */
 enum {
     EQUAL = 1 << 0, /* weights */
     MERGED = 1 << 1,
@@ -20,7 +20,7 @@ enum {
     NOT_FIBONACCI = 1 << 9 /* pattern or scramble */
 };
 
-/* Options that do not go together: none may have all of a row's bits. */
+/* Options that exclude each other: all bits of a row together are an error. */
 static const struct {
     unsigned all;
     aur_result result;

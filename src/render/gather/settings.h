@@ -1,9 +1,9 @@
-/* What final gathering is asked for: defaults, and what excludes what. */
+/* Options of final gathering: defaults and exclusions. */
 #pragma once
 
 #include <aureole-render/gather.h>
 
-/* Every default; of those that follow from other options, what stands for them. */
+/* All defaults; placeholders for those that depend on other options. */
 #define AUR_GATHER_SETTINGS_INITIAL                                                                          \
     {                                                                                                        \
         .diffuse_samples = 64, .glossy_samples = 64, .pattern = "spherical-fibonacci", .map = "lambert",     \

@@ -1,10 +1,11 @@
-/* Light that leaves the places by all of their lobes, each by the estimator that the plan has for it. */
+/* Radiance that leaves the shading points by all of their lobes, each by the estimator that the plan assigns.
+ */
 #include "points/base/random.h"
 #include "render/gather/estimators.h"
 #include "render/trace/interleave.h"
 #include "render/vertex/shading.h"
 
-/* --- the fixed rule: the same directions at every place but for their rotation */
+/* --- the fixed rule: the same directions at every shading point except for their rotation */
 
 /* What lobes that dip below the surface are multiplied by; 1 for the others. */
 static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
@@ -37,7 +38,7 @@ static void by_rule(const aur_gather_points *surface_points, const aur_gather_lo
     aur_gather_sweep sweep;
     aur_gather_sweep_start(surface_points, rule, lobe, lanes, &sweep, &sums->rays);
     const bool splits = aur_gather_splits(surface_points, rule);
-    /* The rule's directions are in so many parts, of which this is one. */
+    /* The rule's directions are split into this many parts, one per sample. */
     size_t parts = surface_points->plan->samples_per_pattern, part = aur_gather_part(surface_points);
     if (splits) {
         part = part * AUR_PACKET_SIZE + aur_group_rank(surface_points->group);
@@ -67,9 +68,9 @@ static void by_rule(const aur_gather_points *surface_points, const aur_gather_lo
     }
 }
 
-/* --- lobes without a formula: the rule's points of the square choose among the BSDF's own draws */
+/* --- lobes without a formula: the rule's points of the square drive the BSDF's sampling */
 
-/* Lobes that have no formula, by the BSDF's own sampling. */
+/* Lobes without a formula, by sampling the BSDF. */
 static void by_sampling(const aur_gather_points *surface_points, size_t lobe, uint32_t lanes,
                         aur_gather_sums *sums) {
     const aur_gather_plan *const plan = surface_points->plan;
@@ -109,7 +110,7 @@ static void by_sampling(const aur_gather_points *surface_points, size_t lobe, ui
 
 /* --- all lobes */
 
-/* The lanes, among `lanes`, whose lobe number `lobe` is gathered by the rule. */
+/* The subset of `lanes` whose lobe `lobe` is gathered by the rule. */
 static uint32_t lanes_of_rule(const aur_gather_points *surface_points, uint32_t lanes, size_t lobe,
                               const aur_gather_lobe_rule *rule) {
     uint32_t found = 0;
@@ -121,7 +122,7 @@ static uint32_t lanes_of_rule(const aur_gather_points *surface_points, uint32_t 
     return found;
 }
 
-/* The lobe number `lobe` of all lanes that have one. */
+/* Gathers for lobe `lobe` of all lanes that have it. */
 static void gather_lobe(const aur_gather_points *surface_points, uint32_t lanes, size_t lobe,
                         aur_gather_sums *sums) {
     uint32_t ruled = 0, sampled = 0, ggx = 0;

@@ -94,13 +94,13 @@ enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
 /* Pixels; no filter of ours reaches farther. */
 enum { SIDE = AUR_TILE_SIZE, MOST_REACH = 2, MOST_SIDE = SIDE + 2 * MOST_REACH };
 
-/* What a pixel's samples have seen: the key of one thing, and whether there were others. */
+/* What a pixel's samples hit: the key of one surface, and whether there were others. */
 typedef struct glance {
     uint64_t key;
     bool known, several, light;
 } glance;
 
-/* A tile's pixels and the ring around it, as wide as pixels look for edges: what each has seen. */
+/* A tile's pixels and the ring around it, as wide as the reach of edges: what each pixel sees. */
 typedef struct surroundings {
     const aur_view *view;
     const aur_pixel_strata *strata; /* of the tile's pixels */
@@ -129,7 +129,7 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
         see(seen[k], (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0);
 }
 
-/* The tile's own pixel at a place; NULL on the ring around the tile. */
+/* The tile's pixel at an index of the surroundings; NULL on the ring around the tile. */
 static const aur_pixel_strata *own_pixel(const surroundings *self, size_t surface_point) {
     const size_t column = surface_point % self->side, row = surface_point / self->side, reach = self->reach;
     const bool inside = column >= reach && column < SIDE + reach && row >= reach && row < SIDE + reach;
@@ -148,9 +148,9 @@ static bool is_beside_samples(const surroundings *self, size_t surface_point) {
     return false;
 }
 
-/* What pixels see that lie beside those with samples. The tile's own samples tell it where all of its pixels
- * have `alike` many; else what a pixel finds would depend on which of its neighbours have samples, and one
- * ray each tells it, as around the tile. What lies beyond the image sees nothing and makes no edge. */
+/* Finds what the pixels near those with samples see. If all pixels of the tile are `alike` in their number of
+ * samples, their samples provide it. Otherwise the result would depend on which neighbours have samples, so
+ * one ray per pixel is traced, as on the ring. Pixels beyond the image see nothing and make no edge. */
 static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike,
                         surroundings *self) {
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;
@@ -180,8 +180,9 @@ static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bo
         look_at(plan, self->view, count, x, y, seen);
 }
 
-/* The greatest edge among what the pixels within reach have seen. What the pixel itself has seen has no say:
- * else those that met a small light by chance would look again, and keep less of it than the others lack. */
+/* The strongest edge among what the pixels within reach see. The pixel's samples do not count: otherwise
+ * pixels that hit a small light by chance would be refined and lower their estimate, and those that missed it
+ * would not raise theirs. */
 static int edge_at(const surroundings *self, size_t x, size_t y) {
     glance all = {0};
     const size_t across = 2 * self->reach + 1;
@@ -198,8 +199,8 @@ static int edge_at(const surroundings *self, size_t x, size_t y) {
     return all.light ? LIGHT_EDGE : PLAIN_EDGE;
 }
 
-/* Where a pixel's filter sees farther, pixels see a little of what lies beyond those next to it, which few of
- * their samples meet: then the ring of those next to it misses edges. */
+/* With a wide filter, pixels see a little beyond their direct neighbours, with few samples there: a ring of
+ * width 1 would miss edges. */
 static size_t reach_of(const aur_filter *filter) {
     const float radius = -aur_filter_sample(filter, 0.0f);
     const size_t reach = (size_t)ceilf(aur_larger(radius - 0.5f, 1.0f));

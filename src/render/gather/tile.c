@@ -8,31 +8,31 @@
 #include "render/trace/interleave.h"
 #include "render/vertex/shading.h"
 
-/* What a stratum's samples weigh in one pixel: all that met it, those that were shaded, and these times their
- * radiance. */
+/* A stratum's sums in one pixel: weights of all samples that hit it, weights of the shaded ones, and those
+ * times their radiance. */
 typedef struct spread_cell {
     float seen, shaded, sum[3];
 } spread_cell;
 
-/* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
+/* One tile, processed by samples of sixteen pixels at a time: surface_points.group and .index select them. */
 typedef struct gather_tile {
     const aur_view *view;
     size_t x, y;                                            /* of the tile's corner in the image */
     size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the image */
-    bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
+    bool only_new; /* shade only strata of which a pixel has no radiance yet */
     aur_gather_points surface_points;
     aur_gather_sums sums;
-    aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
-    spread_cell *cells; /* where pixels share samples: of each stratum, for the pixels around; else NULL */
+    aur_camera_sample samples[AUR_PACKET_SIZE]; /* their rays are replaced at each specular bounce */
+    spread_cell *cells; /* where pixels share samples: per stratum, for the pixels around; else NULL */
     const aur_spread *spread;
-    aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples go to; NULL: none */
+    aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples belong to; NULL: none */
     aur_pixel_strata strata[AUR_TILE_PIXELS];
 } gather_tile;
 
 /* NULL when out of memory. */
 static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     const aur_gather_rules *const rules = &plan->rules;
-    /* For each direction of the largest rule of the caller's method, or for the samples of merged ones. */
+    /* Per direction of the largest rule of the caller's method, or per sample of merged rules. */
     size_t numbers =
         rules->merged != NULL ? 2 * aur_merged_rule_samples(rules->merged) * (AUR_PACKET_SIZE + 1) : 0;
     for (size_t i = 0; i < rules->count && rules->method != NULL; ++i)
@@ -63,14 +63,14 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     return NULL;
 }
 
-/* --- one sample of sixteen pixels: what the eye sees, also by mirrors and through glass */
+/* --- one sample of sixteen pixels: what the camera sees, also by mirrors and through glass */
 
 static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
     return &work->strata[aur_group_pixel(work->surface_points.arrangement, work->surface_points.group, lane)];
 }
 
-/* The pixels of a group for sample `index`. Samples that share a pattern have the same ones. Pixels that
- * split a pattern among them lie where they always do. */
+/* Selects the pixels of a group for sample `index`. Samples that share a pattern use the same pixels. Pixels
+ * that split a pattern keep a fixed arrangement. */
 static void choose(gather_tile *work, uint32_t group, uint32_t index) {
     aur_gather_points *const surface_points = &work->surface_points;
     const aur_gather_plan *const plan = surface_points->plan;
@@ -99,7 +99,7 @@ static void begin(gather_tile *work, uint32_t lanes) {
     }
 }
 
-/* Traces the rays of all lanes; returns those that hit something. */
+/* Traces the rays of all lanes; returns those that hit a surface. */
 static uint32_t trace(gather_tile *work) {
     aur_packet *const packet = &work->sums.rays.packet;
     aur_packet_empty(packet);
@@ -120,8 +120,8 @@ static spread_cell *cells_of(const gather_tile *work, const aur_pixel_strata *pi
     return work->cells + number * width * width;
 }
 
-/* Where pixels share samples: counts a lane's sample, which met the stratum, in the pixels around its own.
- * NULL for `radiance`: it was not shaded. */
+/* Where pixels share samples: adds a lane's sample, which hit the stratum, to the surrounding pixels.
+ * `radiance` is NULL if it was not shaded. */
 static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, const aur_vector *radiance) {
     const aur_spread *const spread = work->spread;
     if (spread == NULL)
@@ -145,7 +145,7 @@ static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, co
         }
 }
 
-/* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
+/* Counts the camera rays' hits by stratum, and removes lanes that need no shading. */
 static void count_seen(gather_tile *work, uint32_t found) {
     const aur_packet *const packet = &work->sums.rays.packet;
     for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1) {
@@ -165,7 +165,7 @@ static void count_seen(gather_tile *work, uint32_t found) {
     }
 }
 
-/* Light from beyond the scene, for lanes whose ray left it. */
+/* Adds the environment's radiance to lanes whose ray left the scene. */
 static void add_sky(gather_tile *work, uint32_t lanes) {
     const aur_gather_plan *const plan = work->surface_points.plan;
     if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_background(plan->scene))
@@ -177,8 +177,7 @@ static void add_sky(gather_tile *work, uint32_t lanes) {
     }
 }
 
-/* The surfaces that the rays met, with the light that reaches the eye from them without being gathered:
- * caustics, and what they emit. */
+/* Sets up the surfaces that the rays hit, and adds light that is not gathered: caustics and emission. */
 static void set_places(gather_tile *work) {
     const aur_gather_plan *const plan = work->surface_points.plan;
     const aur_scene *const scene = plan->scene;
@@ -202,7 +201,7 @@ static void set_places(gather_tile *work) {
     work->surface_points.order = aur_gather_points_order(&work->surface_points);
 }
 
-/* A lane's ray in the direction of a specular lobe; false where there is none, or it absorbs the light. */
+/* Samples a lane's ray by a specular lobe; false if there is none, or it absorbs the light. */
 static bool bounce_lane(gather_tile *work, size_t lane) {
     const aur_gather_point *const surface_point = &work->surface_points.at[lane];
     if ((aur_bsdf_scatters(surface_point->surface.bsdf, surface_point->view.z) & AUR_SCATTERS_SPECULAR) == 0)
@@ -223,15 +222,15 @@ static bool bounce_lane(gather_tile *work, size_t lane) {
     return true;
 }
 
-/* Lanes whose surface has a specular lobe go on in its direction; the others are done. The other lobes of
- * either have been gathered for. */
+/* Lanes whose surface has a specular lobe continue by it; the others are done. Other lobes have been gathered
+ * already. */
 static void bounce(gather_tile *work) {
     for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1)
         if (!bounce_lane(work, aur_first_lane(rest)))
             work->surface_points.lanes &= ~(1u << aur_first_lane(rest));
 }
 
-/* Adds one sample of the pixels chosen to their strata. */
+/* Adds one sample of the selected pixels to their strata. */
 static void add_samples(gather_tile *work, uint32_t lanes) {
     aur_gather_points *const surface_points = &work->surface_points;
     if (lanes == 0)
@@ -262,8 +261,8 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
 
 /* --- the tile */
 
-/* Samples that tell how much pixels see of what is around an edge. Edges that are none of a light's get a
- * small part of them. */
+/* Samples that measure how much pixels see of the surfaces at an edge. Edges that do not involve a light get
+ * a small part of them. */
 static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     enum { PLAIN_EDGE_PART = 64 };
     const uint32_t count = work->surface_points.plan->policy.edge_samples;
@@ -285,7 +284,7 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     return AUR_OK;
 }
 
-/* Packets are those of the whole tile within the image, whatever its crop: else pixels would differ in the
+/* Packets cover the whole tile within the image, even if it is cropped: otherwise pixels would differ in the
  * last bits. */
 static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     const aur_view *const view = work->view;
@@ -302,8 +301,8 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 
-/* A stratum in the pixels around, per sample of its own pixel: each sample that was shaded counts where it
- * lies, and those that were not by the mean of the others, which pooling may have changed. */
+/* A stratum's contribution to the pixels around, per sample of its pixel. Each shaded sample counts at its
+ * position; those that were not shaded count by the mean of the others, which pooling may have changed. */
 static void spread_stratum(const gather_tile *work, const aur_pixel_strata *pixel, const aur_stratum *stratum,
                            double *sums) {
     const aur_spread *const spread = work->spread;

@@ -6,7 +6,7 @@
 #include "render/vertex/candidates.h"
 #include "render/vertex/vertex.h"
 
-enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */
+enum { MOST_PANES = 1000 }; /* coplanar panes that a ray may hit repeatedly by rounding */
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
     data->kernels = &AUR_KERNEL_HERE(aur_vertex_kernels);
@@ -36,7 +36,7 @@ static void shared_numbers(aur_path_group *g, uint32_t depth) {
     share(pair[AUR_PATH_DIRECTION][1], lanes->direction_v);
 }
 
-/* Of the paths that are alive; where they are few, in one block. */
+/* Random numbers of one pair for the active paths; in one block if they are few. */
 static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v) {
     if (aur_lane_count(g->alive) > AUR_STREAM_BLOCK) {
         aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
@@ -55,7 +55,7 @@ static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v)
     }
 }
 
-/* Of each lane, only those that are asked for; `mixed`: not all surfaces are plain. */
+/* Fills each lane's needed random numbers only; `mixed`: not all surfaces are plain. */
 static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
     aur_vertex_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
@@ -68,7 +68,7 @@ static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
     own_pair(g, first + AUR_PATH_DIRECTION, lanes->direction_u, lanes->direction_v);
 }
 
-/* --- lanes that are not plain, one by one */
+/* --- lanes on surfaces that are not plain, one by one */
 
 /* The path of a lane. */
 static aur_walk walk_of(const aur_path_group *g, size_t k) {
@@ -152,7 +152,7 @@ static void set_references(aur_path_group *g, uint32_t lanes) {
     }
 }
 
-/* Of a lane that is not plain, whose point on a light has been drawn. */
+/* Sets the shadow ray of a lane that is not plain, from its light sample. */
 static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) {
     const aur_shading shading = aur_shading_at(surface, view_of(g, k));
     const aur_light_sample light = aur_light_lane(&g->lanes.light, k);
@@ -179,7 +179,7 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, boo
     const bool through = aur_walk_passed(surface, before->ray.direction, &walk);
     if (through && (g->sensor.panes || g->background))
         g->sensor.unscattered |= (uint32_t)unscattered << k;
-    /* Straight on through a pane the ray is the same one, which rays to lights find as well. */
+    /* The ray behind a pane is the same ray, which shadow rays find as well. */
     if (through && g->sensor.panes) {
         walk.bounce = before->bounce;
         walk.ray = aur_surface_ray(surface, before->ray.direction);
@@ -195,8 +195,8 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, boo
 
 /* --- a bounce */
 
-/* The reflectance of a lane where it is not alike at all points of the shape, on the side that is seen:
- * corners are known. */
+/* The reflectance of a lane whose shape has a texture, on the visible side; the triangle's corners are set.
+ */
 static void set_textured_albedo(aur_path_group *g, size_t k) {
     const aur_vector corner = aur_lane_vector(&g->lanes.corner[0], k);
     const aur_vector b = aur_vector_subtract(aur_lane_vector(&g->lanes.corner[1], k), corner);
@@ -212,7 +212,7 @@ static void set_textured_albedo(aur_path_group *g, size_t k) {
     aur_lane_set(&g->lanes.albedo[1], k, behind ? albedo : (aur_vector){0});
 }
 
-/* The lanes whose surface the kernels can do; their triangles and reflectances are made ready. */
+/* Prepares triangles and reflectances of the lanes whose surface the kernels support, and returns them. */
 static uint32_t plain_lanes(aur_path_group *g, uint32_t lanes) {
     const struct RTCHit16 *const hits = &g->packet.query.hit;
     uint32_t plain = 0, textured = 0;
@@ -240,7 +240,7 @@ static uint32_t trace(aur_path_group *g, bool coherent) {
                                  &g->packet);
 }
 
-/* Of scenes that have no other light than environments. */
+/* For scenes lit by environments only. */
 static void tell_of_sky(aur_path_group *g, uint32_t lit) {
     for (; lit != 0; lit &= lit - 1) {
         const size_t k = aur_first_lane(lit);
@@ -258,7 +258,8 @@ aur_vector aur_path_group_passed(const aur_path_group *g, size_t lane, float far
     return aur_panes_passed(g->scene, &ray, most < MOST_PANES ? most : MOST_PANES);
 }
 
-/* Of the lanes that something stops, those that get light through panes; their share of it is made less. */
+/* Of the occluded lanes, returns those that are lit through panes and scales their contribution by the
+ * transmittance. */
 static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *farthest, uint32_t depth) {
     uint32_t through = 0;
     for (uint32_t rest = g->sensor.panes ? stopped : 0; rest != 0; rest &= rest - 1) {
@@ -272,7 +273,7 @@ static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *far
     return through;
 }
 
-/* Points on lights, rays to them and what they bring; where light arrives is known. */
+/* Draws light samples, traces their shadow rays, and adds their contributions. */
 static void draw_lights(aur_path_group *g, const float *choice, const float *u, const float *v) {
     aur_vertex_lanes *const lanes = &g->lanes;
     const uint32_t plain = g->plain, others = g->alive & ~plain;
@@ -287,7 +288,7 @@ static void draw_lights(aur_path_group *g, const float *choice, const float *u, 
         shadow_one(g, aur_first_lane(rest), &g->surfaces[aur_first_lane(rest)]);
 }
 
-/* The same of one candidate of several. */
+/* The same for one of several candidates. */
 static void draw_candidates(aur_path_group *g) {
     aur_vertex_lanes *const lanes = &g->lanes;
     const aur_vertex_kernels *const kernels = g->data->kernels;
@@ -307,7 +308,7 @@ static void draw_candidates(aur_path_group *g) {
     kernels->choose(&kept, g->candidates, lanes, &g->shadows);
 }
 
-/* Light straight from the lights. */
+/* Adds direct light. */
 static void add_direct(aur_path_group *g, uint32_t depth) {
     aur_vertex_lanes *const lanes = &g->lanes;
     set_references(g, g->alive & ~g->plain);
@@ -331,7 +332,7 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
 
 static void scatter(aur_path_group *g, bool roulette) {
     const uint32_t plain = g->plain, others = g->alive & ~plain, unscattered = g->sensor.unscattered;
-    aur_walk before[AUR_PACKET_SIZE]; /* the kernels leave nothing of it */
+    aur_walk before[AUR_PACKET_SIZE]; /* the kernels overwrite it */
     for (uint32_t rest = others; rest != 0; rest &= rest - 1)
         before[aur_first_lane(rest)] = walk_of(g, aur_first_lane(rest));
     uint32_t alive = 0;
@@ -347,7 +348,7 @@ static void scatter(aur_path_group *g, bool roulette) {
     g->alive = alive;
 }
 
-/* Whether rays that leave the surfaces are mostly parallel, and so a coherent packet: the lanes share their
+/* Whether rays that leave the surfaces are nearly parallel, and so a coherent packet: the lanes share random
  * numbers, and most lie in one plane. A function of normals and positions, never of timing. */
 static bool are_parallel(const aur_path_group *g) {
     if (!g->data->interleaved || g->plain == 0)

@@ -4,8 +4,7 @@
 #include "render/vertex/candidates.h"
 #include "render/vertex/vertex.h"
 
-/* What a point on a light brings along the path if nothing lies between; u chooses the light and the point.
- */
+/* The unoccluded contribution of a light sample to the path; u chooses the light and the point. */
 static bool draw_light(const aur_scene *scene, const aur_shading *shading, aur_vector beta, const float u[3],
                        aur_shadow *shadow) {
     if (!aur_vertex_draw_light(scene, shading, AUR_VERTEX_ALL, AUR_VERTEX_ONE_EACH, u, shadow))
@@ -14,7 +13,7 @@ static bool draw_light(const aur_scene *scene, const aur_shading *shading, aur_v
     return true;
 }
 
-/* The same of one of `count` candidates, which `selection` chooses. */
+/* The same for one of `count` candidates, chosen by `selection`. */
 static bool draw_candidates(const aur_scene *scene, const aur_shading *shading, aur_vector beta,
                             uint32_t count, const float u[3], float selection, aur_shadow *chosen) {
     float total = 0.0f, own = 0.0f;
@@ -37,7 +36,7 @@ static bool draw_candidates(const aur_scene *scene, const aur_shading *shading, 
     return true;
 }
 
-/* Adds direct light and goes on in a drawn direction; false where the path ends. */
+/* Adds direct light and continues in a sampled direction; false if the path ends. */
 static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surface *surface, uint32_t depth,
                     const float (*pairs)[2], aur_walk *walk) {
     const aur_shading shading = aur_shading_at(surface, aur_vector_scale(walk->ray.direction, -1.0f));
@@ -65,7 +64,7 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
                      .beta = {1.0f, 1.0f, 1.0f},
                      .ray = sample->ray,
                      .bounce = {.specular_bounce = true}};
-    bool scattered = false; /* not only gone straight through surfaces */
+    bool scattered = false; /* by more than passing unscattered through surfaces */
     float ahead[AUR_STREAM_BLOCK][2];
     for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
         /* Before the ray, so that the processor works at both. */

@@ -1,13 +1,13 @@
 /* Path tracing of sixteen pixels at a time.
  *
- * The pixels are those of one 4 x 4 block of a tile, neighbours. Interleaved (Keller and Heidrich 2001) they
- * are those of one group (render/trace/interleave.h), one of each block, and share all numbers but the
- * camera's: paths on flat walls run in parallel, and their packets stay coherent. */
+ * The pixels are the neighbours of one 4 x 4 block of a tile. Interleaved (Keller and Heidrich 2001) they are
+ * those of one group (render/trace/interleave.h), one of each block, and share all random numbers but the
+ * camera's: paths on flat walls run in parallel, and their packets remain coherent. */
 #include "render/film/clamp.h"
 #include "render/path/path_group.h"
 #include "render/trace/interleave.h"
 
-/* Looks for lamps in those of `lanes` that have rays for them alone. */
+/* Traces the probe rays for emitters of those of `lanes` that have any. */
 static void look(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes) {
     g->told = 0;
     for (uint32_t rest = g->data->probes != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
@@ -20,7 +20,7 @@ static void look(aur_path_group *g, aur_tile *tile, const size_t *x, const size_
     }
 }
 
-/* Begins sample g->index of the pixels of `lanes`, of which the tile looks for lamps in those of `wanted`. */
+/* Starts sample g->index of the pixels of `lanes`, with probe rays in those of `wanted`. */
 static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
                   uint32_t wanted, aur_camera_sample *samples) {
     aur_view_samples(tile->view, AUR_PACKET_SIZE, x, y, g->index, samples);
@@ -36,7 +36,7 @@ static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size
     g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
 }
 
-/* Traces sample g->index of the pixels of `lanes` and adds those of `wanted`. */
+/* Traces sample g->index of the pixels of `lanes` and adds the samples of `wanted`. */
 static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
                       uint32_t wanted) {
     aur_camera_sample samples[AUR_PACKET_SIZE];
@@ -55,7 +55,7 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
     }
 }
 
-/* One group's or block's samples. Whole ones are traced even where a crop wants few of their pixels: a
+/* The samples of one group or block. All its lanes are traced even if a crop needs few of the pixels: a
  * packet's rays may depend on each other in their last bits. */
 static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     const aur_view *const view = tile->view;
@@ -79,10 +79,10 @@ static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     }
 }
 
-/* The samples of a tile whose pixels want different ones: packets are filled with whichever pixels want the
- * same. */
+/* The samples of a tile whose pixels need different sample indices: packets are filled with any pixels that
+ * need the same one. */
 static void add_wanted(aur_path_group *g, aur_tile *tile) {
-    enum { FEW = 4 }; /* are faster one by one than in a packet that is nearly empty */
+    enum { FEW = 4 }; /* faster one by one than in a nearly empty packet */
     for (uint32_t i = 0; i < tile->count; ++i) {
         size_t x[AUR_PACKET_SIZE] = {0}, y[AUR_PACKET_SIZE] = {0}, count = 0;
         g->index = tile->first + i;

@@ -35,14 +35,14 @@ static bool attach_mesh(aur_scene *scene, aur_embree_scene to, const aur_shape *
     return attach(to, geometry, id);
 }
 
-/* --- shapes that are no meshes: Embree asks us */
+/* --- shapes that are not meshes: Embree's callbacks */
 
 static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
     const aur_shape *const shape = arguments->geometryUserPtr;
     double lower[3], upper[3];
     shape->curved->bounds(shape, arguments->primID, lower, upper);
     struct RTCBounds *const bounds = arguments->bounds_o;
-    /* The bounds are wider than rounding to float can make them too narrow. */
+    /* Bounds are widened by more than the rounding to float can narrow them. */
     float low[3], high[3];
     for (size_t i = 0; i < 3; ++i) {
         const double slack = 1e-6 * fmax(fabs(lower[i]), fabs(upper[i]));
@@ -57,7 +57,7 @@ static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
     bounds->upper_z = high[2];
 }
 
-/* Packets of N rays are arrays of N, one a field; Embree's accessors for them are C++ only. */
+/* Packets of N rays are arrays of N per field; Embree's accessors for them are C++ only. */
 enum { RAY_ORIGIN = 0, RAY_NEAREST = 3, RAY_DIRECTION = 4, RAY_FARTHEST = 8, RAY_FIELDS = 12 };
 enum { HIT_NORMAL = 0, HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6, HIT_INSTANCE = 7 };
 
@@ -114,8 +114,8 @@ static bool attach_curved(aur_scene *scene, aur_embree_scene to, aur_shape *shap
     return attach(to, geometry, id);
 }
 
-/* Curves are seen from outside only: a ray that leaves one does not meet it again, and through the open end
- * of a spline one sees what is behind it. Some builds of Embree see to that themselves. */
+/* Curves are visible from outside only: a ray that leaves a curve does not hit it again, and through the open
+ * end of a spline one sees the background. Some builds of Embree do this themselves. */
 static void refuse_inside(const struct RTCFilterFunctionNArguments *arguments) {
     const size_t n = arguments->N;
     const float *const rays = (const float *)arguments->ray, *const hits = (const float *)arguments->hit;
@@ -195,11 +195,11 @@ static bool attach_all(aur_scene *scene) {
     return good;
 }
 
-/* Any number of threads builds the same tree: Embree sorts the primitives of each leaf again after it has
- * divided them in parallel, so which of two hits at one distance wins is settled
- * (tests/render/trace/test_accel.c). Small trees are not worth the threads, and few triangles not the time
- * that asking the system for huge pages takes, as much as building a tree of 200 triangles. Embree obeys the
- * limit of AUREOLE_ISA too, so that a test on one machine meets the kernels that others have. */
+/* The tree does not depend on the number of threads: Embree sorts the primitives of each leaf after dividing
+ * them in parallel. So ties between hits at one distance are deterministic (tests/render/trace/test_accel.c).
+ * Small trees are not worth the threads. Few triangles are not worth asking the system for huge pages, which
+ * takes as long as building a tree of 200 triangles. Embree also obeys AUREOLE_ISA, so that a test on one
+ * machine can run the kernels of others. */
 void aur_embree_configuration(size_t primitives, size_t threads,
                               char text[AUR_EMBREE_CONFIGURATION_CAPACITY]) {
     enum { FEW = 1 << 15, MANY = 1 << 20 };
@@ -233,7 +233,7 @@ aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *er
     rtcGetSceneBounds(scene->accel, &bounds);
     scene->lower = (aur_vector){bounds.lower_x, bounds.lower_y, bounds.lower_z};
     scene->upper = (aur_vector){bounds.upper_x, bounds.upper_y, bounds.upper_z};
-    if (!(scene->lower.x <= scene->upper.x)) /* nothing is there to be hit */
+    if (!(scene->lower.x <= scene->upper.x)) /* empty scene */
         scene->lower = scene->upper = (aur_vector){0.0f, 0.0f, 0.0f};
     return AUR_OK;
 }
@@ -254,8 +254,8 @@ void aur_scene_release_accel(aur_scene *scene) {
         rtcReleaseDevice(scene->device);
 }
 
-/* A ray is written sixteen bytes at a time, as Embree reads it: a read that spans several smaller writes has
- * to wait for them. */
+/* A ray is written sixteen bytes at a time, as Embree reads it: a load that spans several smaller stores
+ * would stall. */
 typedef float four __attribute__((vector_size(16)));
 
 static inline void fill_ray(const aur_ray *ray, struct RTCRay *query) {

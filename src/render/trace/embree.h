@@ -1,4 +1,4 @@
-/* Embree 3 and 4 behind one face. Version 4 renamed the context of a query and moved it to an optional last
+/* One interface for Embree 3 and 4. Version 4 renamed the query context and moved it to an optional last
  * argument; nothing else that Aureole uses differs. FindEmbree.cmake sets AUR_EMBREE_VERSION. */
 #pragma once
 
@@ -12,9 +12,9 @@
 #include <embree3/rtcore.h>
 #endif
 
-/* Packets have 4, 8 or 16 rays, the most that the processor has registers for: larger ones Embree traces as a
- * stream of rays, which takes twice the time of single rays, and those that are not there are traced too. 0
- * where Embree is built without packets. */
+/* Packets have 4, 8 or 16 rays, up to the width of the processor's registers. Embree traces larger ones as a
+ * ray stream, which takes twice the time of single rays, and includes inactive rays. 0 if Embree is built
+ * without packets. */
 static inline size_t aur_embree_packet_size(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
         return 16;
@@ -23,7 +23,7 @@ static inline size_t aur_embree_packet_size(RTCDevice device) {
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) != 0 ? 4 : 0;
 }
 
-/* The same for the device of a scene, to which Embree gives a reference of one's own. */
+/* The same for the device of a scene; Embree returns a reference that must be released. */
 static inline size_t aur_embree_scene_packet_size(RTCScene scene) {
     const RTCDevice device = rtcGetSceneDevice(scene);
     const size_t size = aur_embree_packet_size(device);
@@ -31,8 +31,8 @@ static inline size_t aur_embree_scene_packet_size(RTCScene scene) {
     return size;
 }
 
-/* What is known of a packet's rays. Coherent: nearby origins and directions. The flag halves the speed of
- * rays that are not. */
+/* Coherence of a packet's rays. Coherent: nearby origins and directions. The flag halves the speed of
+ * incoherent rays. */
 typedef enum aur_embree_order { AUR_EMBREE_INCOHERENT, AUR_EMBREE_COHERENT } aur_embree_order;
 
 /* All rays are counted here, where they are traced (points/base/parallel.h). */

@@ -1,9 +1,9 @@
-/* Interleaved pixels (Keller and Heidrich 2001): a tile of 16 x 16 pixels is done in 16 groups of 16 pixels,
- * one of each 4 x 4 block of the tile. What a group has in common, its pixels have as the same error. So they
- * are not those at one place of all blocks, where the eye would see a weave of period 4: each block has its
- * pixels permuted by four bits of a hash, and in half of the blocks columns and rows change places:
- * neighbours in a row differ by other rotations than those in a column do, and the eye would see streaks. A
- * hash of 0 leaves them as they are. */
+/* Interleaved pixels (Keller and Heidrich 2001): a tile of 16 x 16 pixels is processed in 16 groups of 16
+ * pixels, one from each 4 x 4 block of the tile. Pixels of a group share random numbers, so their errors are
+ * correlated. At a fixed position in all blocks this would be visible as a pattern of period 4. So each block
+ * permutes its pixels by four bits of a hash. Half of the blocks also swap columns and rows: neighbours in a
+ * row differ by other rotations than neighbours in a column, which would be visible as streaks. A hash of 0
+ * is the identity. */
 #pragma once
 
 #include "points/base/random.h"
@@ -17,7 +17,7 @@ enum {
     AUR_TILE_PIXELS = AUR_TILE_SIZE * AUR_TILE_SIZE
 };
 
-/* The hash that permutes the pixels of a tile, from one of the seed and the tile. */
+/* The hash that permutes the pixels of a tile, from a hash of the seed and the tile. */
 static inline uint64_t aur_group_arrangement(uint64_t tile) {
     return aur_hash2(tile, UINT64_C(0x7765617665));
 }
@@ -38,7 +38,7 @@ static inline size_t aur_group_pixel(uint64_t hash, uint32_t group, size_t lane)
     return y * AUR_TILE_SIZE + x;
 }
 
-/* Columns and rows in the image of a group's pixels, whose tile begins at (x0, y0). */
+/* Columns and rows in the image of the pixels of a group in the tile at (x0, y0). */
 static inline void aur_group_pixels(uint64_t hash, uint32_t group, size_t x0, size_t y0,
                                     size_t x[AUR_PACKET_SIZE], size_t y[AUR_PACKET_SIZE]) {
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
@@ -48,8 +48,9 @@ static inline void aur_group_pixels(uint64_t hash, uint32_t group, size_t x0, si
     }
 }
 
-/* Columns and rows of the pixels of block `block`, 4 x 4 neighbours. Paths with numbers of their own go by
- * blocks: their first hits lie close together, so packets are tighter, and lanes read the same triangles. */
+/* Columns and rows of the pixels of block `block`, 4 x 4 neighbours. Paths with independent random numbers
+ * are grouped by blocks: their first hits are close together, so packets are more coherent, and lanes read
+ * the same triangles. */
 static inline void aur_block_pixels(uint32_t block, size_t x0, size_t y0, size_t x[AUR_PACKET_SIZE],
                                     size_t y[AUR_PACKET_SIZE]) {
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
@@ -70,8 +71,8 @@ static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
     return lanes;
 }
 
-/* The lanes of a group to trace for sample `index`: those of `lanes`, or the ones that want it alone, where
- * not all do. */
+/* The lanes of a group to trace for sample `index`: all of `lanes`, or, if not all need it, only those that
+ * do. */
 static inline uint32_t aur_group_lanes_wanted(const aur_tile *tile, const size_t x[AUR_PACKET_SIZE],
                                               const size_t y[AUR_PACKET_SIZE], uint32_t lanes,
                                               uint32_t index) {
@@ -84,8 +85,7 @@ static inline uint32_t aur_group_lanes_wanted(const aur_tile *tile, const size_t
     return wanted;
 }
 
-/* The lanes of a group whose pixels are marked: bit `lane` of marks[place] is for the pixel at that place of
- * that block. */
+/* The lanes of a group whose pixels are marked: bit `lane` of marks[i] is pixel i of that block. */
 static inline uint32_t aur_group_lanes_marked(uint64_t hash, uint32_t group,
                                               const uint32_t marks[AUR_GROUP_COUNT]) {
     uint32_t lanes = 0;
@@ -94,8 +94,8 @@ static inline uint32_t aur_group_lanes_marked(uint64_t hash, uint32_t group,
     return lanes;
 }
 
-/* The rank of a group in an order that keeps neighbours far apart, a 4 x 4 ordered dither: of 16 rotations
- * of a pattern, neighbouring pixels get two that differ much. */
+/* The rank of a group in a 4 x 4 ordered dither, which separates close ranks: of 16 rotations of a pattern,
+ * neighbouring pixels get very different ones. */
 static inline uint32_t aur_group_rank(uint32_t group) {
     static const uint8_t ranks[AUR_GROUP_COUNT] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
     return ranks[group];

@@ -10,10 +10,10 @@ void aur_packet_clear(aur_packet *packet) {
     memset(packet->query.ray.mask, 0xff, sizeof packet->query.ray.mask);
 }
 
-/* --- packets of the processor's size
+/* --- packets of the processor's width
  *
- * Embree's packets are rows of 4 bytes per ray, a row a number: those of the rays, then those of their hits.
- * A part of a packet is the same rows, shorter. */
+ * Embree's packets are rows of 4 bytes per ray, one row per field: those of the rays, then those of their
+ * hits. A part of a packet has the same rows, shorter. */
 
 enum {
     NUMBER = sizeof(float),
@@ -28,7 +28,7 @@ typedef struct packet_part {
     _Alignas(32) unsigned char rows[ROWS * MOST_OF_PART * NUMBER];
 } packet_part;
 
-/* Lanes first .. first + size - 1; false where no lane of them has a ray. */
+/* Copies lanes first .. first + size - 1; false if none of them has a ray. */
 static inline bool take_part(const aur_packet *packet, size_t first, size_t size, size_t rows,
                              packet_part *part) {
     int any = 0;
@@ -144,8 +144,8 @@ aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t 
 
 uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
-    /* Embree 3.13's coherent occlusion of sixteen rays reads a variable that it has not set where there are
-     * instances, and then may never end: seen with each packet once the stack was not zero. */
+    /* Embree 3.13's coherent occlusion test of sixteen rays reads an uninitialised variable if there are
+     * instances, and may then never return: reproduced with every packet once the stack was not zero. */
     const aur_embree_order safe = scene->instance_count == 0 ? order : AUR_EMBREE_INCOHERENT;
     switch (scene->packet_size) {
     case 16:

@@ -1,6 +1,6 @@
-/* Sixteen rays at once, in Embree's own layout: an array a field, so that rays are made where they are traced
- * and nothing is copied. Where the processor has registers for fewer, sixteen rays are traced as two packets
- * of 8 or four of 4, which are copies: a rule of the processor, and nothing that depends on time.
+/* Sixteen rays at once, in Embree's layout (one array per field), so that rays are written in place and not
+ * copied. Narrower processors trace them as two packets of 8 or four of 4, which are copies; the choice
+ * depends only on the processor.
  *
  * A packet is filled lane by lane (aur_packet_set), or by writing query.ray's arrays org_x .. tfar and valid
  * in loops of 16. Lanes whose `valid` is 0 are not traced. */
@@ -31,7 +31,7 @@ static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray
     rays->tfar[lane] = ray->farthest;
 }
 
-/* The ray of a lane, which ends at its hit once the packet has been traced. */
+/* The ray of a lane; after tracing it ends at its hit. */
 static inline aur_ray aur_packet_ray(const aur_packet *packet, size_t lane) {
     const struct RTCRay16 *const rays = &packet->query.ray;
     return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
@@ -40,30 +40,29 @@ static inline aur_ray aur_packet_ray(const aur_packet *packet, size_t lane) {
                      .farthest = rays->tfar[lane]};
 }
 
-/* The nearest hits. Bit k of the result is set when the ray of lane k hits something; aur_packet_hit tells
- * what. A hit's distance takes the place of tfar, so tfar must be set again before the next call. */
+/* The nearest hits. Bit k of the result is set if the ray of lane k hits something, which aur_packet_hit
+ * returns. The distance of a hit overwrites tfar, so tfar must be set again before the next call. */
 AUR_INTERNAL uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order,
                                             aur_packet *packet);
-/* The same by single rays: the oracle of packets, and their rival. */
+/* The same by single rays: the reference and the alternative to packets. */
 uint32_t aur_scene_intersect_each(const aur_scene *scene, aur_packet *packet);
 AUR_INTERNAL aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
 
 /* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */
 AUR_INTERNAL uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order,
                                            aur_packet *packet);
-/* The same by single rays; changes nothing. */
+/* The same by single rays; does not modify the packet. */
 uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packet);
 
 /* --- what the sixteen hits need, an array a coordinate */
 
-/* Ask the memory for what aur_scene_surface will read of these lanes' hits: first where their vertices stand,
- * then, by that, the vertices. In scenes that no cache holds the sixteen then come together instead of one
- * after another. */
+/* Prefetches what aur_scene_surface will read of these lanes' hits: first their vertex indices, then the
+ * vertices. In scenes larger than the cache the sixteen loads then overlap. */
 void aur_packet_prefetch_indices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes);
 void aur_packet_prefetch_vertices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes);
 
 /* The corners of the triangles that the lanes whose bit is set have hit. They must be triangles of meshes
- * that stand in no instance. */
+ * outside instances. */
 void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
                         aur_lane_vectors corner[3]);
 

@@ -1,4 +1,4 @@
-/* The rays of a packet, and which of its lanes have one. */
+/* The rays of a packet, and its lane masks. */
 #pragma once
 
 #include <string.h>
@@ -7,12 +7,10 @@
 #include "render/scene/scene.h"
 #include "render/trace/packet.h"
 
-/* Sets of a packet's sixteen lanes: bit k of a mask stands for lane k. All lanes of a mask are visited, from
- * the lowest one on, by
+/* Masks of a packet's sixteen lanes: bit k is lane k. To visit all lanes of a mask in ascending order:
  *
  *     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
- *         const size_t lane = aur_first_lane(rest);
- */
+ *         const size_t lane = aur_first_lane(rest); */
 
 /* The lowest lane of a mask that is not 0. */
 static inline uint32_t aur_first_lane(uint32_t lanes) {
@@ -40,7 +38,7 @@ static inline void aur_packet_empty(aur_packet *packet) {
     memset(packet->valid, 0, sizeof packet->valid);
 }
 
-/* Makes the lanes of a mask, and no others, those that have a ray. */
+/* Sets `valid` for the lanes of a mask, and clears it for the others. */
 static inline void aur_packet_set_lanes(aur_packet *packet, uint32_t lanes) {
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
         packet->valid[k] = -(int)(lanes >> k & 1u);

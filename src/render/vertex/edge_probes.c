@@ -61,11 +61,11 @@ static aur_vector emission_at(const aur_scene *scene, const aur_packet *packet, 
     return aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
 }
 
-/* What `count` camera rays of a pixel meet: sums over rays. */
+/* Sums over the `count` camera rays of a pixel. */
 typedef struct look_sums {
     double values[3], squares[3];
     size_t count;
-    /* Where pixels share samples: the tile that takes what each ray meets, `part` of it; else NULL. */
+    /* where pixels share samples: the tile to which `part` of each ray's hit is added; else NULL */
     aur_tile *tile;
     uint32_t index;
     float part;
@@ -96,7 +96,7 @@ static void look(const aur_view *view, const aur_stream *stream, size_t x, size_
     sums->count += count;
 }
 
-/* Of a sequence of 2^32 points more than all samples could have, another one follows. */
+/* After 2^32 points, more than all samples can use, another sequence follows. */
 static aur_stream stream_of(const aur_edge_probes *probes, uint64_t pixel, uint64_t first) {
     return (aur_stream){probes->sampler, aur_hash3(UINT64_C(0x6c6f6f6b73), pixel, first >> 32),
                         (uint32_t)first};
@@ -121,15 +121,15 @@ bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, siz
     return true;
 }
 
-/* --- where to look */
+/* --- where to send probe rays */
 
 typedef struct survey {
     const aur_view *view;
     const aur_edge_probes *probes;
     const aur_visible_emitters *visible;
-    size_t reach;      /* of the filter, and of the eight pixels about one at least */
+    size_t reach;      /* of the filter, and at least the eight neighbours of a pixel */
     bool spreads;      /* the filter reaches beyond its pixel */
-    float *centres;    /* what lamps send to the centre of each pixel, R, G and B together */
+    float *centres;    /* emitted radiance seen at the centre of each pixel, sum of R, G and B */
     float *deviations; /* of what they send to a sample of each */
 } survey;
 
@@ -154,9 +154,10 @@ static aur_result survey_centres(void *context, size_t y) {
     return AUR_OK;
 }
 
-/* Whether an edge of a lamp may cross the pixel: those about it see more or less of one, or points of lamps
- * lie there, of which the largest variance is given where the filter may see it. Where pixels share samples,
- * those within reach of an edge have an error from it too: samples around it weigh more or less by chance. */
+/* Whether an edge of an emitter may cross the pixel: its neighbours see more or less of an emitter, or points
+ * of emitters lie in it; *variance is the largest of those that the filter may see. Where pixels share
+ * samples, all pixels within reach of an edge have its error, because the weights of surrounding samples are
+ * random. */
 static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
     const float alike = 0.9f;
     const double nearly_whole = 0.9, small = 0.25;
@@ -171,7 +172,7 @@ static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
             most = fmaxf(most, s->centres[pixel]);
             const double share = s->visible->share[pixel];
             near = near || (share > 0.0 && share < nearly_whole);
-            /* Of lamps that are so small that a few rays may miss them. */
+            /* of emitters so small that a few rays may miss them */
             if ((s->spreads || (i == x && j == y)) && share < small)
                 *variance = fmax(*variance, s->visible->variance[pixel]);
         }

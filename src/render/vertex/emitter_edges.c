@@ -7,7 +7,7 @@
 #include "render/vertex/visible_emitters.h"
 
 typedef struct lamp_edges {
-    uint16_t *probes; /* of each pixel; NULL: none has any */
+    uint16_t *probes; /* per pixel; NULL: no pixel has any */
 } lamp_edges;
 
 static void destroy(void *thing) {

@@ -1,4 +1,4 @@
-/* A surface point seen from a direction: its BSDF asked in world directions. */
+/* A surface point seen from a direction: evaluates its BSDF in world directions. */
 #pragma once
 
 #include "render/scene/scene.h"
@@ -23,8 +23,8 @@ static inline aur_light_reference aur_shading_reference(const aur_shading *shadi
     return reference;
 }
 
-/* BSDF * |cos| of a part towards a world direction, and the density that aur_shading_draw has there. A light
- * on one side of the surface and shaded on the other is black. */
+/* BSDF * |cos| of a lobe set towards a world direction, and the pdf of aur_shading_draw there. The value is 0
+ * if the shading and geometric normals disagree on the side of the light. */
 static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_bsdf_part part, aur_vector wi,
                                               float *pdf) {
     const aur_surface *const surface = shading->surface;

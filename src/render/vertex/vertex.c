@@ -59,7 +59,7 @@ bool aur_vertex_direction(const aur_shading *shading, aur_vertex_lobes lobes, co
     return sample->pdf > 0.0f;
 }
 
-/* What a point on a light brings; false: nothing. */
+/* Sets the unoccluded contribution of a light sample; false if it is zero. */
 static bool set_radiance(const aur_light_sample *light, aur_vector value, float weight, aur_shadow *shadow) {
     const aur_vector radiance = aur_vector_multiply(value, light->radiance);
     shadow->radiance = aur_vector_scale(radiance, weight / light->pdf);

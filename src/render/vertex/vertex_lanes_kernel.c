@@ -1,5 +1,5 @@
-/* Loops over lanes without branches, so that they become vector code; plain operations in one order without
- * contraction: the bits are the same everywhere. */
+/* Loops over lanes without branches, so that the compiler vectorises them; operations in a fixed order
+ * without contraction, so that results are bit-identical on all machines. */
 #include "render/vertex/vertex_lanes.h"
 
 #include "render/scene/materials/sampling.h"
@@ -133,7 +133,7 @@ static void lanes_add(aur_vertex_lanes *restrict lanes, uint32_t lit) {
 
 static void lanes_scatter(aur_vertex_lanes *restrict lanes, bool roulette, aur_packet *restrict packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
-    const float least = roulette ? 0.0f : 1.0f; /* probability to go on */
+    const float least = roulette ? 0.0f : 1.0f; /* survival probability */
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         /* aur_sample_cosine without its branches. */
         const float a = 2.0f * lanes->direction_u[k] - 1.0f, b = 2.0f * lanes->direction_v[k] - 1.0f;

@@ -6,15 +6,15 @@
 #include "points/base/error.h"
 #include "points/base/random.h"
 
-/* Times that a lamp is to be met before what replicas say of a pixel is believed: at eight a count varies by
- * a third. */
+/* Expected hits of an emitter from which the variance between replicas is trusted: with eight, a count varies
+ * by a third. */
 enum { ENOUGH = 8 };
 
 static float number(uint64_t seed, size_t point, uint64_t dimension) {
     return (float)(aur_hash3(seed, point, dimension) >> 40) * 0x1p-24f;
 }
 
-/* A point of a lamp that the camera sees, and where in the image. */
+/* A point of an emitter that the camera sees, and its position in the image. */
 typedef struct seen_point {
     aur_light_sample light;
     aur_film_point film;
@@ -49,9 +49,9 @@ typedef struct pixel_sums {
     double weighted_squares; /* with the weight once more */
 } pixel_sums;
 
-/* Where much differs within the pixel, by lamps of which so many points would fill it that this is known. */
+/* Whether values differ much within the pixel, by emitters sampled densely enough to be sure. */
 static bool has_edge(const pixel_sums *sums, double variance) {
-    const double finest = 1.0 / 64, least_contrast = 0.1; /* of a lamp that covers .9 of the pixel */
+    const double finest = 1.0 / 64, least_contrast = 0.1; /* of an emitter that covers .9 of the pixel */
     double square_mean = 0.0;
     for (size_t c = 0; c < 3; ++c)
         square_mean += sums->radiance[c] * sums->radiance[c];
@@ -111,7 +111,7 @@ aur_result aur_visible_emitters_find(const aur_scene *scene, const aur_film_layo
     return AUR_OK;
 }
 
-/* The part of the eight pixels about one that sees lamps, where it is largest. */
+/* The largest fraction of one of the eight neighbouring pixels that sees emitters. */
 static double share_beside(const aur_visible_emitters *visible, size_t width, size_t height, size_t pixel) {
     const size_t x = pixel % width, y = pixel / width;
     double most = 0.0;
