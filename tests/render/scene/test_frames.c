@@ -42,7 +42,7 @@ static const struct {
     int kind; /* the least `allowed` that takes it */
     double m[9];
 } maps[] = {
-    {"<rotate z='1' angle='90'/>", RIGID, {0, -1, 0, 1, 0, 0, 0, 0, 1}},
+    {"<rotate x='0' y='0' z='0' angle='0'/><rotate z='1' angle='90'/>", RIGID, {0, -1, 0, 1, 0, 0, 0, 0, 1}},
     {"<rotate x='1' angle='30'/><rotate z='1' angle='90'/>",
      RIGID,
      {0, -0.86602540378443865, 0.5, 1, 0, 0, 0, 0.5, 0.86602540378443865}},

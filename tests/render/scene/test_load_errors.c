@@ -72,7 +72,7 @@ static const struct bad_row {
     {"<shape type='cube'><transform name='to_world'><rotate angle='3'/></transform></shape>", 2, 47,
      "needs 'value' or 'x', 'y' and 'z'"},
     {"<shape type='cube'><transform name='to_world'><rotate angle='3' value='0 0 0'/></transform></shape>", 2,
-     47, "needs an axis"},
+     47, "the axis must not be 0 0 0"},
     {"<shape type='cube'><transform name='to_world'><rotat angle='3' x='1'/></transform></shape>", 2, 47,
      "did you mean <rotate>?"},
     {"<shape type='cube'><transform name='to_world'><matrix value='1 2 3'/></transform></shape>", 2, 47,

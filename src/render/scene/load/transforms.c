@@ -59,8 +59,10 @@ static aur_result read_rotate(const aur_xml_node *node, aur_transform *step, aur
         return result;
     if (!aur_parse_double(text, &degrees))
         return aur_xml_fail(node, error, "<rotate>: 'angle' must be degrees, not '%s'", text);
-    if (!aur_transform_rotate(axis, degrees, step))
-        return aur_xml_fail(node, error, "<rotate> needs an axis other than 0 0 0");
+    /* Exporters write a rotation by 0 without an axis. */
+    *step = aur_transform_identity();
+    if (degrees != 0.0 && !aur_transform_rotate(axis, degrees, step))
+        return aur_xml_fail(node, error, "<rotate>: the axis must not be 0 0 0");
     return AUR_OK;
 }
 
