@@ -47,7 +47,8 @@ aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_
         {AUR_KEY_OF_VECTOR(struct_, "eta", metal.eta, -1e3, 1e3, NULL,                                       \
                            "instead of material, with k: index for R, G, B")},                               \
         {AUR_KEY_OF_VECTOR(struct_, "k", metal.k, -1e3, 1e3, NULL, "absorption for R, G, B")}, {             \
-        AUR_KEY_READ_APART(AUR_KEY_ITEM, "ext_eta", "1", "index of refraction outside, or a substance"),     \
+        AUR_KEY_READ_APART(AUR_KEY_ITEM, "ext_eta", "vacuum",                                                \
+                           "index of refraction outside, or a substance"),                                   \
             .minimum = 0.1, .maximum = 100.0, .words = (const char *const[]) {                               \
             "number", "substance", NULL                                                                      \
         }                                                                                                    \
