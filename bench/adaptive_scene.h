@@ -1,5 +1,6 @@
-/* Scenes in small images to an error: the bundled ones and Veach's, each with its truth, which is the mean
- * of two long path-traced images with seeds of their own, rendered once and kept beside the program. */
+/* Small images of the bundled scenes and Veach's, rendered to a target error. The reference of each is the
+ * mean of two long path-traced images with independent seeds, rendered once and stored next to the program.
+ */
 #pragma once
 
 #include <aureole-render/adaptive.h>
@@ -10,7 +11,7 @@
 
 #include "bench.h"
 
-/* Pixels of a row of scale 1, and values. */
+/* Size of an image of scale 1, and the largest number of values. */
 enum {
     BENCH_ADAPTIVE_WIDTH = 32,
     BENCH_ADAPTIVE_HEIGHT = 24,
@@ -20,10 +21,10 @@ enum {
 };
 
 typedef struct bench_adaptive_row {
-    const char *scene; /* below the source tree's scenes; with .. beside the tree, where it may be missing */
-    const char *truth; /* integrator; NULL: the scene's own */
-    double asked;
-    size_t scale; /* times as wide and high */
+    const char *scene; /* relative to scenes/ of the source tree; may start with .. and be missing */
+    const char *reference_integrator; /* integrator of the reference; NULL: the scene's */
+    double target_error;
+    size_t scale; /* factor on width and height */
 } bench_adaptive_row;
 
 extern const bench_adaptive_row bench_adaptive_rows[];
@@ -31,21 +32,21 @@ extern const size_t bench_adaptive_row_count;
 
 typedef struct bench_adaptive_scene {
     const bench_options *options;
-    bench_adaptive_row row; /* a quick bench asks for less */
+    bench_adaptive_row row; /* with a larger target error in a quick bench */
     aur_scene *scene;
     aur_renderer *renderer;
-    size_t width, height, count;               /* of values: three a pixel */
-    double values[BENCH_ADAPTIVE_MOST_VALUES]; /* of the truth */
-    double wrong[BENCH_ADAPTIVE_MOST_VALUES];  /* half the difference of its two images: errors as it has
-                                                  itself */
-    double mean, own_square;                   /* of the truth; of its own error */
+    size_t width, height, count;                        /* count: values, three per pixel */
+    double values[BENCH_ADAPTIVE_MOST_VALUES];          /* of the reference */
+    double reference_error[BENCH_ADAPTIVE_MOST_VALUES]; /* half the difference of the two reference images: an
+                                                           estimate of the reference's error */
+    double mean, reference_square;                      /* of the reference; mean square of its error */
 } bench_adaptive_scene;
 
-/* The truth's files are in `folder`. */
+/* The files of the reference are in `folder`. */
 aur_result bench_adaptive_scene_open(const bench_options *options, const bench_adaptive_row *row,
                                      const char *folder, bench_adaptive_scene *self, aur_error *error);
 void bench_adaptive_scene_close(bench_adaptive_scene *self);
 
-/* An image to the row's error. The caller destroys both, also after a failure. */
+/* Renders an image to the row's target error. The caller destroys both, also after a failure. */
 aur_result bench_adaptive_scene_render(const bench_adaptive_scene *self, uint64_t seed,
                                        aur_adaptive **adaptive, aur_image **image, aur_error *error);

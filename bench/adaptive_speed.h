@@ -1,4 +1,5 @@
-/* What images to an error cost, by recipe, by `--error`, by our path tracer and by other renderers. */
+/* Cost of images to a target error: by recipe, by `--error`, by Aureole's path tracer and by other renderers.
+ */
 #pragma once
 
 #include <stdbool.h>
@@ -6,7 +7,6 @@
 #include "bench.h"
 #include "figures.h"
 
-/* Where AUREOLE_PEERS_PYTHON names a Python that has Mitsuba (bench/peers/time_to_quality.py), that is
- * measured too, and where AUREOLE_OIDN names Open Image Denoise, what images err when they are denoised.
- * False after bench_fail. */
+/* Also runs Mitsuba where AUREOLE_PEERS_PYTHON names a Python that has it (bench/peers/time_to_quality.py),
+ * and measures denoised images where AUREOLE_OIDN names Open Image Denoise. False after bench_fail. */
 bool bench_adaptive_speed(const bench_options *options, bench_figures *figures);

@@ -1,4 +1,4 @@
-/* Measuring in pairs and printing. */
+/* Paired measurements and their output. */
 #include "bench.h"
 
 #include <stdarg.h>
@@ -38,7 +38,7 @@ static double time_runs(const bench_work *work, size_t runs) {
     return bench_cpu_seconds() - start;
 }
 
-/* How many runs last at least `seconds`. */
+/* The number of runs that take at least `seconds`. */
 static size_t calibrate(const bench_work *work, double seconds) {
     work->run(work->context);
     for (size_t runs = 1;; runs *= 2) {
@@ -59,7 +59,7 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Sorts, and interpolates between the two nearest values. */
+/* Sorts the values and interpolates linearly between neighbors. */
 static double quantile(size_t count, double *values, double q) {
     qsort(values, count, sizeof *values, ascending);
     const double at = q * (double)(count - 1);

@@ -1,4 +1,4 @@
-/* Images to a target error: what they cost. */
+/* Cost of images to a target error. */
 #include "adaptive_speed.h"
 
 static bool run(const bench_options *options) {
@@ -9,5 +9,5 @@ static bool run(const bench_options *options) {
     return good;
 }
 
-const bench bench_adaptive_speed_alone = {"ask-speed",
+const bench bench_adaptive_speed_alone = {"adaptive-speed",
                                           "what images to a target error cost, next to other renderers", run};

@@ -1,6 +1,6 @@
-/* Ambient occlusion against Embree alone on the very same packets of 16 rays, made before: what finding the
- * places and making the rays costs. On the glossy Cornell box, and on the scene of ambient occlusion where
- * its meshes are made. */
+/* Ambient occlusion against Embree alone on the same stored packets of 16 rays: the overhead of finding
+ * shading points and generating rays. On the glossy Cornell box, and on the ambient-occlusion scene where its
+ * meshes have been generated. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -11,8 +11,8 @@
 
 enum { SIDE = 128, TILES = SIDE / AUR_TILE_SIZE * (SIDE / AUR_TILE_SIZE), SAMPLES = 64 };
 
-/* Sixteen rays, in packets of as many as the processor has registers for: each is rows of so many numbers, in
- * the order of struct RTCRay16. */
+/* Sixteen rays, in packets of the SIMD width. A packet is an array of rows, in the order of struct RTCRay16.
+ */
 enum { ROWS = sizeof(struct RTCRay16) / sizeof(float[AUR_PACKET_SIZE]), TFAR = 8 };
 
 typedef struct stored_packet {
@@ -24,7 +24,7 @@ typedef struct stored_packet {
 typedef struct occlusion_bench {
     const aur_integrator *integrator;
     const aur_view *view;
-    size_t size; /* rays of a packet */
+    size_t size; /* rays per packet */
     float farthest;
     size_t packet_count, ray_count;
     stored_packet *packets;
@@ -78,7 +78,7 @@ static aur_result trace(void *data, size_t unused) {
     return AUR_OK;
 }
 
-/* One item on one thread: with denormals flushed, as the renderer traces. */
+/* Runs an item on one thread with denormals flushed, like the renderer. */
 static void run_render(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     aur_parallel_for(&one_thread, 1, render, context, NULL);
@@ -106,12 +106,12 @@ static void store(void *context, size_t first, aur_embree_order order, aur_packe
 }
 
 static void store_all(occlusion_bench *self) {
-    aur_occlusion_points places = {0};
+    aur_occlusion_points points = {0};
     for (size_t i = 0; i < TILES; ++i) {
         size_t x, y;
         tile_corner(i, &x, &y);
-        aur_occlusion_find_points(self->view, x, y, 0, &places);
-        aur_occlusion_visit(self->integrator->data, &places, x, y, 0, store, self);
+        aur_occlusion_find_points(self->view, x, y, 0, &points);
+        aur_occlusion_visit(self->integrator->data, &points, x, y, 0, store, self);
     }
 }
 

@@ -1,5 +1,5 @@
-/* Rotations against a streaming fill; nearest points of a tree against all distances; Voronoi cells against
- * the nearest points that they are cut by; exact weights. */
+/* Rotations against a streaming fill; nearest-point trees against brute force; Voronoi cells against the
+ * neighbor searches that they need; exact weights. */
 #include <aureole/exact.h>
 #include <aureole/nearest.h>
 #include <aureole/quality.h>
@@ -35,7 +35,7 @@ static bool run_rotations(const bench_options *options, const char *set) {
     snprintf(name, sizeof name, "%s, 1M", set);
     const bench_work work = {make_rotations, &context, 32.0 * (double)context.count};
     const bool done = bench_against(options, name, &work, &bench_limit_fill_memory_stream);
-    snprintf(name, sizeof name, "%s, 1M (asked 0.02)", set);
+    snprintf(name, sizeof name, "%s, 1M (target 0.02)", set);
     const bench_work once = {make_rotations, &context, 1.0};
     bench_print_seconds(options, name, &once);
     aur_rotations_destroy(context.rotations);
@@ -45,10 +45,10 @@ static bool run_rotations(const bench_options *options, const char *set) {
 
 typedef struct points_context {
     aur_points *points, *queries;
-    aur_points_view look, asked; /* of the two */
+    aur_points_view point_view, query_view; /* points and queries together */
     aur_nearest *nearest;
     size_t neighbours;
-    size_t query_count; /* how many of them are answered */
+    size_t query_count; /* number of queries that are answered */
     size_t *indices;
 } points_context;
 
@@ -71,7 +71,7 @@ static void close_points(points_context *context) {
 
 enum { QUERIES = 4096, CUTTING = 12 };
 
-/* Random points and as random queries, and a tree of the points. */
+/* Random points, random queries, and a tree of the points. */
 static bool open_points(const bench_options *options, aur_domain domain, points_context *context) {
     const size_t count = options->quick ? 1000 : 10000;
     *context = (points_context){.neighbours = 1, .query_count = QUERIES};
@@ -79,9 +79,9 @@ static bool open_points(const bench_options *options, aur_domain domain, points_
     bool good = context->indices != NULL && make_points("random", domain, count, 1, &context->points) &&
                 make_points("random", domain, QUERIES, 2, &context->queries);
     if (good) {
-        context->look = *aur_points_get_view(context->points);
-        context->asked = *aur_points_get_view(context->queries);
-        good = aur_nearest_create(&context->look, &context->nearest, NULL) == AUR_OK;
+        context->point_view = *aur_points_get_view(context->points);
+        context->query_view = *aur_points_get_view(context->queries);
+        good = aur_nearest_create(&context->point_view, &context->nearest, NULL) == AUR_OK;
     }
     if (!good)
         close_points(context);
@@ -94,21 +94,21 @@ static void find_nearest(void *data) {
     aur_nearest_options_init(&options, NULL);
     options.threads = 1;
     options.neighbours = context->neighbours;
-    aur_nearest_find(context->nearest, &options, context->query_count, context->asked.coordinates,
+    aur_nearest_find(context->nearest, &options, context->query_count, context->query_view.coordinates,
                      context->indices, NULL, NULL);
     bench_keep((double)context->indices[context->query_count - 1]);
 }
 
-/* The greatest product, of rotations the greatest without its sign. */
+/* The largest dot product; of rotations, the largest absolute one. */
 static void find_nearest_by_force(void *data) {
     const points_context *const context = data;
-    const size_t dimension = context->look.dimension;
-    const bool twofold = context->look.domain == AUR_DOMAIN_ROTATIONS;
+    const size_t dimension = context->point_view.dimension;
+    const bool twofold = context->point_view.domain == AUR_DOMAIN_ROTATIONS;
     for (size_t i = 0; i < context->query_count; ++i) {
-        const double *const q = context->asked.coordinates + dimension * i;
+        const double *const q = context->query_view.coordinates + dimension * i;
         double best = -2.0;
-        for (size_t j = 0; j < context->look.count; ++j) {
-            const double *const p = context->look.coordinates + dimension * j;
+        for (size_t j = 0; j < context->point_view.count; ++j) {
+            const double *const p = context->point_view.coordinates + dimension * j;
             double product = p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
             if (twofold)
                 product = fabs(product + p[3] * q[3]);
@@ -124,7 +124,7 @@ static void find_nearest_by_force(void *data) {
 static void make_tree(void *data) {
     const points_context *const context = data;
     aur_nearest *nearest;
-    if (aur_nearest_create(&context->look, &nearest, NULL) == AUR_OK)
+    if (aur_nearest_create(&context->point_view, &nearest, NULL) == AUR_OK)
         aur_nearest_destroy(nearest);
 }
 
@@ -138,7 +138,7 @@ static bool run_nearest(const bench_options *options, aur_domain domain, const c
     const bench_work fast = {find_nearest, &context, QUERIES}, force = {find_nearest_by_force, &few, 16.0};
     const bench_pair pair = bench_compare(options, &fast, &force);
     bench_print_pair(name, "brute force", "Mquery", 1e6, &pair);
-    const bench_work tree = {make_tree, &context, (double)context.look.count};
+    const bench_work tree = {make_tree, &context, (double)context.point_view.count};
     bench_print_rate(tree_name, "Mpoint", 1e6, bench_rate(options, &tree));
     close_points(&context);
     return true;
@@ -150,20 +150,20 @@ static void find_cells(void *data) {
     aur_measure_options_init(&options, NULL);
     options.threads = 1;
     double value = 0.0;
-    aur_measure("voronoi-max", &context->look, &options, &value, NULL);
+    aur_measure("voronoi-max", &context->point_view, &options, &value, NULL);
     bench_keep(value);
 }
 
-/* A cell has six sides on average; twice as many neighbours are about what it takes to know them. */
+/* A cell has six sides on average; about twice as many neighbors determine it. */
 static bool run_cells(const bench_options *options) {
     points_context context;
     if (!open_points(options, AUR_DOMAIN_SPHERE, &context))
         return false;
     points_context neighbours = context;
     neighbours.neighbours = CUTTING;
-    neighbours.asked = context.look;
-    neighbours.query_count = context.look.count;
-    const double units = (double)context.look.count;
+    neighbours.query_view = context.point_view;
+    neighbours.query_count = context.point_view.count;
+    const double units = (double)context.point_view.count;
     const bench_work cells = {find_cells, &context, units}, limit = {find_nearest, &neighbours, units};
     const bench_pair pair = bench_compare(options, &cells, &limit);
     bench_print_pair("Voronoi cells of 10,000 points", "the 12 nearest of each", "Mpoint", 1e6, &pair);
@@ -179,9 +179,9 @@ typedef struct exact_context {
 
 static void find_weights(void *data) {
     const exact_context *const context = data;
-    const size_t count = context->points.look.count;
-    aur_weights_exact(count, context->points.look.coordinates, &context->options, count, context->weights,
-                      NULL, NULL);
+    const size_t count = context->points.point_view.count;
+    aur_weights_exact(count, context->points.point_view.coordinates, &context->options, count,
+                      context->weights, NULL, NULL);
     bench_keep(context->weights[0]);
 }
 
@@ -194,7 +194,7 @@ static bool run_exact(const bench_options *options, const char *name, size_t cou
     const bool good = context.weights != NULL &&
                       make_points("spherical-fibonacci", AUR_DOMAIN_SPHERE, count, 0, &context.points.points);
     if (good) {
-        context.points.look = *aur_points_get_view(context.points.points);
+        context.points.point_view = *aur_points_get_view(context.points.points);
         const bench_work work = {find_weights, &context, 1.0};
         bench_print_seconds(options, name, &work);
     }

@@ -1,5 +1,5 @@
-/* What samples are worth that count in all pixels their filter reaches: the standard deviation of images,
- * over that of the box filter with which pixels share none, and the cost. */
+/* The effect of samples that contribute to all pixels within the filter's support: the standard deviation of
+ * images over that with the box filter, which shares no samples, and the cost. */
 #include <aureole-render/render.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@ enum { RUNS_MOST = 8, SIDE = 64 };
 
 typedef struct film_runs {
     double deviation; /* root mean square over pixels and channels */
-    double seconds;   /* of the processor */
+    double seconds;   /* CPU seconds */
 } film_runs;
 
 static bool render_runs(aur_renderer *renderer, const char *integrator, const char *filter, size_t runs,
@@ -63,16 +63,16 @@ static bool run(const bench_options *options) {
     for (size_t i = 0; good && i < sizeof integrators / sizeof integrators[0]; ++i) {
         film_runs box = {0};
         for (size_t f = 0; good && f < sizeof filters / sizeof filters[0]; ++f) {
-            film_runs own = {0};
-            if (f ==
-                0) /* what renders share, such as the photons of a seed, is made before anything is timed */
-                good = render_runs(renderer, integrators[i], filters[f], runs, &own);
-            good = good && render_runs(renderer, integrators[i], filters[f], runs, &own);
+            film_runs filtered = {0};
+            if (f == 0) /* data that renders share, such as a seed's photons, is computed before the timing */
+                good = render_runs(renderer, integrators[i], filters[f], runs, &filtered);
+            good = good && render_runs(renderer, integrators[i], filters[f], runs, &filtered);
             if (f == 0)
-                box = own;
+                box = filtered;
             if (good)
                 printf("  %-12s %-11s deviation %.5f, over box %.3f; CPU s over box %.2f\n", integrators[i],
-                       filters[f], own.deviation, own.deviation / box.deviation, own.seconds / box.seconds);
+                       filters[f], filtered.deviation, filtered.deviation / box.deviation,
+                       filtered.seconds / box.seconds);
         }
     }
     aur_renderer_destroy(renderer);

@@ -1,7 +1,7 @@
-/* The part of `gather` that compares rays with Embree's alone. */
+/* The ray comparison of `gather` alone. */
 #include "gather_rays.h"
 
-enum { MOST_PAIRS = 7 }; /* a pair takes most of a second here */
+enum { MOST_PAIRS = 7 }; /* a pair takes about a second */
 
 static bool run(const bench_options *given) {
     bench_options options = *given;

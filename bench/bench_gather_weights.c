@@ -1,4 +1,4 @@
-/* The third part of the bench `gather`, alone. */
+/* The weights part of the bench `gather` alone. */
 #include "gather_weights.h"
 
 static bool run(const bench_options *options) {

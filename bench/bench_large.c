@@ -1,5 +1,5 @@
-/* Large scenes: the memory and the time that 30 million triangles take beside Embree alone, and a group of
- * many shapes. */
+/* Large scenes: memory and time of 30 million triangles, compared with Embree alone, and a group of many
+ * shapes. */
 #include <stdio.h>
 
 #include "bench.h"
@@ -27,7 +27,7 @@ static bool write_mesh(void *data) {
     return good;
 }
 
-/* What Embree alone needs: the mesh and its tree. */
+/* The baseline: Embree's mesh and its tree. */
 static bool build(void *data) {
     const large_context *const context = data;
     bench_grid mesh;

@@ -1,5 +1,6 @@
-/* What choosing lights by a tree leaves of the error of an even choice at equal samples, and what it costs:
- * rooms of lamps, each rendered both ways by two seeds. And the time and memory of large trees. */
+/* Choosing light sources by a light tree against uniform choice: relative error at equal sample counts, and
+ * cost. Rooms with many light sources are rendered both ways with two seeds. Also time and memory of large
+ * trees. */
 #include <aureole-render/render.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include "points/base/random.h"
 #include "render/scene/scene_data.h"
 
-enum { WIDTH = 96, HEIGHT = 64, SAMPLES = 64, LAMPS = 400, MOST_LAMPS = 10000 };
+enum { WIDTH = 96, HEIGHT = 64, SAMPLES = 64, LIGHTS = 400, MOST_LIGHTS = 10000 };
 
 static const char room[] =
     "<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='70'/><transform "
@@ -22,8 +23,8 @@ static double unit(uint64_t a, uint64_t b) {
     return aur_unit_double(aur_hash2(a, b));
 }
 
-/* Lamps below the ceiling, in rows, or anywhere, turned anyhow. */
-static void write_lamp(FILE *file, size_t i, size_t count, bool rows) {
+/* Light sources below the ceiling in rows, or at random positions and orientations. */
+static void write_light(FILE *file, size_t i, size_t count, bool rows) {
     const double side = ceil(sqrt((double)count)), step = 20.0 / side;
     const double x = rows ? -10.0 + step * ((double)(i % (size_t)side) + 0.5) : 19.8 * unit(i, 1) - 9.9;
     const double z = rows ? -10.0 + step * ((double)(i / (size_t)side) + 0.5) : 19.8 * unit(i, 2) - 9.9;
@@ -36,7 +37,7 @@ static void write_lamp(FILE *file, size_t i, size_t count, bool rows) {
             y, z, 10.0 * (0.5 + unit(i, 6)));
 }
 
-/* A box in place of furniture. */
+/* A box that stands for furniture. */
 static void write_box(FILE *file, size_t i) {
     const double height = 0.2 + 0.4 * unit(i, 11);
     fprintf(file,
@@ -46,7 +47,7 @@ static void write_box(FILE *file, size_t i) {
             18.0 * unit(i, 15) - 9.0, height, 18.0 * unit(i, 16) - 9.0);
 }
 
-static aur_scene *load_room(size_t lamps, bool rows, aur_error *error) {
+static aur_scene *load_room(size_t lights, bool rows, aur_error *error) {
     char *text = NULL;
     size_t size = 0;
     aur_scene *scene = NULL;
@@ -56,8 +57,8 @@ static aur_scene *load_room(size_t lamps, bool rows, aur_error *error) {
     fputs(room, file);
     for (size_t i = 0; i < 40; ++i)
         write_box(file, i);
-    for (size_t i = 0; i < lamps; ++i)
-        write_lamp(file, i, lamps, rows);
+    for (size_t i = 0; i < lights; ++i)
+        write_light(file, i, lights, rows);
     fputs("</scene>\n", file);
     if (fclose(file) == 0)
         aur_scene_load_memory("room.xml", size, text, NULL, &scene, error);
@@ -65,7 +66,7 @@ static aur_scene *load_room(size_t lamps, bool rows, aur_error *error) {
     return scene;
 }
 
-/* Takes the tree away: each light has the same probability everywhere. */
+/* Disables the tree: every light source has the same probability. */
 static bool choose_evenly(aur_scene *scene) {
     const size_t count = scene->emitter_count;
     double *const ones = malloc(count * sizeof *ones);
@@ -81,7 +82,7 @@ static bool choose_evenly(aur_scene *scene) {
     return good;
 }
 
-/* The root mean square error of images over the mean, and CPU seconds of one. */
+/* The relative root mean square error of an image, and its CPU seconds. */
 typedef struct lit_error {
     double error, seconds;
 } lit_error;
@@ -123,16 +124,16 @@ static bool measure(const aur_scene *scene, const char *integrator, bool quick, 
 static bool compare(const bench_options *options, bool rows, aur_error *error) {
     static const char *const integrators[] = {"path:max_depth=2,hide_emitters=true",
                                               "path:max_depth=6,hide_emitters=true"};
-    aur_scene *const tree = load_room(LAMPS, rows, error), *const even = load_room(LAMPS, rows, error);
+    aur_scene *const tree = load_room(LIGHTS, rows, error), *const even = load_room(LIGHTS, rows, error);
     bool good = tree != NULL && even != NULL && choose_evenly(even);
     for (size_t i = 0; i < sizeof integrators / sizeof integrators[0] && good; ++i) {
         lit_error by_tree, evenly;
         good = measure(tree, integrators[i], options->quick, &by_tree, error) &&
                measure(even, integrators[i], options->quick, &evenly, error);
         if (good)
-            printf("%d lamps %s, %s: error %.3g %% by the tree, %.3g %% evenly, ratio %.3f; CPU time %.2f "
+            printf("%d lights %s, %s: error %.3g %% by the tree, %.3g %% evenly, ratio %.3f; CPU time %.2f "
                    "times\n",
-                   LAMPS, rows ? "in rows" : "anywhere", integrators[i], 100.0 * by_tree.error,
+                   LIGHTS, rows ? "in rows" : "anywhere", integrators[i], 100.0 * by_tree.error,
                    100.0 * evenly.error, by_tree.error / evenly.error, by_tree.seconds / evenly.seconds);
     }
     aur_scene_destroy(tree);
@@ -147,7 +148,7 @@ static void create_again(void *context) {
 }
 
 static bool build(const bench_options *options, aur_error *error) {
-    const size_t count = options->quick ? LAMPS : MOST_LAMPS;
+    const size_t count = options->quick ? LIGHTS : MOST_LIGHTS;
     aur_scene *const scene = load_room(count, false, error);
     if (scene == NULL)
         return false;

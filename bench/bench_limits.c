@@ -1,4 +1,4 @@
-/* The machine itself: each limit beside the plainer or slower way to do the same. */
+/* The limits of the machine, each next to a plainer or slower way to do the same. */
 #include "limits.h"
 
 static bool run(const bench_options *options) {

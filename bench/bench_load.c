@@ -1,5 +1,5 @@
-/* Loading scenes of 1.5 million triangles, from each kind of mesh file, against what cannot be saved: one
- * read of the file and Embree's own build of the same mesh. */
+/* Loading scenes of 1.5 million triangles from each mesh format, against the unavoidable part: one read of
+ * the file and Embree's build of the same mesh. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

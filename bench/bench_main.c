@@ -1,4 +1,4 @@
-/* aureole-bench list | NAME... [--quick] [--isa SET] [--only TEXT]. Adding a bench is one file and one line
+/* aureole-bench list | NAME... [--quick] [--isa SET] [--only TEXT]. To add a bench, add one file and one line
  * here. */
 #define _DEFAULT_SOURCE /* setenv */
 #include <getopt.h>
@@ -10,7 +10,7 @@
 #include "points/base/parallel.h"
 #include "points/base/simd.h"
 
-/* A line a bench. */
+/* One bench per line. */
 /* clang-format off */
 extern const bench bench_ao;
 extern const bench bench_adaptive_calibration_alone;
@@ -88,11 +88,11 @@ static void print_help(void) {
          "  --isa    instructions that our kernels and Embree's may use, as if the processor had no wider "
          "ones;\n"
          "           else AUREOLE_ISA's, or all it has. What a bench used is printed behind its name\n"
-         "  --only   of ask-calibration and ask-speed, the scenes with TEXT in their names\n"
+         "  --only   of adaptive-calibration and adaptive-speed, the scenes with TEXT in their names\n"
          "Rates are units a CPU second; [low, high] are the quartiles of a ratio over the pairs.");
 }
 
-/* The processor as Linux names it; without a name the line is left out. */
+/* The processor's name from /proc/cpuinfo; prints nothing without one. */
 static void print_machine(const bench_options *options) {
     FILE *const file = fopen("/proc/cpuinfo", "r");
     char line[256];
@@ -108,7 +108,7 @@ static void print_machine(const bench_options *options) {
     printf("%zu threads%s\n", options->threads, options->quick ? "; quick: figures of no worth" : "");
 }
 
-/* Holds our kernels and Embree's, and those of the programs that benches start. */
+/* Restricts the instruction set of our kernels, of Embree's and of child processes. */
 static bool hold_isa(const char *name) {
     aur_error error;
     if (aur_isa_check(name, &error) != AUR_OK)

@@ -1,4 +1,4 @@
-/* Measures against the hardware's square root, and the time of the exact suprema. */
+/* Quality measures against the hardware's square root, and the time of exact suprema. */
 #include <aureole/quality.h>
 #include <aureole/sphere.h>
 #include <stdlib.h>
@@ -80,24 +80,23 @@ static bool bench_sums(const bench_options *options) {
     const bench_work exact_work = {run_measure, &exact, units};
     const bench_work shared_work = {run_measure, &shared, units};
     const bool good =
-        bench_against(options, "pair sum, fast (asked 1.6)", &fast_work, &bench_limit_pairs_f64) &&
+        bench_against(options, "pair sum, fast (target 1.6)", &fast_work, &bench_limit_pairs_f64) &&
         bench_against(options, "pair sum, compensated", &exact_work, &bench_limit_pairs_f64);
     const bench_pair scaling = bench_compare(options, &shared_work, &fast_work);
-    bench_print_pair("pair sum, all threads (asked 0.91)", "one thread", "Gpair", 1e9, &scaling);
+    bench_print_pair("pair sum, all threads (target 0.91)", "one thread", "Gpair", 1e9, &scaling);
     const bench_work lags = {run_measure, &structured, pairs_of((double)many)};
     bench_options few = *options;
     few.pairs = few.pairs < 5 ? few.pairs : 5;
     const bench_pair by_lags = bench_compare(&few, &lags, &fast_work);
     bench_print_pair(options->quick ? "Fibonacci by lags, N = 20000"
-                                    : "Fibonacci by lags, N = 1e6 (asked 50)",
+                                    : "Fibonacci by lags, N = 1e6 (target 50)",
                      "our pair sum", "Gpair", 1e9, &by_lags);
     free(fast.coordinates);
     aur_points_destroy(fibonacci);
     return good;
 }
 
-/* Energies to a stated accuracy of points of no structure, beside our pair sum: pairs that would have been
- * summed. */
+/* Energies to a given accuracy of unstructured points, next to the direct pair sum; in equivalent pairs. */
 static bool bench_accuracy(const bench_options *options) {
     const size_t count = options->quick ? 20000 : 100000;
     measure_context split = {.metric = "energy", .options = {.size = sizeof(aur_measure_options)}},
@@ -139,9 +138,9 @@ static bool run(const bench_options *options) {
     measure_context star = {.metric = "star", .options = {.size = sizeof(aur_measure_options)}};
     const bool quick = options->quick;
     return bench_sums(options) && bench_accuracy(options) &&
-           bench_seconds(options, quick ? "cap, N = 64" : "cap, N = 512 (asked 3)", &cap, AUR_DOMAIN_SPHERE,
+           bench_seconds(options, quick ? "cap, N = 64" : "cap, N = 512 (target 3)", &cap, AUR_DOMAIN_SPHERE,
                          quick ? 64 : 512) &&
-           bench_seconds(options, quick ? "star, N = 1024" : "star, N = 16384 (asked 0.5)", &star,
+           bench_seconds(options, quick ? "star, N = 1024" : "star, N = 16384 (target 0.5)", &star,
                          AUR_DOMAIN_SQUARE, quick ? 1024 : 16384);
 }
 

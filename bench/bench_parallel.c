@@ -1,4 +1,4 @@
-/* What sharing work among threads costs: the same items on one thread and on all of them. */
+/* The overhead of distributing work over threads: the same items on one thread and on all. */
 #include "limits.h"
 #include "points/base/parallel.h"
 #include "points/base/random.h"
@@ -28,7 +28,7 @@ static void run_items(void *data) {
 }
 
 static bool run(const bench_options *options) {
-    /* From tiles that are far too small to tiles of an image. */
+    /* From tiles that are far too small to the size of image tiles. */
     static const size_t hashes_per_item[] = {100, 1000, 10000, 100000};
     static const char *const names[] = {"100 hashes an item", "1,000 hashes an item", "10,000 hashes an item",
                                         "100,000 hashes an item"};

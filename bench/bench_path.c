@@ -1,4 +1,4 @@
-/* Path tracing against Embree alone on the rays that it traced: what shading, sampling and the film cost. */
+/* Path tracing against Embree alone on the same rays: the overhead of shading, sampling and the film. */
 #include <aureole-render/render.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static aur_result replay(void *data, size_t index) {
     return AUR_OK;
 }
 
-/* One item on one thread: with denormals flushed, as the renderer traces. */
+/* Runs an item on one thread with denormals flushed, like the renderer. */
 static void run_replay(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     aur_parallel_for(&one_thread, 1, replay, context, NULL);
@@ -55,7 +55,7 @@ static bool record(path_context *context) {
     return true;
 }
 
-/* Single paths, and sixteen at a time, against the rays of the single ones. */
+/* Single paths, and sixteen at a time, against the rays of the single paths. */
 static bool compare(const bench_options *options, path_context *context, const char *name) {
     static const char *const integrators[] = {"path:packets=false,lamp_rays=0", "path:lamp_rays=0",
                                               "path:interleaved=true,lamp_rays=0"};

@@ -1,6 +1,6 @@
-/* Whether images to an error have patterns in it: how far neighbouring pixels are wrong alike, beside the
- * truth. What the truth is wrong by itself is told by half the difference of its two images, whose sums are
- * taken from those of the errors. */
+/* Whether the error of adaptive images has spatial patterns: the correlation of the errors of neighboring
+ * pixels, measured against the reference. The reference's error is estimated by half the difference of its
+ * two images, whose sums are subtracted. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,73 +11,79 @@
 #include "error_pattern.h"
 #include "figures.h"
 
-/* A pixel has the numbers of one four pixels on, in interleaved paths and gathering, or eight, where patterns
- * complete each other (share=near). */
+/* Sampling patterns repeat every four pixels in interleaved paths and gathering, or every eight with
+ * complementary patterns (share=near). */
 enum { BLOCK = 8, MOST_LAG = 8, PERIOD = 4, PERIODS = 2, SEEDS = 32, QUICK_SEEDS = 2, FIRST_SEED = 7001 };
 
-/* Half as much more than independent noise of the pixels. */
+/* Limit of the ratio to independent pixel noise. */
 static const double most_clumps = 1.5;
 
-/* Of a peak in standard errors, which the seeds' spread tells: of four of 15 scenes and three finer rows one
- * is above by chance in one bench of a hundred (1 - .01 / 72 of Student's distribution of SEEDS - 1 degrees).
- * One seed's own standard error, for which its pixels are independent, may be too small: in Keller's office
- * 64 seeds differed by 1.2 of it, and had a peak of 1.7 where eight seeds had shown one of 4.8. */
+/* Limit of a peak in standard errors, estimated from the spread over seeds. Four peaks of 18 rows: one false
+ * alarm per hundred runs of the bench (1 - .01 / 72 of Student's distribution with SEEDS - 1 degrees of
+ * freedom). The standard error from one seed assumes independent pixels and may be too small: in Keller's
+ * office the spread of 64 seeds was 1.2 times that, with a peak of 1.7 where eight seeds had a peak of 4.8.
+ */
 static const double most_peak = 4.10;
 
-typedef struct alike {
+typedef struct pattern_sum {
     size_t seeds, gathered;
     error_blocks blocks;
-    double products[2][MOST_LAG + 1]; /* along rows and columns; of lag 0: squares */
-    double peaks[2][PERIODS][SEEDS];  /* in standard errors that the seed tells itself */
-    double clumps[SEEDS], between;    /* of one seed; of the differences of pairs of them, added up */
-} alike;
+    double products[2][MOST_LAG + 1]; /* along rows and columns; lag 0: squares */
+    double peaks[2][PERIODS][SEEDS];  /* in standard errors estimated from one seed */
+    double clumps[SEEDS], between; /* clumps: per seed; between: sum over the differences of pairs of seeds */
+} pattern_sum;
 
 static double clumps_of(const error_blocks *squares) {
     return squares->of_each > 0.0 ? sqrt(fmax(squares->of_sums, 0.0) / squares->of_each) : 0.0;
 }
 
-/* The sums of an image's error, less those of the truth's own. */
-static void add(const bench_adaptive_scene *known, const error_pattern *error, const error_pattern *own,
-                alike *sum) {
-    const error_blocks seen = error_pattern_blocks(error, BLOCK),
-                       known_off = error_pattern_blocks(own, BLOCK);
-    const error_blocks squares = {seen.of_sums - known_off.of_sums, seen.of_each - known_off.of_each};
-    const double unit = known->mean * known->mean;
+/* Adds the sums of an image's error, minus those of the reference's error. */
+static void add(const bench_adaptive_scene *adaptive_scene, const error_pattern *error,
+                const error_pattern *reference, pattern_sum *sum) {
+    const error_blocks image_blocks = error_pattern_blocks(error, BLOCK),
+                       reference_blocks = error_pattern_blocks(reference, BLOCK);
+    const error_blocks squares = {image_blocks.of_sums - reference_blocks.of_sums,
+                                  image_blocks.of_each - reference_blocks.of_each};
+    const double unit = adaptive_scene->mean * adaptive_scene->mean;
     sum->blocks.of_sums += squares.of_sums / unit;
     sum->blocks.of_each += squares.of_each / unit;
     sum->clumps[sum->seeds] = clumps_of(&squares);
     for (size_t down = 0; down < 2; ++down) {
         for (size_t lag = 0; lag <= MOST_LAG; ++lag)
-            sum->products[down][lag] +=
-                (error_pattern_product(error, lag, down != 0) - error_pattern_product(own, lag, down != 0)) /
-                unit;
+            sum->products[down][lag] += (error_pattern_product(error, lag, down != 0) -
+                                         error_pattern_product(reference, lag, down != 0)) /
+                                        unit;
         for (size_t i = 0; i < PERIODS; ++i)
             sum->peaks[down][i][sum->seeds] = error_pattern_peak(error, PERIOD * (i + 1), down != 0);
     }
     ++sum->seeds;
 }
 
-/* Images of two seeds: what each is wrong by, and what they are not wrong by alike. */
-static aur_result add_pair(const bench_adaptive_scene *known, uint64_t seed, alike *sum, aur_error *error) {
+/* Adds images of two seeds: the pattern of each, and of their difference, where a common error cancels. */
+static aur_result add_pair(const bench_adaptive_scene *adaptive_scene, uint64_t seed, pattern_sum *sum,
+                           aur_error *error) {
     double values[2][BENCH_ADAPTIVE_MOST_VALUES];
-    error_pattern own = {known->width, known->height, (double *)known->wrong};
+    error_pattern reference = {adaptive_scene->width, adaptive_scene->height,
+                               (double *)adaptive_scene->reference_error};
     aur_result result = AUR_OK;
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k) {
         aur_adaptive *adaptive = NULL;
         aur_image *image = NULL;
-        result = bench_adaptive_scene_render(known, seed + k, &adaptive, &image, error);
-        for (size_t i = 0; i < known->count && result == AUR_OK; ++i)
-            values[k][i] = (double)aur_image_data(image)[i] - known->values[i];
+        result = bench_adaptive_scene_render(adaptive_scene, seed + k, &adaptive, &image, error);
+        for (size_t i = 0; i < adaptive_scene->count && result == AUR_OK; ++i)
+            values[k][i] = (double)aur_image_data(image)[i] - adaptive_scene->values[i];
         if (result == AUR_OK) {
             sum->gathered += strstr(aur_adaptive_integrator(adaptive), "finalgather") != NULL;
-            add(known, &(error_pattern){known->width, known->height, values[k]}, &own, sum);
+            add(adaptive_scene, &(error_pattern){adaptive_scene->width, adaptive_scene->height, values[k]},
+                &reference, sum);
         }
         aur_image_destroy(image);
         aur_adaptive_destroy(adaptive);
     }
-    for (size_t i = 0; i < known->count; ++i)
+    for (size_t i = 0; i < adaptive_scene->count; ++i)
         values[0][i] -= values[1][i];
-    sum->between += error_pattern_clumps(&(error_pattern){known->width, known->height, values[0]}, BLOCK);
+    sum->between += error_pattern_clumps(
+        &(error_pattern){adaptive_scene->width, adaptive_scene->height, values[0]}, BLOCK);
     return result;
 }
 
@@ -95,11 +101,11 @@ static average average_of(size_t count, const double *seeds) {
     return (average){mean, sqrt(squares / (n * (n - 1.0)))};
 }
 
-static double print(const char *name, const bench_adaptive_scene *known, const alike *found) {
+static double print(const char *name, const bench_adaptive_scene *adaptive_scene, const pattern_sum *found) {
     const double n = (double)found->seeds;
     double most = -INFINITY;
-    printf("  %-34.34s %5.3g %6.2f %6.2f %6.2f +- %.2f %7.2f\n", name, known->row.asked,
-           (double)found->gathered / n, sqrt(found->products[0][0] / n) / known->row.asked,
+    printf("  %-34.34s %6.3g %6.2f %6.2f %6.2f +- %.2f %7.2f\n", name, adaptive_scene->row.target_error,
+           (double)found->gathered / n, sqrt(found->products[0][0] / n) / adaptive_scene->row.target_error,
            clumps_of(&found->blocks), average_of(found->seeds, found->clumps).standard_error,
            2.0 * found->between / n);
     for (size_t down = 0; down < 2; ++down) {
@@ -121,15 +127,15 @@ static double print(const char *name, const bench_adaptive_scene *known, const a
 
 static aur_result study(const bench_options *options, const bench_adaptive_row *row, const char *name,
                         const char *folder, bench_figures *figures, aur_error *error) {
-    bench_adaptive_scene known;
-    alike found = {.seeds = 0};
-    aur_result result = bench_adaptive_scene_open(options, row, folder, &known, error);
+    bench_adaptive_scene adaptive_scene;
+    pattern_sum found = {.seeds = 0};
+    aur_result result = bench_adaptive_scene_open(options, row, folder, &adaptive_scene, error);
     for (size_t i = 0; i < (options->quick ? QUICK_SEEDS : SEEDS) && result == AUR_OK; i += 2)
-        result = add_pair(&known, FIRST_SEED + i, &found, error);
-    bench_adaptive_scene_close(&known);
+        result = add_pair(&adaptive_scene, FIRST_SEED + i, &found, error);
+    bench_adaptive_scene_close(&adaptive_scene);
     if (result != AUR_OK)
         return result;
-    const double peak = print(name, &known, &found);
+    const double peak = print(name, &adaptive_scene, &found);
     bench_figures_add(figures, BENCH_AT_MOST, most_clumps, clumps_of(&found.blocks), "",
                       "%s: 8 x 8 means / independent noise's", name);
     bench_figures_add(figures, BENCH_AT_MOST, most_peak, peak, "", "%s: most peak / its standard error",
@@ -137,14 +143,13 @@ static aur_result study(const bench_options *options, const bench_adaptive_row *
     return AUR_OK;
 }
 
-/* The bundled scenes, each with the error of the calibration's small images: these are larger, so that
- * blocks are many. */
+/* The bundled scenes with the target errors of small images; the images here are larger, for more blocks. */
 static bool run(const bench_options *options) {
     char folder[4000];
     if (!bench_data_folder(folder, sizeof folder))
         return false;
     bench_figures figures = {0};
-    printf("  %-34s %5s %6s %6s %14s %7s\n", "scene", "asked", "gather", "error", "8 x 8 means", "between");
+    printf("  %-34s %6s %6s %6s %14s %7s\n", "scene", "target", "gather", "error", "8 x 8 means", "between");
     for (size_t i = 0; i < bench_adaptive_row_count && !(options->quick && i > 0); ++i) {
         bench_adaptive_row row = bench_adaptive_rows[i];
         if (row.scene[0] == '.')
@@ -164,4 +169,5 @@ static bool run(const bench_options *options) {
     return true;
 }
 
-const bench bench_patterns = {"patterns", "whether neighbours are wrong alike in images to an error", run};
+const bench bench_patterns = {"patterns",
+                              "whether errors of neighboring pixels are correlated in adaptive images", run};

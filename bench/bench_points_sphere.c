@@ -1,4 +1,4 @@
-/* Points native to the sphere: against a streaming fill of the same bytes, against the obvious loop, and on
+/* Native point sets of the sphere: against a streaming fill of the same bytes, against a naive loop, and on
  * all threads. */
 #include <aureole/sphere.h>
 #include <math.h>
@@ -23,7 +23,7 @@ static void make_points(void *data) {
     bench_keep(context->xyz[3 * context->count - 1]);
 }
 
-/* Marques 2013 eq. 4 as one would write it down. */
+/* Marques 2013 eq. 4, implemented directly. */
 static void make_points_obviously(void *data) {
     const points_context *const context = data;
     const double count = (double)context->count;
@@ -102,8 +102,8 @@ static bool run_against_loop(const bench_options *options, const char *name, siz
     return true;
 }
 
-/* The rise of CPU time a point from one thread to all; the points of a slice stay in its thread's cache,
- * since two threads share the way to memory whatever they write. */
+/* The increase of CPU time per point from one thread to all. The points of a slice stay in the thread's
+ * cache, because memory bandwidth is shared. */
 static bool run_on_threads(const bench_options *options) {
     points_context alone = {.count = SLICES << 14, .threads = 1};
     if (!open_points("spherical-fibonacci", AUR_DOMAIN_SPHERE, &alone))

@@ -1,4 +1,5 @@
-/* Points of the square: against a streaming fill of the same bytes, against scalar loops, on all threads. */
+/* Point sets of the unit square: against a streaming fill of the same bytes, against scalar loops, on all
+ * threads. */
 #include <aureole/pointset.h>
 #include <stdlib.h>
 
@@ -7,7 +8,8 @@
 #include "points/base/random.h"
 #include "points/pointset/net_2d.h"
 
-/* A run on threads is long beside a time slice of a busy machine, whose end the other thread waits for. */
+/* Multithreaded runs are long compared with a time slice, so that waiting for a preempted thread matters
+ * little. */
 enum { SLICES = 16, ROUNDS = 256 };
 
 typedef struct square_context {
@@ -59,7 +61,7 @@ static bool run_against_fill(const bench_options *options, const char *name, con
     return done;
 }
 
-/* Hash-based Owen scrambling of Sobol points, one at a time and 32 digits each: what the field publishes. */
+/* Hash-based Owen scrambling of Sobol' points, one point and 32 digits at a time, as published. */
 static void make_points_by_scalars(void *data) {
     const square_context *const context = data;
     const uint32_t key_x = (uint32_t)aur_hash2(1, 0);
@@ -68,7 +70,7 @@ static void make_points_by_scalars(void *data) {
         const uint32_t index = (uint32_t)i;
         context->points[2 * i] = 0x1p-32 * aur_owen_scramble(aur_sobol_first(index), key_x);
         context->points[2 * i + 1] = 0x1p-32 * aur_owen_scramble(aur_sobol_second(index), key_y);
-        /* A scalar loop, whatever the compiler would make of it. */
+        /* A scalar loop that the compiler may not vectorize. */
         __asm__ volatile("" : : : "memory");
     }
     bench_keep(context->points[2 * context->count - 1]);
@@ -86,7 +88,7 @@ static bool run_against_scalars(const bench_options *options, const char *name, 
     return true;
 }
 
-/* Golden sets of 4M points and of 64 times fewer: a ratio of one is time in proportion to N. */
+/* Golden sets of 4M points and of 64 times fewer: a ratio of 1 means linear time in N. */
 static bool run_golden_growth(const bench_options *options, size_t count) {
     square_context large = {.count = count};
     square_context small = {.count = count / 64};
@@ -122,7 +124,7 @@ static void make_points_shared(void *data) {
     bench_keep(context->points[2 * context->count - 1]);
 }
 
-/* Slices stay in their thread's cache, since two threads share the way to memory whatever they write. */
+/* Slices stay in the thread's cache, because memory bandwidth is shared. */
 static bool run_on_threads(const bench_options *options, const char *name, aur_scramble scramble) {
     square_context alone = {.count = SLICES << 14, .threads = 1, .rounds = options->quick ? 1 : ROUNDS};
     if (!open_square("sobol", scramble, &alone))

@@ -1,5 +1,5 @@
-/* The choice of the integrator for a target error in rooms made from seeds: what the chosen candidate and the
- * whole request cost over the best candidate. */
+/* Cost of choosing the integrator for a target error, in rooms generated from seeds: CPU time of the chosen
+ * candidate and of the whole render, over the best candidate's. */
 #include <aureole-render/adaptive.h>
 #include <math.h>
 #include <stdarg.h>
@@ -51,7 +51,7 @@ static void put_box(room *self) {
     put(self, "</shape>");
 }
 
-/* One to sixteen lamps on the ceiling or lying about, or a window to a bright sky. */
+/* One to sixteen light sources on the ceiling or at random positions, or a window to a bright sky. */
 static void make_room(uint64_t seed, room *self) {
     *self = (room){.seed = seed};
     const bool window = seed % 3 == 0;
@@ -67,7 +67,7 @@ static void make_room(uint64_t seed, room *self) {
                                             "<rotate x='1' angle='-90'/>",
                                             "<rotate y='1' angle='90'/>",
                                             "<rotate y='1' angle='-90'/>"};
-        const double size = window && wall == 5 ? 0.6 : 1.0; /* leaves a gap about it */
+        const double size = window && wall == 5 ? 0.6 : 1.0; /* leaves a gap around it */
         put(self,
             "<shape type='rectangle'><transform name='to_world'><scale value='%.2f'/><translate z='-1'/>%s"
             "</transform>",
@@ -79,8 +79,8 @@ static void make_room(uint64_t seed, room *self) {
         put_box(self);
     if (window)
         put(self, "<emitter type='constant'><rgb name='radiance' value='10'/></emitter>");
-    const int lamps = window ? 0 : 1 << (int)draw(self, 0.0, 4.99);
-    for (int i = 0; i < lamps; ++i)
+    const int lights = window ? 0 : 1 << (int)draw(self, 0.0, 4.99);
+    for (int i = 0; i < lights; ++i)
         put(self,
             "<shape type='rectangle'><transform name='to_world'><scale value='%.3f'/><rotate x='1' "
             "angle='180'/>"
@@ -91,8 +91,8 @@ static void make_room(uint64_t seed, room *self) {
     put(self, "</scene>");
 }
 
-/* CPU seconds to the target by an integrator, or by the race (NULL); scaled to the target from where the
- * render came out. Infinite where it fails. */
+/* CPU seconds to the target error with an integrator, or with the race (NULL), extrapolated from the error
+ * that the render reached. Infinite on failure. */
 static double cost(aur_renderer *renderer, const char *integrator, aur_error_measure measure, double error,
                    char chosen[256]) {
     aur_render_options render = {.size = sizeof render};
@@ -122,7 +122,7 @@ static double cost(aur_renderer *renderer, const char *integrator, aur_error_mea
 }
 
 typedef struct ratios {
-    double choice, whole, worst_choice, worst_whole; /* logarithms of the first two are summed */
+    double choice, whole, worst_choice, worst_whole; /* sums of logarithms in the first two */
     size_t count;
 } ratios;
 
@@ -132,7 +132,7 @@ static bool run_room(uint64_t seed, aur_error_measure measure, double error, rat
     aur_scene *scene = NULL;
     if (aur_scene_load_memory("room.xml", made.used, made.text, NULL, &scene, NULL) != AUR_OK)
         return false;
-    double best = INFINITY, own = INFINITY;
+    double best = INFINITY, chosen_seconds = INFINITY;
     char chosen[256], best_name[32] = "";
     aur_renderer *renderer = NULL;
     const bool created = aur_renderer_create(scene, &renderer, NULL) == AUR_OK;
@@ -146,7 +146,7 @@ static bool run_room(uint64_t seed, aur_error_measure measure, double error, rat
             const char *const keys = strstr(text, "photons=");
             const size_t same = keys != NULL ? (size_t)(keys - text) : strlen(text);
             if (strncmp(text, chosen, same) == 0)
-                own = seconds;
+                chosen_seconds = seconds;
             if (seconds < best) {
                 best = seconds;
                 snprintf(best_name, sizeof best_name, "%s", aur_race_name(row));
@@ -156,14 +156,15 @@ static bool run_room(uint64_t seed, aur_error_measure measure, double error, rat
         free(text);
     }
     aur_scene_destroy(scene);
-    if (!(best > 0.0 && best < INFINITY && own < INFINITY && whole < INFINITY))
+    if (!(best > 0.0 && best < INFINITY && chosen_seconds < INFINITY && whole < INFINITY))
         return false;
     printf("  %4llu  %-8s %4.0f %%  %-18s %8.2f s  choice %5.2f  whole %5.2f\n", (unsigned long long)seed,
-           aur_error_measure_name(measure), 100.0 * error, best_name, best, own / best, whole / best);
+           aur_error_measure_name(measure), 100.0 * error, best_name, best, chosen_seconds / best,
+           whole / best);
     fflush(stdout);
-    sum->choice += log(own / best);
+    sum->choice += log(chosen_seconds / best);
     sum->whole += log(whole / best);
-    sum->worst_choice = fmax(sum->worst_choice, own / best);
+    sum->worst_choice = fmax(sum->worst_choice, chosen_seconds / best);
     sum->worst_whole = fmax(sum->worst_whole, whole / best);
     ++sum->count;
     return true;

@@ -1,5 +1,5 @@
-/* The radiosity walk against Embree alone on the rays that it traced, whatever makes its points; and what a
- * second thread costs. */
+/* The radiosity random walk against Embree alone on the same rays, with each kind of sample points; and the
+ * cost of a second thread. */
 #include <aureole-render/radiosity.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ typedef struct walk_context {
     bool failed;
 } walk_context;
 
-/* Each run goes on where the one before has ended. */
+/* Each run continues where the previous one ended. */
 static void walk(void *data) {
     walk_context *const context = data;
     context->paths += context->each;
@@ -33,7 +33,7 @@ static aur_result replay(void *data, size_t index) {
     return AUR_OK;
 }
 
-/* One item on one thread: with denormals flushed, as the walk traces. */
+/* Runs an item on one thread with denormals flushed, like the random walk. */
 static void run_replay(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     aur_parallel_for(&one_thread, 1, replay, context, NULL);
@@ -80,9 +80,9 @@ static bool compare_set(const bench_options *options, walk_context *context, con
     return (recorded && !context->failed) || bench_fail("%s, %s: the walk failed", scene, set);
 }
 
-/* Paths a CPU second on two threads over those on one: 1 / (1 + the rise of CPU time a path). */
+/* Rate of paths on two threads over that on one: 1 / (1 + the relative increase of CPU time per path). */
 static bool compare_threads(const bench_options *options, const walk_context *context, const char *scene) {
-    /* Long runs: threads that wait for each other at the end of one use CPU time. */
+    /* Long runs, because threads that wait for the last one at the end use CPU time. */
     walk_context alone = *context, two;
     walk_context *const one = &alone;
     one->each *= options->quick ? 1 : 8;

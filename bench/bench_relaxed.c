@@ -1,4 +1,4 @@
-/* CPU seconds of sets that come to rest: blue noise, and axes that repel each other. */
+/* CPU seconds of point sets that are computed by iteration: blue noise, and axes that repel each other. */
 #include <aureole/sphere.h>
 #include <stdlib.h>
 
@@ -37,7 +37,7 @@ static bool run_row(const bench_options *options, const char *names[2], relaxed_
 }
 
 static bool run(const bench_options *options) {
-    if (setenv("AUREOLE_CACHE", "", 1) != 0) /* else they are read from a file the second time */
+    if (setenv("AUREOLE_CACHE", "", 1) != 0) /* otherwise the second run reads them from the cache */
         return bench_fail("out of memory");
     const size_t square[] = {4096, 65536}, axes[] = {60, 256};
     return run_row(options, (const char *[]){"blue-noise, 4096", "blue-noise, 65536"},

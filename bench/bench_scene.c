@@ -1,5 +1,5 @@
-/* The scene's rays against Embree itself on the same scene, ray by ray and in packets of 16, from the eye and
- * from the surfaces of the glossy Cornell box. */
+/* The scene's ray queries against Embree on the same scene, single rays and packets of 16, from the camera
+ * and from the surfaces of the glossy Cornell box. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,7 +22,7 @@ static size_t trace_scene(const trace_context *context) {
     return hits;
 }
 
-/* What a shading point costs: the hit and all that is known of the surface there. */
+/* The cost of a shading point: intersection and surface interaction. */
 static size_t trace_surfaces(const trace_context *context) {
     size_t upwards = 0;
     aur_hit hit;
@@ -52,7 +52,7 @@ static aur_result trace(void *data, size_t index) {
     return AUR_OK;
 }
 
-/* One item on one thread: with denormals flushed, as the renderer traces. */
+/* Runs an item on one thread with denormals flushed, like the renderer. */
 static void run_trace(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     aur_parallel_for(&one_thread, 1, trace, context, NULL);
@@ -75,7 +75,7 @@ static void compare(const bench_options *options, const aur_scene *scene, const 
     bench_print_pair(label, "Embree, one by one", "Mray", 1e6, &pair);
 }
 
-/* Cosine distributed from where the ray hits; a ray that hits nothing is kept. */
+/* Cosine-distributed from the hit point; a ray without a hit is unchanged. */
 static aur_ray secondary_ray(const aur_scene *scene, const aur_ray *primary, size_t index) {
     aur_hit hit;
     if (!aur_scene_intersect(scene, primary, &hit))

@@ -1,5 +1,5 @@
-/* What sharing gathered light among pixels leaves of the error, and how even that error is: images by the
- * same directions with each choice of the key `share`, two seeds each. */
+/* Sharing gathered light between pixels: the error that is left and its uniformity. Renders the same
+ * directions with each value of the key `share`, with two seeds. */
 #include <aureole-render/render.h>
 #include <stdio.h>
 
@@ -12,7 +12,7 @@ static const char *const scenes[] = {"cornell-box/cornell-box.xml", "cornell-box
 static const char *const shares[] = {"false", "near", "true"};
 static const size_t directions[] = {4, 16};
 
-/* The mean of all values, and how much two images differ; CPU seconds of one. */
+/* Mean of all values, difference of two images, and CPU seconds of one image. */
 typedef struct shared_error {
     double mean, error, clumps, seconds;
 } shared_error;
@@ -61,15 +61,15 @@ static bool run_scene(const bench_options *options, const char *scene, aur_rende
                      "finalgather:photons=100000,short_rays=4,edges=256,light_samples=4,"
                      "diffuse_samples=%zu,glossy_samples=64,share=%s",
                      directions[d], shares[s]);
-            const aur_render_options picture = {.size = sizeof picture,
-                                                .integrator = integrator,
-                                                .sampler = "sobol",
-                                                .filter = "box",
-                                                .threads = 1,
-                                                .width = side,
-                                                .height = side,
-                                                .samples_per_pixel = 4};
-            if (!measure(renderer, picture, &found, &error))
+            const aur_render_options render = {.size = sizeof render,
+                                               .integrator = integrator,
+                                               .sampler = "sobol",
+                                               .filter = "box",
+                                               .threads = 1,
+                                               .width = side,
+                                               .height = side,
+                                               .samples_per_pixel = 4};
+            if (!measure(renderer, render, &found, &error))
                 return bench_fail("%s", error.message);
             printf(
                 "%s, %zu directions, share=%s: error %.3g %%, means over %d x %d pixels %.2f of independent "

@@ -1,4 +1,4 @@
-/* Optimal weights against the linear algebra that they cannot do without. */
+/* Optimal weights against the linear algebra that they require. */
 #include <aureole/quadrature.h>
 #include <lapacke.h>
 #include <math.h>
@@ -9,11 +9,11 @@
 #include "points/base/random.h"
 #include "points/quadrature/kernel.h"
 
-/* Samples, their densities made ready as a renderer keeps them, and room for what is computed. */
+/* Samples, their densities precomputed as in a renderer, and space for the results. */
 typedef struct solve_context {
     size_t count;
     double *xyz, *columns, *weights;
-    double *system; /* K, as dposv wants it; then as many right-hand sides as the weights need */
+    double *system; /* K in the layout of dposv, then the right-hand sides of the weights */
     double *work;
     lapack_int right_count;
     size_t potential_count;
@@ -41,10 +41,10 @@ static bool make_points(size_t count, double exponent, double *xyz) {
     return result == AUR_OK;
 }
 
-/* Exponents follow one another; all samples are drawn for the first. */
+/* Exponents are evaluated one after the other; all samples are drawn for the first one. */
 static bool open_solve(size_t count, size_t potential_count, const double *exponents,
                        solve_context *context) {
-    const size_t right = potential_count + 1; /* the sum constraint is one more */
+    const size_t right = potential_count + 1; /* one more for the sum constraint */
     const size_t doubles = count * (count + right);
     *context = (solve_context){.count = count,
                                .right_count = (lapack_int)right,
@@ -101,14 +101,14 @@ static void run_assembly(void *data) {
 }
 
 static bool bench_solves(const bench_options *options) {
-    /* Diffuse and glossy alone: short and long series of the potential are both behind its table. */
+    /* Diffuse and glossy alone: a table covers both long and short series of the potential. */
     static const double exponents[] = {1.0, 20.0};
     static const char *const names[] = {"solve, N 128, m 1", "solve, N 128, m 20"};
     for (size_t i = 0; i < 2; ++i) {
         solve_context context;
         const bool opened = open_solve(128, 1, exponents + i, &context);
         if (opened) {
-            run_solve(&context); /* holds OpenBLAS to one thread */
+            run_solve(&context); /* restricts OpenBLAS to one thread */
             const bench_work limit = {run_dposv, &context, 1.0};
             const bench_work subject = {run_solve, &context, 1.0};
             const bench_pair pair = bench_compare(options, &subject, &limit);
@@ -135,7 +135,7 @@ static const aur_oswa_options pair_options = {.size = sizeof(aur_oswa_options),
                                               .mirror_lobe = {.exponent = 20.0}};
 
 static void run_table(void *data) {
-    const size_t *const size = data; /* angles, rotations */
+    const size_t *const size = data; /* angles and rotations */
     aur_weight_table *table;
     if (aur_weight_table_build(&pair_options,
                                &(aur_weight_table_grid){sizeof(aur_weight_table_grid), size[0], 1, size[1]},
@@ -162,13 +162,13 @@ static bool bench_table(const bench_options *options) {
 typedef struct look_up_context {
     aur_weight_table *table;
     size_t row_count;
-    float *rows; /* as many as the table has, and as far apart in memory */
+    float *rows; /* the size and stride of the table */
     float weights[SAMPLES];
 } look_up_context;
 
 enum { LOOK_UPS = 4096 };
 
-/* Angle and rotation of every look-up are hashed, as neighbouring pixels would have them. */
+/* Angle and rotation of each look-up come from a hash, as for neighboring pixels. */
 static void run_look_up(void *data) {
     look_up_context *const context = data;
     for (uint64_t i = 0; i < LOOK_UPS; ++i) {
@@ -206,7 +206,7 @@ static bool bench_look_up(const bench_options *options) {
         context.rows = malloc(floats * sizeof *context.rows);
         if (context.rows == NULL)
             return bench_fail("weights: no memory for %zu rows", context.row_count);
-        for (size_t i = 0; i < floats; ++i) /* pages that nobody wrote would all be one in the cache */
+        for (size_t i = 0; i < floats; ++i) /* untouched pages would all map to one page in the cache */
             context.rows[i] = 1.0f;
         const bench_work limit = {run_copy, &context, LOOK_UPS};
         const bench_work subject = {run_look_up, &context, LOOK_UPS};

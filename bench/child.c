@@ -51,7 +51,8 @@ static bool wait_for(pid_t child, const char *what, bench_child_cost *cost) {
     return true;
 }
 
-/* An interrupt is for the bench alone: the program would leave its image as it is then. */
+/* A terminal interrupt must reach only the bench: the program would write a partial image. Kills the child
+ * when the bench ends. */
 static void end_with_parent(pid_t parent) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -64,7 +65,7 @@ bool bench_run_child(const char *const *arguments, bench_child_cost *cost) {
     if (!program_folder(program, sizeof program - 16))
         return false;
     strcat(program, "/aureole");
-    /* execv takes its words without const and leaves them alone. */
+    /* execv takes non-const strings but does not change them. */
     union {
         const char *read_only;
         char *word;

@@ -1,5 +1,5 @@
-/* Whether the error of an image has a pattern, from the difference of two images of other seeds: what both
- * are wrong by alike is not seen. */
+/* Spatial patterns in the error of an image, measured on the difference of two images with different seeds.
+ * Errors common to both cancel. */
 #pragma once
 
 #include <math.h>
@@ -12,7 +12,7 @@ typedef struct error_pattern {
     double *differences; /* [3 * width * height] */
 } error_pattern;
 
-/* The difference of two images, three channels a pixel first. False when out of memory. */
+/* The difference of two images whose first three channels are colors. False when out of memory. */
 static inline bool error_pattern_open(size_t width, size_t height, size_t channels, const float *a,
                                       const float *b, error_pattern *pattern) {
     *pattern = (error_pattern){width, height, malloc(3 * width * height * sizeof *pattern->differences)};
@@ -27,7 +27,7 @@ static inline void error_pattern_close(error_pattern *pattern) {
     pattern->differences = NULL;
 }
 
-/* Sums over blocks of side x side pixels: of the squares of sums of differences, and of their squares. */
+/* Sums over blocks of side x side pixels: of squared block sums, and of squared differences. */
 typedef struct error_blocks {
     double of_sums, of_each;
 } error_blocks;
@@ -50,14 +50,14 @@ static inline error_blocks error_pattern_blocks(const error_pattern *pattern, si
     return squares;
 }
 
-/* The root mean square of means over side x side pixels, in units of what independent errors of the same root
- * mean square leave there. */
+/* The root mean square of means over side x side pixels, relative to that of independent errors with the same
+ * root mean square. */
 static inline double error_pattern_clumps(const error_pattern *pattern, size_t side) {
     const error_blocks squares = error_pattern_blocks(pattern, side);
     return squares.of_each > 0.0 ? sqrt(squares.of_sums / squares.of_each) : 0.0;
 }
 
-/* The mean of products of differences that lie `lag` pixels apart, along rows or columns. */
+/* The mean product of differences `lag` pixels apart, along rows or columns. */
 static inline double error_pattern_product(const error_pattern *pattern, size_t lag, bool down) {
     const size_t step = 3 * lag * (down ? pattern->width : 1);
     const size_t width = pattern->width - (down ? 0 : lag), height = pattern->height - (down ? lag : 0);
@@ -70,9 +70,9 @@ static inline double error_pattern_product(const error_pattern *pattern, size_t 
     return sum / (3.0 * (double)(width * height));
 }
 
-/* How much more alike the errors of pixels are that lie `lag` apart, along rows or columns, than those of
- * pixels one nearer and one farther: over its standard error. Differences of two images are distributed
- * evenly about 0, so where there is no peak this is nearly normal, with deviation 1. */
+/* The excess correlation of errors `lag` pixels apart, along rows or columns, over lags one smaller and one
+ * larger, in standard errors. Differences of two images are symmetric about 0, so without a peak the value is
+ * approximately standard normal. */
 static inline double error_pattern_peak(const error_pattern *pattern, size_t lag, bool down) {
     const size_t step = down ? pattern->width : 1;
     const size_t width = pattern->width - (down ? 0 : lag + 1);

@@ -1,4 +1,4 @@
-/* A folder for the files of one bench, in /tmp. */
+/* A temporary folder in /tmp for the files of one bench. */
 #pragma once
 
 #include <stdbool.h>
@@ -9,5 +9,5 @@ typedef struct bench_folder {
 
 /* False after bench_fail. */
 bool bench_folder_create(bench_folder *folder);
-/* Removes it with all files in it. */
+/* Removes it and the files in it. */
 void bench_folder_remove(const bench_folder *folder);

@@ -1,6 +1,6 @@
-/* Fixed patterns of several sizes are rendered over the same photon map and the same primary hits, a line is
- * laid through the logarithms of their errors and rays, and where it has the error of the adaptive image
- * the rays are compared. Every seed of the patterns is one such comparison. */
+/* Renders fixed patterns of several sizes with the same photon map and primary hits, fits a line to the
+ * logarithms of rays and error, and compares the number of rays at the error of the adaptive image. Each seed
+ * of the patterns gives one comparison. */
 #include "gather_adaptive.h"
 #include "program/lab/gather.h"
 
@@ -29,7 +29,7 @@ typedef struct adaptive_context {
 } adaptive_context;
 
 typedef struct outcome {
-    double rays;  /* that gathered */
+    double rays;  /* pixels that gathered */
     double error; /* RMSE */
 } outcome;
 
@@ -52,21 +52,22 @@ static bool measure(adaptive_context *context, const char *keys, size_t seed, ou
     aur_image *image = NULL;
     if (!render(context, keys, seed, &image, &found->rays))
         return false;
-    const float *const picture = aur_image_data(image);
+    const float *const values = aur_image_data(image);
     const float *const reference = aur_image_data(context->reference);
     double sum = 0.0;
     for (size_t pixel = 0; pixel < context->side * context->side; ++pixel)
         for (size_t c = 0; c < 3; ++c) {
-            const double off = (double)picture[pixel * aur_image_channel_count(image) + c] -
-                               (double)reference[pixel * aur_image_channel_count(context->reference) + c];
-            sum += off * off;
+            const double difference =
+                (double)values[pixel * aur_image_channel_count(image) + c] -
+                (double)reference[pixel * aur_image_channel_count(context->reference) + c];
+            sum += difference * difference;
         }
     found->error = sqrt(sum / (double)(3 * context->side * context->side));
     aur_image_destroy(image);
     return true;
 }
 
-/* The line log rays = a + b log error, by least squares. */
+/* Fits log rays = a + b log error by least squares. */
 typedef struct line {
     double a, b;
 } line;
@@ -76,7 +77,7 @@ static bool fit_fixed(adaptive_context *context, size_t seed, line *fitted) {
     for (size_t i = 0; i < FIXED_COUNT; ++i) {
         char keys[80];
         outcome found;
-        /* 80 + 40 to 320 + 160, where the adaptive images' errors lie. */
+        /* 80 + 40 to 320 + 160 rays: the range of the adaptive images' errors. */
         const size_t glossy = (size_t)(40.0 * pow(4.0, (double)i / (FIXED_COUNT - 1)) + 0.5);
         snprintf(keys, sizeof keys, "diffuse_samples=%zu,glossy_samples=%zu", 2 * glossy, glossy);
         if (!measure(context, keys, seed, &found))
@@ -95,7 +96,7 @@ static bool fit_fixed(adaptive_context *context, size_t seed, line *fitted) {
     return true;
 }
 
-static bool compare(adaptive_context *context, const char *name, const char *keys, double asked,
+static bool compare(adaptive_context *context, const char *name, const char *keys, double target,
                     const line *fixed, bench_figures *figures) {
     char all[160];
     snprintf(all, sizeof all, "adaptive=true,%s", keys);
@@ -110,7 +111,7 @@ static bool compare(adaptive_context *context, const char *name, const char *key
     printf("  %-36s %.3f [%.3f, %.3f] of the rays of fixed patterns at equal error, %zu seeds\n", name,
            exp(mean), exp(mean - half), exp(mean + half), context->seeds);
     fflush(stdout);
-    bench_figures_add(figures, asked > 0.0 ? BENCH_AT_MOST : BENCH_NOTED, asked, exp(mean), "",
+    bench_figures_add(figures, target > 0.0 ? BENCH_AT_MOST : BENCH_NOTED, target, exp(mean), "",
                       "6. adaptive, %s: rays / fixed at equal error", name);
     return true;
 }
@@ -118,7 +119,7 @@ static bool compare(adaptive_context *context, const char *name, const char *key
 static bool run_with(adaptive_context *context, bench_figures *figures) {
     static const struct {
         const char *name, *keys;
-        double asked;
+        double target;
     } ways[] = {
         {"variance, x2", "diffuse_samples=64,glossy_samples=32,level_factor=2,levels=4,threshold=0.02", 0.7},
         {"variance, x4", "diffuse_samples=40,glossy_samples=20,criterion=variance", 0.7},
@@ -127,7 +128,7 @@ static bool run_with(adaptive_context *context, bench_figures *figures) {
     double rays;
     snprintf(keys, sizeof keys, "diffuse_samples=%zu,glossy_samples=%zu", context->reference_directions,
              context->reference_directions / 2);
-    /* The photon map is made here and kept. */
+    /* Builds the photon map, which later renders use. */
     if (!render(context, keys, REFERENCE_SEED, &context->reference, &rays))
         return false;
     line fixed[SEEDS];
@@ -135,7 +136,7 @@ static bool run_with(adaptive_context *context, bench_figures *figures) {
     for (size_t k = 0; k < context->seeds && good; ++k)
         good = fit_fixed(context, k, &fixed[k]);
     for (size_t i = 0; i < sizeof ways / sizeof ways[0] && good; ++i)
-        good = compare(context, ways[i].name, ways[i].keys, ways[i].asked, fixed, figures);
+        good = compare(context, ways[i].name, ways[i].keys, ways[i].target, fixed, figures);
     aur_image_destroy(context->reference);
     return good;
 }

@@ -1,8 +1,8 @@
-/* What adaptive gathering saves: its rays over those of fixed patterns that reach the same error. */
+/* Gain of adaptive gathering: its rays over those of fixed patterns with the same error. */
 #pragma once
 
 #include "bench.h"
 #include "figures.h"
 
-/* The glossy Cornell box by both criteria. Adds its figures; false after bench_fail. */
+/* The glossy Cornell box with both criteria. Adds its results; false after bench_fail. */
 bool bench_gather_adaptive(const bench_options *options, bench_figures *figures);

@@ -1,4 +1,4 @@
-/* The irradiance map by itself: what a look-up costs, and what a photon costs in memory. */
+/* The irradiance map alone: cost of a look-up, and memory per photon. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,8 +23,8 @@ typedef struct lookups {
     query *queries;
 } lookups;
 
-/* The elements by how many texels they are cut in, so that every texel is met about equally often. False:
- * out of memory. */
+/* Queries with elements in proportion to their texels, so that all texels are reached equally often. False
+ * when out of memory. */
 static bool make_queries(const aur_irradiance_map *map, size_t count, query *queries) {
     const aur_texels *const texels = &map->texels;
     const size_t elements = texels->elements.count;
@@ -72,7 +72,7 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Nanoseconds of a look-up right after so much other memory was written that no cache holds the map. */
+/* Nanoseconds of a look-up after other memory has replaced the map in all caches. */
 static double cold_nanoseconds(const bench_options *options, lookups *work) {
     const size_t size = options->quick ? (size_t)1 << 20 : (size_t)128 << 20;
     char *const other = malloc(size);
@@ -91,7 +91,7 @@ static double cold_nanoseconds(const bench_options *options, lookups *work) {
 }
 
 static bool measure(const bench_options *options, const aur_irradiance_map *map, bench_figures *figures) {
-    /* Cold: each texel about once, so that hardly any line is met again. */
+    /* Cold: about one look-up per texel, so that cache lines are rarely reused. */
     lookups warm = {.map = map, .count = WARM_QUERIES};
     lookups cold = {.map = map, .count = map->texels.count};
     const size_t most = warm.count > cold.count ? warm.count : cold.count;
@@ -137,23 +137,23 @@ bool bench_gather_lookups(const bench_options *options, bench_figures *figures) 
 bool bench_gather_memory(const bench_options *options, bench_figures *figures) {
     const size_t counts[2] = {options->quick ? 20000 : 500000, options->quick ? 100000 : 2500000};
     static const char *const scenes[] = {"cornell-box", "glossy"};
-    char folder[4000], picture[4096];
+    char folder[4000], image_path[4096];
     if (!bench_data_folder(folder, sizeof folder))
         return false;
-    snprintf(picture, sizeof picture, "%s/memory-%ld.pfm", folder, (long)getpid());
+    snprintf(image_path, sizeof image_path, "%s/memory-%ld.pfm", folder, (long)getpid());
     for (size_t k = 0; k < 2; ++k) {
         double peaks[2];
         for (size_t i = 0; i < 2; ++i) {
             char scene[4096], integrator[96];
             snprintf(scene, sizeof scene, "%s/scenes/cornell-box/%s.xml", AUR_SOURCE_DIR, scenes[k]);
             snprintf(integrator, sizeof integrator, "finalgather:photons=%zu", counts[i]);
-            const char *const words[] = {"render", scene, "-q", "--integrator", integrator, "--spp",   "1",
-                                         "-t",     "1",   "-D", "resx=16",      "-D",       "resy=16", "-o",
-                                         picture,  NULL};
+            const char *const words[] = {"render",   scene, "-q", "--integrator", integrator, "--spp",   "1",
+                                         "-t",       "1",   "-D", "resx=16",      "-D",       "resy=16", "-o",
+                                         image_path, NULL};
             bench_child_cost cost;
             if (!bench_run_child(words, &cost))
                 return false;
-            unlink(picture);
+            unlink(image_path);
             peaks[i] = cost.peak_bytes;
         }
         const double bytes = (peaks[1] - peaks[0]) / (double)(counts[1] - counts[0]);

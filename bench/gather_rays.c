@@ -39,7 +39,7 @@ static aur_result replay(void *data, size_t index) {
     return AUR_OK;
 }
 
-/* One item on one thread: with denormals flushed, as the renderer traces. */
+/* Runs an item on one thread with denormals flushed, like the renderer. */
 static void run_replay(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     aur_parallel_for(&one_thread, 1, replay, context, NULL);
@@ -47,7 +47,7 @@ static void run_replay(void *context) {
 
 static bool record(gather_context *context) {
     context->recorder.count = context->recorder.rays = context->recorder.coherent_rays = 0;
-    render(context); /* makes the photon map, whose rays are not of interest */
+    render(context); /* builds the photon map, whose rays do not count */
     bench_record_packets(&context->recorder);
     render(context);
     bench_record_packets(NULL);
@@ -58,7 +58,7 @@ static bool record(gather_context *context) {
     return true;
 }
 
-/* Indirect light of diffuse surfaces only: one packet of primary rays for 32 of gather rays. */
+/* Only indirect light of diffuse surfaces: one packet of primary rays per 32 packets of gather rays. */
 #define GATHER "finalgather-lab:direct=none,edges=0,component=diffuse,photons=100000,diffuse_samples=32"
 
 static bool compare(const bench_options *options, gather_context *context, const char *name, bool flat,
@@ -84,11 +84,11 @@ static bool compare(const bench_options *options, gather_context *context, const
     if (context->failed || single.failed || shared.failed)
         return bench_fail("%s", context->error.message);
     const double limit = pair.limit / 1e6;
-    const double asked = limit < 10.0 ? 0.80 : limit > 40.0 ? 0.45 : 0.0;
+    const double target = limit < 10.0 ? 0.80 : limit > 40.0 ? 0.45 : 0.0;
     bench_figures_add(figures, BENCH_NOTED, 0.0, limit, "Mray", "1. %s: bare Embree, a CPU second", name);
     bench_figures_add(figures, BENCH_NOTED, 0.0, (double)context->recorder.coherent_rays / packet_rays, "",
                       "1. %s: part of the rays traced as coherent", name);
-    bench_figures_add(figures, asked > 0.0 ? BENCH_AT_LEAST : BENCH_NOTED, asked, pair.ratio, "",
+    bench_figures_add(figures, target > 0.0 ? BENCH_AT_LEAST : BENCH_NOTED, target, pair.ratio, "",
                       "1. %s: rays / bare Embree", name);
     bench_figures_add(figures, BENCH_AT_LEAST, flat ? 2.0 : 1.0, against.ratio, "",
                       "1. %s: packets / single rays", name);
@@ -114,8 +114,8 @@ static bool run_scene(const bench_options *options, const char *path, const char
     if (aur_scene_load(path, NULL, &scene, &context.error) != AUR_OK)
         return bench_fail("%s: %s", context.error.file, context.error.message);
     context.scene = scene;
-    /* A group's lanes need not have one rule, nor be full: room for four times as many packets as full ones.
-     * Two packets more for the replay's prefetch. */
+    /* Lanes of a group may have different rules and groups may be partly filled: capacity for four times as
+     * many packets as when full. Two more packets for the prefetch of the replay. */
     const size_t size = aur_embree_scene_packet_size(aur_scene_embree(scene));
     context.recorder.capacity = 4 * side * side * (DIRECTIONS + 1) / (size > 0 ? size : 1);
     context.recorder.packets = malloc((context.recorder.capacity + 3) * sizeof *context.recorder.packets);

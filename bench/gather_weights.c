@@ -1,5 +1,5 @@
-/* Rendering is timed a tile at a time, each tile by the two ways in turns: what slows the machine for longer
- * than a few milliseconds then slows both. */
+/* Times single tiles, each with both methods alternately: disturbances longer than a few milliseconds then
+ * affect both. */
 #include "gather_weights.h"
 #include "program/lab/gather.h"
 
@@ -20,7 +20,7 @@ typedef struct gather_context {
     aur_error error;
 } gather_context;
 
-/* One way to weigh. */
+/* A method of weighting. */
 typedef struct gather_way {
     gather_context *context;
     aur_integrator *integrator;
@@ -34,17 +34,18 @@ static bool prepare(gather_context *context, const char *keys, gather_way *way) 
                                   ? "photons=500000,diffuse_samples=64,glossy_samples=32"
                                   : "photons=2000,diffuse_samples=16,glossy_samples=8,rotations=2";
     snprintf(text, sizeof text, "finalgather-lab:%s,density=same,%s", sizes, keys);
-    const aur_integrator_context wanted = {.scene = context->scene,
-                                           .samples_per_pixel = 1,
-                                           .threads = 1,
-                                           .cache = context->cache,
-                                           .gather = &lab_finalgather};
+    const aur_integrator_context integrator_context = {.scene = context->scene,
+                                                       .samples_per_pixel = 1,
+                                                       .threads = 1,
+                                                       .cache = context->cache,
+                                                       .gather = &lab_finalgather};
     aur_parameters parameters;
     *way = (gather_way){.context = context};
     if (aur_parameters_parse(&parameters, "integrator", text, &context->error) != AUR_OK)
         return bench_fail("%s", context->error.message);
     const double start = bench_cpu_seconds();
-    const aur_result result = aur_integrator_create(&parameters, &wanted, &way->integrator, &context->error);
+    const aur_result result =
+        aur_integrator_create(&parameters, &integrator_context, &way->integrator, &context->error);
     way->prepare_seconds = bench_cpu_seconds() - start;
     aur_parameters_release(&parameters);
     return result == AUR_OK || bench_fail("%s", context->error.message);
@@ -76,7 +77,7 @@ static aur_result render_tile(gather_way *way, size_t index) {
     return result;
 }
 
-/* All tiles by both ways, the first one first at every other tile and round. */
+/* Renders all tiles with both methods, in alternating order by tile and round. */
 typedef struct round_of_tiles {
     gather_way *ways[2];
     size_t number;
@@ -103,19 +104,19 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* How many per cent more time than equal weights, the median over many rounds. */
+/* Extra time over equal weights in percent: the median over many rounds. */
 static bool compare(const bench_options *options, gather_context *context, const char *name, const char *keys,
                     gather_way *equal, double *percent) {
     enum { CAPACITY = 128 };
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
-    const size_t wanted = ROUNDS * options->pairs + 1;
-    const size_t rounds = wanted < CAPACITY ? wanted : CAPACITY;
+    const size_t integrator_context = ROUNDS * options->pairs + 1;
+    const size_t rounds = integrator_context < CAPACITY ? integrator_context : CAPACITY;
     double more[CAPACITY];
     gather_way way;
     bool good = prepare(context, keys, &way);
     round_of_tiles round = {.ways = {equal, &way}};
     for (; round.number < rounds + 1 && good; ++round.number) {
-        /* On one thread of ours: with denormals flushed, as the renderer traces. The first round warms up. */
+        /* On one thread with denormals flushed, like the renderer. The first round warms up. */
         good = aur_parallel_for(&one_thread, 1, render_round, &round, NULL) == AUR_OK ||
                bench_fail("out of memory");
         if (good && round.number > 0)
@@ -136,14 +137,14 @@ static bool compare(const bench_options *options, gather_context *context, const
 static bool run_with(const bench_options *options, gather_context *context, bench_figures *figures) {
     static const struct {
         const char *name, *keys;
-        double asked; /* at most, per cent; 0: noted */
+        double target; /* upper limit in percent; 0: no target */
     } ways[] = {{"equal weights again", "weights=equal", 0.0},
                 {"OSWA by table", "weights=oswa", 1.0},
                 {"OSWA, a solve a point", "weights=oswa-solve", 0.0},
                 {"OSW", "weights=osw", 0.0},
                 {"MIS", "weights=mis", 0.0}};
     gather_way first, equal;
-    /* The photon map is made here and kept. */
+    /* Builds the photon map, which later renders use. */
     bool good = prepare(context, "weights=equal", &first);
     if (good)
         aur_integrator_destroy(first.integrator);
@@ -152,8 +153,8 @@ static bool run_with(const bench_options *options, gather_context *context, benc
     for (size_t i = 0; i < sizeof ways / sizeof ways[0] && good; ++i) {
         double percent = 0.0;
         good = compare(options, context, ways[i].name, ways[i].keys, &equal, &percent);
-        bench_figures_add(figures, ways[i].asked > 0.0 ? BENCH_AT_MOST : BENCH_NOTED, ways[i].asked, percent,
-                          "%", "3. %s: time over equal weights", ways[i].name);
+        bench_figures_add(figures, ways[i].target > 0.0 ? BENCH_AT_MOST : BENCH_NOTED, ways[i].target,
+                          percent, "%", "3. %s: time over equal weights", ways[i].name);
     }
     aur_integrator_destroy(equal.integrator);
     return good;

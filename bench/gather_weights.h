@@ -1,9 +1,9 @@
-/* What optimal weights cost in an image (Marques 2018, section 6: 7m40s against 7m36s). */
+/* Cost of optimal weights in an image (Marques 2018, section 6: 7m40s against 7m36s). */
 #pragma once
 
 #include "bench.h"
 #include "figures.h"
 
-/* The final gather of the glossy Cornell box, all preparation apart, by each kind of weights against equal
- * ones. Adds its figures; false after bench_fail. */
+/* Final gathering of the glossy Cornell box without preparation, with each kind of weights against equal
+ * weights. Adds its results; false after bench_fail. */
 bool bench_gather_weights_cost(const bench_options *options, bench_figures *figures);

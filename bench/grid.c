@@ -1,4 +1,4 @@
-/* A large mesh: a waving square. */
+/* A large mesh: a wavy square. */
 #include "grid.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "render/scene/scene.h"
 #include "render/trace/embree.h"
 
-/* Rounded so that a text of 6 digits gives the same mesh. */
+/* Rounded so that 6 decimal digits reproduce the mesh. */
 static float rounded(double x) {
     return (float)(floor(x * 1e5 + 0.5) * 1e-5);
 }
@@ -23,9 +23,9 @@ bool bench_grid_create(bench_grid *g, size_t side) {
         return bench_fail("out of memory");
     for (size_t i = 0; i < g->vertex_count; ++i) {
         const double x = (double)(i % (side + 1)) / (double)side, y = (double)(i / (side + 1)) / (double)side;
-        const double place[3] = {x, y, 0.05 * sin(40.0 * x) * sin(40.0 * y)};
+        const double position[3] = {x, y, 0.05 * sin(40.0 * x) * sin(40.0 * y)};
         for (size_t k = 0; k < 3; ++k)
-            g->positions[3 * i + k] = rounded(place[k]);
+            g->positions[3 * i + k] = rounded(position[k]);
     }
     for (size_t i = 0; i < side * side; ++i) {
         const uint32_t a = (uint32_t)(i / side * (side + 1) + i % side), b = a + (uint32_t)side + 1;

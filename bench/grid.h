@@ -1,4 +1,4 @@
-/* A large mesh: a waving square of 2 side^2 triangles. */
+/* A large mesh: a wavy square of 2 side^2 triangles. */
 #pragma once
 
 #include <stdbool.h>
@@ -12,9 +12,9 @@ typedef struct bench_grid {
     uint32_t *indices; /* three of each triangle */
 } bench_grid;
 
-/* False after bench_fail; to be released in either case. */
+/* False after bench_fail; call bench_grid_release in either case. */
 bool bench_grid_create(bench_grid *g, size_t side);
 void bench_grid_release(bench_grid *g);
 void bench_grid_write_ply(const bench_grid *g, FILE *file);
-/* Embree's own tree of it, made and given back, as a scene of ours asks for it. */
+/* Builds and frees Embree's tree of the mesh, with the settings of an Aureole scene. */
 void bench_grid_build(const bench_grid *g);

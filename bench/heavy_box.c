@@ -55,7 +55,7 @@ static bool write_scene(const char *path, const char *mesh) {
     return fclose(file) == 0;
 }
 
-/* A sphere about the origin whose radius waves between 100 and 125: `rows` by `rows` quads. */
+/* A sphere about the origin with a wavy radius between 100 and 125: `rows` by `rows` quads. */
 static bool write_mesh(const char *path, size_t rows) {
     FILE *const file = fopen(path, "wb");
     if (file == NULL)
@@ -92,6 +92,6 @@ bool bench_heavy_box(const char *folder, size_t triangles, char *path, size_t ca
         return bench_fail("the path of %s is too long", folder);
     if (access(path, R_OK) == 0)
         return true;
-    /* The scene last: where it is, the mesh is whole. */
+    /* The scene is written last: if it exists, the mesh is complete. */
     return (write_mesh(mesh, rows) && write_scene(path, mesh)) || bench_fail("%s cannot be written", folder);
 }

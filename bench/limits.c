@@ -1,4 +1,4 @@
-/* Memory and arithmetic limits; those of Embree are in limits_rays.c. */
+/* Memory and arithmetic limits; limits_rays.c has those of Embree. */
 #include "limits.h"
 
 #include <math.h>
@@ -81,7 +81,7 @@ static void close_memory(bench_work *work) {
     work->context = NULL;
 }
 
-/* Pages are touched here, so that no measurement pays for them. */
+/* Touches the pages, so that measurements include no page faults. */
 static double *allocate(size_t count) {
     double *const values = aligned_alloc(64, count * sizeof *values);
     for (size_t i = 0; values != NULL && i < count; ++i)

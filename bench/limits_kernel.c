@@ -61,7 +61,7 @@ static void copy_stream(size_t count, const double *from, double *to) {
     end_stream();
 }
 
-/* Eight chains of additions: enough to keep the loads busy. */
+/* Eight independent sums: enough to saturate the loads. */
 static double read(size_t count, const double *values) {
     wide_f64 sums[8] = {0};
     for (size_t i = 0; i < count; i += 8 * LANES_F64)
@@ -74,7 +74,7 @@ static double read(size_t count, const double *values) {
     return sum;
 }
 
-/* x <- 0.5 x + c in chains that do not depend on each other; every chain stays near 2 c. */
+/* x <- 0.5 x + c in independent chains; each converges to 2 c. */
 static double fma_f32(size_t rounds) {
     wide_f32 chains[BENCH_FMA_ACCUMULATORS] = {0};
     const wide_f32 half = (wide_f32){0} + 0.5f;

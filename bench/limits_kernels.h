@@ -1,5 +1,4 @@
-/* The arithmetic and memory loops of limits.c: limits_kernel.c, which CMake compiles once for each
- * instruction set. */
+/* The arithmetic and memory loops of limits.c: CMake compiles limits_kernel.c for each instruction set. */
 #pragma once
 
 #include <stddef.h>
@@ -19,7 +18,7 @@ typedef struct bench_kernels {
     /* All count^2 ordered pairs; xyz holds count x, then count y, then count z. */
     double (*pairs_f32)(size_t count, const float *xyz);
     double (*pairs_f64)(size_t count, const double *xyz);
-    size_t bytes; /* the width of a register */
+    size_t bytes; /* lanes of a register */
 } bench_kernels;
 
 AUR_KERNELS(const bench_kernels, bench_kernels);

@@ -1,4 +1,4 @@
-/* Embree alone: what any integrator's tracing is measured against. */
+/* Embree alone: the baseline of every integrator's ray tracing. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -49,7 +49,7 @@ static bool add_box(RTCDevice device, RTCScene scene) {
     return add_mesh(device, scene, 8, vertices, 12, indices);
 }
 
-/* A sphere about the origin whose radius waves: `rows` by `rows` quads. */
+/* A sphere about the origin with a wavy radius: `rows` by `rows` quads. */
 static bool add_bumpy_sphere(RTCDevice device, RTCScene scene, size_t rows) {
     const size_t side = rows + 1;
     aur_vector *const vertices = malloc(side * side * sizeof *vertices);
@@ -84,7 +84,7 @@ static aur_ray primary_ray(size_t index) {
         .origin = {0.01f, -0.97f, 0.02f}, .direction = aur_vector_normalize(direction), .farthest = INFINITY};
 }
 
-/* From the primary hit, cosine distributed about the normal that faces the eye. */
+/* From the primary hit, cosine-distributed about the normal that faces the camera. */
 static aur_ray secondary_ray(RTCScene scene, size_t index, float farthest) {
     const aur_ray primary = primary_ray(index);
     struct RTCRayHit query = bench_query(&primary);
@@ -106,7 +106,7 @@ static aur_result trace(void *data, size_t index) {
     return AUR_OK;
 }
 
-/* One item on one thread: with denormals flushed, as the renderer traces. */
+/* Runs an item on one thread with denormals flushed, like the renderer. */
 static void run_rays(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     aur_parallel_for(&one_thread, 1, trace, context, NULL);
@@ -149,7 +149,7 @@ static bool open_rays(const bench_limit *limit, const bench_options *options, be
         return bench_fail("Embree cannot build the scene of %s", limit->name);
     }
     rtcCommitScene(scene);
-    /* Half a room ahead: some rays are stopped and some are not. */
+    /* Half the size of the room, so that some rays are occluded and some are not. */
     const float farthest = form == OCCLUDED ? 1.0f : INFINITY;
     for (size_t i = 0; i < RAY_COUNT; ++i)
         context->stored[i] = form == PRIMARY ? primary_ray(i) : secondary_ray(scene, i, farthest);

@@ -11,11 +11,11 @@ void bench_record_packets(bench_packet_recorder *recorder) {
     current = recorder;
 }
 
-/* A packet of `size` rays is rows of so many numbers, in the order of struct RTCRayHit16. */
+/* A packet of `size` rays is an array of rows, in the order of struct RTCRayHit16. */
 enum { ORIGIN = 0, NEAREST = 3, DIRECTION = 4, FARTHEST = 8, MASK = 9, GEOMETRY = 18, INSTANCE = 19 };
 enum { ROWS = sizeof(struct RTCRayHit16) / sizeof(float[BENCH_RECORDED_LANES]) };
 
-static void keep(size_t size, const int *valid, const void *rays, bool coherent, bool occluded) {
+static void record(size_t size, const int *valid, const void *rays, bool coherent, bool occluded) {
     if (current == NULL)
         return;
     uint16_t lanes = 0;
@@ -41,7 +41,7 @@ static void keep(size_t size, const int *valid, const void *rays, bool coherent,
     packet->coherent = coherent;
 }
 
-/* Embree's own functions, which the program's of the same names hide from the libraries. */
+/* Embree's functions. The functions of the same names in this program replace them for the libraries. */
 static __typeof__(rtcIntersect4) *real_intersect4;
 static __typeof__(rtcOccluded4) *real_occluded4;
 static __typeof__(rtcIntersect8) *real_intersect8;
@@ -75,37 +75,37 @@ static bool is_coherent_shadow(const struct RTCOccludedArguments *arguments) {
 
 void rtcIntersect4(const int *valid, RTCScene scene, struct RTCRayHit4 *query,
                    struct RTCIntersectArguments *arguments) {
-    keep(4, valid, query, is_coherent(arguments), false);
+    record(4, valid, query, is_coherent(arguments), false);
     real_intersect4(valid, scene, query, arguments);
 }
 
 void rtcOccluded4(const int *valid, RTCScene scene, struct RTCRay4 *query,
                   struct RTCOccludedArguments *arguments) {
-    keep(4, valid, query, is_coherent_shadow(arguments), true);
+    record(4, valid, query, is_coherent_shadow(arguments), true);
     real_occluded4(valid, scene, query, arguments);
 }
 
 void rtcIntersect8(const int *valid, RTCScene scene, struct RTCRayHit8 *query,
                    struct RTCIntersectArguments *arguments) {
-    keep(8, valid, query, is_coherent(arguments), false);
+    record(8, valid, query, is_coherent(arguments), false);
     real_intersect8(valid, scene, query, arguments);
 }
 
 void rtcOccluded8(const int *valid, RTCScene scene, struct RTCRay8 *query,
                   struct RTCOccludedArguments *arguments) {
-    keep(8, valid, query, is_coherent_shadow(arguments), true);
+    record(8, valid, query, is_coherent_shadow(arguments), true);
     real_occluded8(valid, scene, query, arguments);
 }
 
 void rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *query,
                     struct RTCIntersectArguments *arguments) {
-    keep(16, valid, query, is_coherent(arguments), false);
+    record(16, valid, query, is_coherent(arguments), false);
     real_intersect16(valid, scene, query, arguments);
 }
 
 void rtcOccluded16(const int *valid, RTCScene scene, struct RTCRay16 *query,
                    struct RTCOccludedArguments *arguments) {
-    keep(16, valid, query, is_coherent_shadow(arguments), true);
+    record(16, valid, query, is_coherent_shadow(arguments), true);
     real_occluded16(valid, scene, query, arguments);
 }
 
@@ -117,37 +117,37 @@ static bool is_coherent(const struct RTCIntersectContext *context) {
 
 void rtcIntersect4(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                    struct RTCRayHit4 *query) {
-    keep(4, valid, query, is_coherent(context), false);
+    record(4, valid, query, is_coherent(context), false);
     real_intersect4(valid, scene, context, query);
 }
 
 void rtcOccluded4(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                   struct RTCRay4 *query) {
-    keep(4, valid, query, is_coherent(context), true);
+    record(4, valid, query, is_coherent(context), true);
     real_occluded4(valid, scene, context, query);
 }
 
 void rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                    struct RTCRayHit8 *query) {
-    keep(8, valid, query, is_coherent(context), false);
+    record(8, valid, query, is_coherent(context), false);
     real_intersect8(valid, scene, context, query);
 }
 
 void rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                   struct RTCRay8 *query) {
-    keep(8, valid, query, is_coherent(context), true);
+    record(8, valid, query, is_coherent(context), true);
     real_occluded8(valid, scene, context, query);
 }
 
 void rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                     struct RTCRayHit16 *query) {
-    keep(16, valid, query, is_coherent(context), false);
+    record(16, valid, query, is_coherent(context), false);
     real_intersect16(valid, scene, context, query);
 }
 
 void rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                    struct RTCRay16 *query) {
-    keep(16, valid, query, is_coherent(context), true);
+    record(16, valid, query, is_coherent(context), true);
     real_occluded16(valid, scene, context, query);
 }
 
@@ -165,7 +165,7 @@ static inline void restore(const bench_recorded_packet *packet, size_t size, int
         valid[k] = -(int)(packet->lanes >> k & 1u);
 }
 
-/* One packet; `rows` keep what no packet has of its own. */
+/* Replays one packet; `rows` holds the members that are the same for all packets. */
 static inline size_t replay(RTCScene scene, size_t size, const bench_recorded_packet *packet, float *rows) {
     _Alignas(64) int valid[BENCH_RECORDED_LANES];
     const aur_embree_order order = packet->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
@@ -188,7 +188,7 @@ static inline size_t replay(RTCScene scene, size_t size, const bench_recorded_pa
     return hits;
 }
 
-/* The sizes are constants where the loops over lanes are. */
+/* Constant sizes let the compiler unroll the loops over lanes. */
 static size_t replay_any(RTCScene scene, const bench_recorded_packet *packet, float *rows) {
     switch (packet->size) {
     case 16:

@@ -1,5 +1,5 @@
-/* Which packets of rays, of one size, a piece of code traces, by functions in front of Embree's as in
- * recorder.h, and the same packets again through Embree alone. */
+/* Records the ray packets of one size that a piece of code traces, with functions that replace Embree's as in
+ * recorder.h, and replays them with Embree alone. */
 #pragma once
 
 #include <stdbool.h>
@@ -10,24 +10,24 @@
 
 enum { BENCH_RECORDED_LANES = 16 };
 
-/* As small as can be, so that reading it back costs the bare tracer little. */
+/* Compact, so that reading it costs the replay little. */
 typedef struct bench_recorded_packet {
     float origin[3][BENCH_RECORDED_LANES], direction[3][BENCH_RECORDED_LANES];
     float nearest[BENCH_RECORDED_LANES], farthest[BENCH_RECORDED_LANES];
     uint16_t lanes;
     uint8_t size;  /* 4, 8 or 16 */
     bool occluded; /* any hit, else the closest */
-    bool coherent; /* the flag that it was traced with */
+    bool coherent; /* the coherent flag of the call */
 } bench_recorded_packet;
 
 typedef struct bench_packet_recorder {
-    size_t count, capacity; /* count may exceed capacity: the rest was not kept */
+    size_t count, capacity; /* count may exceed capacity: the rest was dropped */
     size_t rays, coherent_rays;
     bench_recorded_packet *packets;
 } bench_packet_recorder;
 
-/* From here on packets are kept in `recorder`; NULL ends that. On one thread only. */
+/* Starts recording packets to `recorder`; NULL stops. Single-threaded. */
 void bench_record_packets(bench_packet_recorder *recorder);
 
-/* Traces them again through Embree itself, each with its flag; how many rays hit something. */
+/* Replays the packets with Embree, each with its flag; returns the number of hits. */
 size_t bench_replay_packets(RTCScene scene, const bench_packet_recorder *recorder);

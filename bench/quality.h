@@ -7,22 +7,21 @@
 #include "bench.h"
 #include "figures.h"
 
-/* Parameters found by hand for one subject and error (recipes.c). */
+/* Hand-tuned parameters for one subject and error (recipes.c). */
 typedef struct bench_recipe {
     const char *subject;
-    double error;   /* that it is to reach */
-    double asked;   /* CPU seconds; 0: only noted; below 0: the error itself is asked, whatever the time */
-    size_t samples; /* a pixel */
+    double error;    /* target error */
+    double required; /* target CPU seconds; 0: no target; below 0: the target is the error, at any time */
+    size_t samples;  /* per pixel */
     const char *integrator;
 } bench_recipe;
 
 extern const bench_recipe bench_recipes[];
 extern const size_t bench_recipe_count;
 
-/* How many times the samples a path traced image needs to go from an error to the one wanted, by Sobol
- * numbers: the root of the mean square error falls as samples^-.62 on the diffuse boxes. */
-double bench_samples_for(double error, double wanted);
+/* The factor on the samples of a path-traced image to get from `error` to `target` with Sobol' points: the
+ * root mean square error falls as samples^-.62 on the diffuse boxes. */
+double bench_samples_for(double error, double target);
 
-/* What the recipes say and our own path tracer beside it, for all subjects. False after
- * bench_fail. */
+/* Runs the recipes and, next to them, Aureole's path tracer for all subjects. False after bench_fail. */
 bool bench_quality(const bench_options *options, bench_figures *figures);

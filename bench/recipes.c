@@ -1,4 +1,4 @@
-/* Parameters for an error, found by trial. A line an error and subject. */
+/* Parameters for a target error, found by experiment. One line per error and subject. */
 #include "quality.h"
 
 const bench_recipe bench_recipes[] = {

@@ -10,7 +10,7 @@ void bench_record(bench_recorder *recorder) {
     current = recorder;
 }
 
-static void keep(const struct RTCRay *ray, bool occluded) {
+static void record(const struct RTCRay *ray, bool occluded) {
     if (current == NULL)
         return;
     if (current->count < current->capacity)
@@ -18,7 +18,7 @@ static void keep(const struct RTCRay *ray, bool occluded) {
     ++current->count;
 }
 
-/* Embree's own functions, which the program's of the same names hide from the libraries. */
+/* Embree's functions. The functions of the same names in this program replace them for the libraries. */
 static __typeof__(rtcIntersect1) *real_intersect;
 static __typeof__(rtcOccluded1) *real_occluded;
 
@@ -32,24 +32,24 @@ __attribute__((constructor)) static void find_real(void) {
 #if AUR_EMBREE_VERSION >= 4
 
 void rtcIntersect1(RTCScene scene, struct RTCRayHit *query, struct RTCIntersectArguments *arguments) {
-    keep(&query->ray, false);
+    record(&query->ray, false);
     real_intersect(scene, query, arguments);
 }
 
 void rtcOccluded1(RTCScene scene, struct RTCRay *query, struct RTCOccludedArguments *arguments) {
-    keep(query, true);
+    record(query, true);
     real_occluded(scene, query, arguments);
 }
 
 #else
 
 void rtcIntersect1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayHit *query) {
-    keep(&query->ray, false);
+    record(&query->ray, false);
     real_intersect(scene, context, query);
 }
 
 void rtcOccluded1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRay *query) {
-    keep(query, true);
+    record(query, true);
     real_occluded(scene, context, query);
 }
 

@@ -1,5 +1,5 @@
-/* Which rays a piece of code traces one by one. The program has an rtcIntersect1 and an rtcOccluded1 of its
- * own, which the libraries find before Embree's, so nothing that is measured has to know of it. */
+/* Records the single rays that a piece of code traces. The program defines rtcIntersect1 and rtcOccluded1,
+ * which the libraries resolve before Embree's, so that the measured code needs no change. */
 #pragma once
 
 #include <stdbool.h>
@@ -13,12 +13,12 @@ typedef struct bench_recorded_ray {
 } bench_recorded_ray;
 
 typedef struct bench_recorder {
-    size_t count, capacity; /* count may exceed capacity: the rest was not kept */
+    size_t count, capacity; /* count may exceed capacity: the rest was dropped */
     bench_recorded_ray *rays;
 } bench_recorder;
 
-/* From here on rays are kept in `recorder`; NULL ends that. On one thread only. */
+/* Starts recording rays to `recorder`; NULL stops. Single-threaded. */
 void bench_record(bench_recorder *recorder);
 
-/* Traces them again through Embree itself; how many hit something. */
+/* Replays the rays with Embree; returns the number of hits. */
 size_t bench_replay(RTCScene scene, const bench_recorder *recorder);

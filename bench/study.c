@@ -1,4 +1,4 @@
-/* Subjects, the images that are their truth, and what other images cost and err. */
+/* Subjects, their reference images, and cost and error of other images. */
 #include "study.h"
 
 #include <aureole-render/image.h>
@@ -13,12 +13,12 @@
 
 enum { HEAVY_TRIANGLES = 500000, WORDS = 28, MOST_SEEDS = 8, QUICK_SIDE = 16 };
 
-/* The fastest forms of our path tracer: where chance begins to end paths is best sooner in plain boxes. */
+/* The fastest settings of the path tracer: Russian roulette is best started earlier in plain boxes. */
 static const char in_boxes[] = "path:interleaved=true,rr_depth=3",
                   in_rooms[] = "path:interleaved=true,rr_depth=4";
 
-/* An error of the references of twice or thrice that of the finest image is enough, as their own noise has
- * no part in the mean of what is told. */
+/* References with two to three times the error of the finest image are enough: their noise does not bias the
+ * estimated error. */
 /* clang-format off */
 const bench_subject bench_subjects[] = {
     {"cornell-box", "/../shared/scenes/cornell-box/scene.xml", "/scenes/cornell-box/cornell-box.xml", NULL,
@@ -37,8 +37,8 @@ const size_t bench_subject_count = sizeof bench_subjects / sizeof bench_subjects
 
 /* --- images */
 
-/* By our program as a process, which finds no photon maps of earlier runs. Where no integrator is told, to
- * the error. */
+/* Runs the program in a process without a cache of photon maps. Without an integrator it renders to the
+ * target error. */
 static bool render(const bench_study *self, const bench_request *request, size_t seed, size_t threads,
                    const char *output, bench_child_cost *cost) {
     char numbers[6][32];
@@ -86,37 +86,37 @@ static double reference_error(const bench_study *self) {
     return self->options->quick ? 0.5 : self->subject->reference_error;
 }
 
-void bench_study_truth_path(const bench_study *self, size_t k, size_t capacity, char *path) {
+void bench_study_reference_path(const bench_study *self, size_t k, size_t capacity, char *path) {
     snprintf(path, capacity, "%s/%s-%zux%zu-%g-%zu.pfm", self->folder, self->subject->name, self->width,
              self->height, reference_error(self), k + 1);
 }
 
-/* The two references, made where they are not there. Paths that no sample met are not in them: their error
- * is asked of pixels as even as `reference_error` makes them. */
-static bool open_truth(bench_study *self) {
-    const double asked = reference_error(self);
+/* The two references, rendered if missing. They lack paths that no sample found: `reference_error` is the
+ * target for images with similar error in all pixels. */
+static bool open_references(bench_study *self) {
+    const double target = reference_error(self);
     for (size_t k = 0; k < 2; ++k) {
         char path[BENCH_STUDY_PATH];
-        bench_study_truth_path(self, k, sizeof path, path);
+        bench_study_reference_path(self, k, sizeof path, path);
         if (access(path, R_OK) != 0) {
             char part[4500];
             bench_child_cost cost;
             snprintf(part, sizeof part, "%s.part.pfm", path);
-            printf("  %s: a reference to %g %% is rendered once\n", self->subject->name, 100.0 * asked);
-            if (!render(self, &(bench_request){.integrator = "path", .error = asked}, 1001 + k,
+            printf("  %s: a reference to %g %% is rendered once\n", self->subject->name, 100.0 * target);
+            if (!render(self, &(bench_request){.integrator = "path", .error = target}, 1001 + k,
                         self->options->threads, part, &cost))
                 return false;
             if (rename(part, path) != 0)
                 return bench_fail("%s cannot be written", path);
         }
-        self->truth[k] = read_image(path);
-        if (self->truth[k] == NULL)
+        self->references[k] = read_image(path);
+        if (self->references[k] == NULL)
             return false;
     }
     double means[2][4];
     aur_error error;
     for (size_t k = 0; k < 2; ++k)
-        if (aur_image_mean(self->truth[k], means[k], &error) != AUR_OK)
+        if (aur_image_mean(self->references[k], means[k], &error) != AUR_OK)
             return bench_fail("%s", error.message);
     self->light = 0.5 * (means[0][3] + means[1][3]);
     self->mean = self->subject->relative ? self->light : 1.0;
@@ -124,19 +124,20 @@ static bool open_truth(bench_study *self) {
 }
 
 typedef struct square_error {
-    double mean, uncertain; /* the second is the standard error of the first */
+    double mean, standard_error; /* standard_error: of the mean */
 } square_error;
 
-/* The mean of (x - a)(x - b) over channels and means of block x block pixels; what does not fill a block is
- * left out. */
+/* The mean of (x - a)(x - b) over channels and means of block x block pixels. Incomplete blocks are left out.
+ */
 static square_error mean_square_error(const bench_study *self, const aur_image *image, size_t block) {
     const size_t across = self->width / block, down = self->height / block;
     const float *const x = aur_image_data(image);
-    const float *const a = aur_image_data(self->truth[0]), *const b = aur_image_data(self->truth[1]);
+    const float *const a = aur_image_data(self->references[0]);
+    const float *const b = aur_image_data(self->references[1]);
     const double scale = 1.0 / (3.0 * pow((double)block, 4.0)), count = (double)(across * down);
     double sum = 0.0, squares = 0.0;
     for (size_t i = 0; i < across * down; ++i) {
-        double product = 0.0; /* of the channels together, whose noise is alike */
+        double product = 0.0; /* sum over the channels, whose noise is correlated */
         for (size_t channel = 0; channel < 3; ++channel) {
             const size_t x0 = i % across * block, y0 = i / across * block;
             double to_a = 0.0, to_b = 0.0;
@@ -161,7 +162,7 @@ static int ascending(const void *a, const void *b) {
 bool bench_study_measure(const bench_study *self, const bench_request *request, size_t seeds, size_t block,
                          bench_outcome *found) {
     char output[4400];
-    double seconds[MOST_SEEDS], square = 0.0, uncertain = 0.0;
+    double seconds[MOST_SEEDS], square = 0.0, standard_error = 0.0;
     snprintf(output, sizeof output, "%s/picture-%ld.pfm", self->folder, (long)getpid());
     for (size_t k = 0; k < seeds; ++k) {
         bench_child_cost cost;
@@ -172,17 +173,19 @@ bool bench_study_measure(const bench_study *self, const bench_request *request, 
         if (image == NULL)
             return false;
         seconds[k] = cost.cpu_seconds;
-        /* The truth is the same for all seeds, so that its noise is: the standard error does not fall. */
+        /* All seeds share the reference and its noise: the standard error does not decrease with the seeds.
+         */
         const square_error one = mean_square_error(self, image, block);
         square += one.mean / (double)seeds;
-        uncertain += one.uncertain / (double)seeds;
+        standard_error += one.standard_error / (double)seeds;
         aur_image_destroy(image);
     }
     qsort(seconds, seeds, sizeof *seconds, ascending);
     const double error = sqrt(fmax(0.0, square));
-    /* The root's derivative at the error, or at the least one that is told from none. */
-    const double wide = uncertain > 0.0 ? 0.5 * uncertain / fmax(error, sqrt(uncertain)) : 0.0;
-    *found = (bench_outcome){seconds[seeds / 2], error / self->mean, wide / self->mean};
+    /* The derivative of the square root at the error, or at the smallest error that differs from 0. */
+    const double root_error =
+        standard_error > 0.0 ? 0.5 * standard_error / fmax(error, sqrt(standard_error)) : 0.0;
+    *found = (bench_outcome){seconds[seeds / 2], error / self->mean, root_error / self->mean};
     return true;
 }
 
@@ -197,7 +200,7 @@ static bool find_scene(bench_study *self, bool *skipped) {
     snprintf(self->scene, sizeof self->scene, "%s%s", AUR_SOURCE_DIR, subject->scene);
     if (access(self->scene, R_OK) != 0 && subject->fallback != NULL)
         snprintf(self->scene, sizeof self->scene, "%s%s", AUR_SOURCE_DIR, subject->fallback);
-    /* These are of meshes that scripts/scenes.sh makes. */
+    /* These scenes use meshes that scripts/scenes.sh generates. */
     *skipped = subject->relative && access(AUR_SOURCE_DIR "/scenes/generated/hare.ply", R_OK) != 0;
     return true;
 }
@@ -217,10 +220,10 @@ bool bench_study_open(bench_study *self, const bench_options *options, const ben
     const char *const which = strstr(self->scene, "cornell-box.xml") != NULL ? " (ours)" : "";
     printf("  %s%s, %zu x %zu, one thread, %s\n", subject->name, which, self->width, self->height,
            subject->relative ? "RMSE / mean" : "RMSE");
-    return open_truth(self);
+    return open_references(self);
 }
 
 void bench_study_close(bench_study *self) {
-    aur_image_destroy(self->truth[0]);
-    aur_image_destroy(self->truth[1]);
+    aur_image_destroy(self->references[0]);
+    aur_image_destroy(self->references[1]);
 }

@@ -38,7 +38,7 @@ size_t bench_trace_packets(const bench_rays *rays) {
     const size_t size = aur_embree_scene_packet_size(rays->scene);
     if (size == 0)
         return bench_trace_single(rays);
-    /* Packets of all sizes are rows of `size` numbers, in the order of struct RTCRayHit16. */
+    /* A packet is an array of rows of `size` numbers, in the order of struct RTCRayHit16. */
     enum { ROWS = sizeof(struct RTCRayHit16) / sizeof(float[BENCH_PACKET_SIZE]) };
     enum { TFAR = 8, MASK = 9, GEOMETRY = 18, INSTANCE = 19 };
     _Alignas(64) float rows[ROWS * BENCH_PACKET_SIZE] = {0};

@@ -1,13 +1,12 @@
-/* Runs a harness on its seeds and on mutations of them: run R of seed S is always the same input, as long as
- * the seeds and the dictionary are the same.
+/* Runs a harness on its seeds and on mutations of them: run R of seed S always has the same input if the
+ * seeds and the dictionary are the same.
  *
  *     fuzz_NAME [--runs N] [--seed S] [--only R] [--dictionary WORDS] [--fresh 1] [FILE...]
  *
- * FILEs are seeds beside those of the harness; with --runs 0 they are only tried as they are. WORDS has a
- * word in quotes a line, as libFuzzer's -dict has (keys.dict). When a run goes wrong its number is printed,
- * and `--only R` repeats it alone and leaves its input in fuzz-input. `--fresh 1` names each FILE that
- * reaches code of the parser that none before it has reached, where that code was compiled to say so
- * (scripts/coverage.sh). */
+ * FILEs are additional seeds; --runs 0 only runs them unchanged. WORDS has a quoted word per line, in the
+ * format of libFuzzer's -dict (keys.dict). A failing run prints its number; `--only R` repeats only that run
+ * and writes its input to fuzz-input. `--fresh 1` prints each FILE that reaches parser code which no FILE
+ * before it has reached, if that code was compiled with coverage (scripts/coverage.sh). */
 #include <aureole/core.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -19,8 +18,8 @@
 
 enum { SEED_CAPACITY = 16384, WORD_CAPACITY = 4096, INPUT_CAPACITY = 1 << 16, SECONDS_A_RUN = 60, EDITS = 6 };
 
-/* Sanitizers end by SIGABRT, so that the handler below can say which run it was; an allocation beyond 4 GiB
- * fails instead of ending the program. */
+/* Makes sanitizers raise SIGABRT, so that the handler below can print the run's number. Allocations beyond 4
+ * GiB fail instead of ending the program. */
 AUR_API const char *__asan_default_options(void);
 AUR_API const char *__ubsan_default_options(void);
 
@@ -32,20 +31,20 @@ const char *__ubsan_default_options(void) {
     return "abort_on_error=1:print_stacktrace=1";
 }
 
-/* Places in code that was compiled with -fsanitize-coverage=trace-pc, which calls the function below at each
- * of them: a table by hash of where it was called from. */
-enum { PLACE_CAPACITY = 1 << 16 };
-static size_t place_count;
+/* Covered addresses of code compiled with -fsanitize-coverage=trace-pc, which calls the function below at
+ * each basic block: an open-addressing hash table of return addresses. */
+enum { ADDRESS_CAPACITY = 1 << 16 };
+static size_t reached_count;
 AUR_API void __sanitizer_cov_trace_pc(void);
 
 void __sanitizer_cov_trace_pc(void) {
-    static const void *places[PLACE_CAPACITY];
-    const void *const place = __builtin_return_address(0);
-    size_t slot = (size_t)aur_hash2(0, (uint64_t)(uintptr_t)place) % PLACE_CAPACITY;
-    while (places[slot] != NULL && places[slot] != place)
-        slot = (slot + 1) % PLACE_CAPACITY;
-    place_count += places[slot] == NULL && place_count < PLACE_CAPACITY / 2;
-    places[slot] = place;
+    static const void *reached[ADDRESS_CAPACITY];
+    const void *const address = __builtin_return_address(0);
+    size_t slot = (size_t)aur_hash2(0, (uint64_t)(uintptr_t)address) % ADDRESS_CAPACITY;
+    while (reached[slot] != NULL && reached[slot] != address)
+        slot = (slot + 1) % ADDRESS_CAPACITY;
+    reached_count += reached[slot] == NULL && reached_count < ADDRESS_CAPACITY / 2;
+    reached[slot] = address;
 }
 
 typedef struct fuzz_seed {
@@ -60,7 +59,7 @@ typedef struct fuzz_corpus {
     fuzz_seed words[WORD_CAPACITY]; /* of the dictionary */
 } fuzz_corpus;
 
-/* The one thing that a signal handler can be told. */
+/* The current run, for the signal handler. */
 static volatile sig_atomic_t current_run;
 
 static void on_signal(int number) {
@@ -80,7 +79,7 @@ static void on_signal(int number) {
     _exit(written > 0 ? 1 : 2);
 }
 
-/* A stream of numbers that depends on the run alone. */
+/* A random stream that depends only on the run. */
 typedef struct fuzz_dice {
     uint64_t key, counter;
 } fuzz_dice;
@@ -94,7 +93,7 @@ typedef struct fuzz_input {
     uint8_t *data; /* INPUT_CAPACITY bytes */
 } fuzz_input;
 
-/* Puts `count` bytes in place of `removed` bytes at `at`, as far as there is room. */
+/* Replaces `removed` bytes at `at` by `count` bytes, limited by the capacity. */
 static void replace(fuzz_input *input, size_t at, size_t removed, const void *bytes, size_t count) {
     if (input->size - removed + count > INPUT_CAPACITY)
         return;
@@ -123,7 +122,7 @@ static void edit_number(fuzz_input *input, fuzz_dice *dice) {
     }
 }
 
-/* 1, 2, 4 or 8 bytes of a value at the edge of something, in either byte order. */
+/* 1, 2, 4 or 8 bytes of a boundary value, in either byte order. */
 static void edit_word(fuzz_input *input, fuzz_dice *dice) {
     static const uint64_t values[] = {0,          1,          0x7f,       0x80,        0xff,
                                       0x7fff,     0x8000,     0xffff,     0x7fffffff,  0x80000000,
@@ -142,7 +141,7 @@ static bool is_word(uint8_t c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/* The word at or after a place: where it begins, and its length, 0 when there is none. */
+/* The first word at or after a position: its start, and its length, 0 if there is none. */
 static size_t find_word(const uint8_t *data, size_t size, size_t from, size_t *begin) {
     while (from > 0 && from < size && is_word(data[from - 1]))
         --from;
@@ -155,15 +154,14 @@ static size_t find_word(const uint8_t *data, size_t size, size_t from, size_t *b
     return length;
 }
 
-/* A word becomes a word of some seed or of the dictionary: a name of one thing stands where the name of
- * another one should. */
+/* Replaces a word by one of some seed or of the dictionary, for example one name by another. */
 static void edit_name(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) {
-    const bool known = corpus->word_count > 0 && roll(dice, 2) == 0;
-    const fuzz_seed *const other =
-        known ? &corpus->words[roll(dice, corpus->word_count)] : &corpus->seeds[roll(dice, corpus->count)];
+    const bool from_dictionary = corpus->word_count > 0 && roll(dice, 2) == 0;
+    const fuzz_seed *const other = from_dictionary ? &corpus->words[roll(dice, corpus->word_count)]
+                                                   : &corpus->seeds[roll(dice, corpus->count)];
     size_t at, from;
     const size_t removed = find_word(input->data, input->size, (size_t)roll(dice, input->size), &at);
-    if (known) {
+    if (from_dictionary) {
         replace(input, at, removed, other->data, other->size);
         return;
     }
@@ -192,7 +190,7 @@ static void edit(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) 
     case 4:
         replace(input, at, piece, "", 0);
         break;
-    case 5: { /* a piece a second time */
+    case 5: { /* repeats a piece */
         uint8_t copy[64];
         memcpy(copy, input->data + at, piece);
         replace(input, (size_t)roll(dice, input->size), 0, copy, piece);
@@ -205,14 +203,14 @@ static void edit(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) 
         if (roll(dice, 4) == 0)
             input->size = at;
         break;
-    case 7: { /* a piece of another seed */
+    case 7: { /* inserts a piece of another seed */
         const fuzz_seed *const other = &corpus->seeds[roll(dice, corpus->count)];
         const size_t from = (size_t)roll(dice, other->size);
         const size_t length = (size_t)roll(dice, other->size - from < 256 ? other->size - from : 256);
         replace(input, at, 0, other->data + from, length);
         break;
     }
-    default: { /* what structures of text are made of */
+    default: { /* inserts punctuation of structured text */
         static const char marks[] = "<>/\"'=&;:,.#$-+ \n\t%\\{}[]()";
         input->data[at] = (uint8_t)marks[roll(dice, sizeof marks - 1)];
         break;
@@ -220,7 +218,7 @@ static void edit(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) 
     }
 }
 
-/* Runs below the number of seeds are the seeds themselves. */
+/* The first runs use the seeds unchanged. */
 static void make_input(const fuzz_corpus *corpus, uint64_t seed, size_t run, fuzz_input *input) {
     fuzz_dice dice = {.key = aur_hash2(seed, run)};
     const bool mutated = run >= corpus->count;
@@ -231,7 +229,7 @@ static void make_input(const fuzz_corpus *corpus, uint64_t seed, size_t run, fuz
         edit(input, corpus, &dice);
 }
 
-/* The harness sees a buffer of the exact size, so that the sanitizer sees every step beyond it. */
+/* The harness gets a buffer of the exact size, so that the sanitizer detects every out-of-bounds access. */
 static void run_input(const fuzz_input *input, size_t run) {
     uint8_t *const exact = malloc(input->size > 0 ? input->size : 1);
     fuzz_require(exact != NULL, "out of memory");
@@ -286,7 +284,7 @@ static void add_seeds(fuzz_corpus *corpus, int file_count, char **files) {
     free(buffer);
 }
 
-static void keep_input(const fuzz_input *input) {
+static void save_input(const fuzz_input *input) {
     fuzz_require(aur_file_write("fuzz-input", input->size, input->data, NULL) == AUR_OK,
                  "fuzz-input cannot be written");
 }
@@ -319,7 +317,7 @@ int main(int argc, char **argv) {
                 argv[0]);
         return 2;
     }
-    /* The sanitizer catches the others itself, prints the stack and aborts. */
+    /* The sanitizer handles the other signals: it prints the stack and aborts. */
     signal(SIGABRT, on_signal);
     signal(SIGALRM, on_signal);
     static fuzz_corpus corpus;
@@ -333,12 +331,12 @@ int main(int argc, char **argv) {
     for (size_t run = only != SIZE_MAX ? only : 0; run < end; ++run) {
         make_input(&corpus, seed, run, &input);
         if (only != SIZE_MAX)
-            keep_input(&input);
-        const size_t before = place_count;
+            save_input(&input);
+        const size_t before = reached_count;
         run_input(&input, run);
-        const size_t own = corpus.count - (size_t)(argc - first_file);
-        if (fresh && run >= own && run < corpus.count && place_count > before)
-            printf("%s\n", argv[(size_t)first_file + run - own]);
+        const size_t first_file_seed = corpus.count - (size_t)(argc - first_file);
+        if (fresh && run >= first_file_seed && run < corpus.count && reached_count > before)
+            printf("%s\n", argv[(size_t)first_file + run - first_file_seed]);
     }
     for (size_t i = 0; i < corpus.count; ++i)
         free(corpus.seeds[i].data);

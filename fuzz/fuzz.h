@@ -1,5 +1,5 @@
-/* What a harness offers. libFuzzer wants the first function; the driver in driver.c, which needs no clang,
- * wants both. */
+/* The interface of a harness. libFuzzer requires the first function; driver.c, which does not need clang,
+ * requires both. */
 #pragma once
 
 #include <fcntl.h>
@@ -10,13 +10,13 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Gives the input to a parser and checks what comes back. Returns 0. */
+/* Passes the input to a parser and checks the result. Returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Writes valid input number `index` to data[capacity] and returns its size; 0 when there are no more. */
+/* Writes valid input number `index` to data[capacity] and returns its size; 0 after the last one. */
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data);
 
-/* Ends the program when what must be true is not. */
+/* Ends the program unless the condition holds. */
 static inline void fuzz_require(int condition, const char *what) {
     if (condition)
         return;
@@ -24,8 +24,8 @@ static inline void fuzz_require(int condition, const char *what) {
     abort();
 }
 
-/* The input as a file, for parsers that read from a path; `path` is relative to where the harness runs.
- * Cutting to length after writing spares what a file system does for files that are emptied first. */
+/* Writes the input to a file for parsers that read from a path; `path` is relative to the working directory.
+ * Truncating after the write avoids the cost that file systems have for truncation to zero. */
 static inline void fuzz_write_file(const char *path, const uint8_t *data, size_t size) {
     const int file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     fuzz_require(file >= 0 && write(file, data, size) == (ssize_t)size && ftruncate(file, (off_t)size) == 0 &&
@@ -33,7 +33,7 @@ static inline void fuzz_write_file(const char *path, const uint8_t *data, size_t
                  "the input file cannot be written");
 }
 
-/* The bytes of a file that a writer has made, as a seed. */
+/* Reads a file that a writer has produced, as a seed. */
 static inline size_t fuzz_read_file(const char *path, size_t capacity, uint8_t *data) {
     FILE *const file = fopen(path, "rb");
     fuzz_require(file != NULL, "a seed cannot be read");
@@ -42,7 +42,7 @@ static inline size_t fuzz_read_file(const char *path, size_t capacity, uint8_t *
     return size;
 }
 
-/* Text number `index` of `count` as a seed. */
+/* Copies text number `index` of `count` as a seed. */
 static inline size_t fuzz_text_seed(size_t count, const char *const *texts, size_t index, size_t capacity,
                                     uint8_t *data) {
     if (index >= count)

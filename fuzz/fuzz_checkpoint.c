@@ -1,5 +1,5 @@
-/* Checkpoints, and parts of images, which are such files too: read by themselves, gone on from, and merged.
- * Their hashes are made right before. */
+/* Checkpoints and parts of images, which share a format: read, resumed and merged. Their hashes are corrected
+ * first. */
 #include <aureole-render/render.h>
 
 #include "render/film/film.h"
@@ -17,7 +17,7 @@ typedef struct room {
     aur_render *render;
 } room;
 
-/* A render of 4 x 4 pixels; part `shard` of two, unless that is 0. */
+/* A render of 4 x 4 pixels; shard `shard` of two, or all of it for 0. */
 static room make_room(size_t shard) {
     static const char text[] = "<scene version='3.0.0'><shape type='sphere'><emitter type='area'/></shape>"
                                "<sensor type='perspective'><float name='fov' value='45'/></sensor></scene>";
@@ -30,21 +30,21 @@ static room make_room(size_t shard) {
                                         .resumable = true,
                                         .shard = shard,
                                         .shard_count = shard > 0 ? 2 : 0};
-    room made = {0};
-    fuzz_require(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &made.scene, NULL) == AUR_OK &&
-                     aur_renderer_create(made.scene, &made.renderer, NULL) == AUR_OK &&
-                     aur_render_create(made.renderer, &options, &made.render, NULL) == AUR_OK,
+    room built = {0};
+    fuzz_require(aur_scene_load_memory("room.xml", strlen(text), text, NULL, &built.scene, NULL) == AUR_OK &&
+                     aur_renderer_create(built.scene, &built.renderer, NULL) == AUR_OK &&
+                     aur_render_create(built.renderer, &options, &built.render, NULL) == AUR_OK,
                  "no render");
-    return made;
+    return built;
 }
 
-static void leave(room *made) {
-    aur_render_destroy(made->render);
-    aur_renderer_destroy(made->renderer);
-    aur_scene_destroy(made->scene);
+static void destroy_room(room *built) {
+    aur_render_destroy(built->render);
+    aur_renderer_destroy(built->renderer);
+    aur_scene_destroy(built->scene);
 }
 
-/* Where the head with its hash ends, as far as its counts say so. */
+/* The end of the header and its hash, as given by the header's counts. */
 static size_t head_size(const uint8_t *bytes, size_t size) {
     size_t words = 2;
     for (size_t which = 0; which < 3; ++which) {
@@ -79,13 +79,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         require_error(result, &error);
     aur_checkpoint_release(&checkpoint);
 
-    room made = make_room(0);
-    result = aur_render_resume(made.render, path, &error);
+    room built = make_room(0);
+    result = aur_render_resume(built.render, path, &error);
     if (result != AUR_OK)
         require_error(result, &error);
     else
-        fuzz_require(aur_render_step(made.render, 0, &error) == AUR_OK, "a render that does not go on");
-    leave(&made);
+        fuzz_require(aur_render_step(built.render, 0, &error) == AUR_OK, "a render that does not go on");
+    destroy_room(&built);
 
     aur_film *film = NULL;
     result = aur_render_merge_parts(1, &path, &film, &error);
@@ -97,16 +97,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     return 0;
 }
 
-/* Before the first sample, after it, and a part. */
+/* Before the first sample, after it, and a shard. */
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index > 2)
         return 0;
-    room made = make_room(index == 2 ? 1 : 0);
+    room built = make_room(index == 2 ? 1 : 0);
     const char *const path = path_of("seed");
-    fuzz_require((index == 0 || aur_render_step(made.render, index == 1 ? 1 : 0, NULL) == AUR_OK) &&
-                     aur_render_save(made.render, path, NULL) == AUR_OK,
+    fuzz_require((index == 0 || aur_render_step(built.render, index == 1 ? 1 : 0, NULL) == AUR_OK) &&
+                     aur_render_save(built.render, path, NULL) == AUR_OK,
                  "no seed");
-    leave(&made);
+    destroy_room(&built);
     const size_t size = fuzz_read_file(path, capacity, data);
     unlink(path);
     return size;

@@ -1,4 +1,4 @@
-/* Films. The checksum of every input is made right, so that what stands before it is what is tried. */
+/* Films. The checksum of every input is corrected, so that the data before it are tested. */
 #include "render/film/film.h"
 #include "words.h"
 
@@ -29,7 +29,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     return 0;
 }
 
-/* A whole image, and a part of one with a channel of its own. */
+/* A whole image, and a shard with an additional channel. */
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index > 1)
         return 0;

@@ -1,4 +1,4 @@
-/* Images of all formats. One in eight is named as a TGA, which nothing else can tell. */
+/* Images of all formats. One in eight is named .tga, because TGA has no signature. */
 #include <aureole-render/image.h>
 #include <openexr.h>
 #include <stb_image_write.h>
@@ -36,8 +36,8 @@ static void put(void *stream, void *bytes, int count) {
     fwrite(bytes, 1, (size_t)count, stream);
 }
 
-/* A smooth image with some noise, so that every kind of code occurs. */
-static aur_image *make_picture(size_t channel_count) {
+/* A smooth image with some noise, so that every kind of compression code occurs. */
+static aur_image *make_image(size_t channel_count) {
     aur_image *image;
     fuzz_require(aur_image_create(19, 18, channel_count, &image, NULL) == AUR_OK, "no image");
     for (size_t i = 0; i < 19 * 18 * channel_count; ++i)
@@ -45,8 +45,8 @@ static aur_image *make_picture(size_t channel_count) {
     return image;
 }
 
-static void write_own(const aur_image_format *format, size_t channel_count, int half, FILE *stream) {
-    aur_image *const image = make_picture(channel_count);
+static void write_seed(const aur_image_format *format, size_t channel_count, int half, FILE *stream) {
+    aur_image *const image = make_image(channel_count);
     aur_image_target target = {.name = "seed", .stream = stream, .options = {.half = half}};
     fuzz_require(aur_image_color_channels(image, target.channels), "a seed has no colour");
     fuzz_require(format->write(&target, image, NULL) == AUR_OK, "a seed cannot be written");
@@ -69,13 +69,13 @@ static size_t read_and_remove(const char *path, size_t capacity, uint8_t *data) 
     return size;
 }
 
-enum { OWN_SEEDS = 9, COMPRESSIONS = EXR_COMPRESSION_B44A + 1 };
+enum { FORMAT_SEEDS = 9, COMPRESSIONS = EXR_COMPRESSION_B44A + 1 };
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
-    if (index >= OWN_SEEDS + 2 * COMPRESSIONS)
+    if (index >= FORMAT_SEEDS + 2 * COMPRESSIONS)
         return 0;
-    if (index >= OWN_SEEDS) {
-        const size_t kind = index - OWN_SEEDS;
+    if (index >= FORMAT_SEEDS) {
+        const size_t kind = index - FORMAT_SEEDS;
         const foreign_file file = {.storage = kind % 2 == 0 ? EXR_STORAGE_SCANLINE : EXR_STORAGE_TILED,
                                    .compression = (exr_compression_t)(kind / 2),
                                    .width = 37,
@@ -90,25 +90,25 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     fuzz_require(stream != NULL, "no stream");
     switch (index) {
     case 0:
-        write_own(&aur_image_format_exr, 3, 0, stream);
+        write_seed(&aur_image_format_exr, 3, 0, stream);
         break;
     case 1:
-        write_own(&aur_image_format_exr, 4, 1, stream);
+        write_seed(&aur_image_format_exr, 4, 1, stream);
         break;
     case 2:
-        write_own(&aur_image_format_pfm, 3, 0, stream);
+        write_seed(&aur_image_format_pfm, 3, 0, stream);
         break;
     case 3:
-        write_own(&aur_image_format_pfm, 1, 0, stream);
+        write_seed(&aur_image_format_pfm, 1, 0, stream);
         break;
     case 4:
-        write_own(&aur_image_format_hdr, 3, 0, stream);
+        write_seed(&aur_image_format_hdr, 3, 0, stream);
         break;
     case 5:
-        write_own(&aur_image_format_png, 3, 0, stream);
+        write_seed(&aur_image_format_png, 3, 0, stream);
         break;
     case 6:
-        write_own(&aur_image_format_png, 1, 0, stream);
+        write_seed(&aur_image_format_png, 1, 0, stream);
         break;
     default:
         write_jpeg(index == 7 ? 1 : 3, stream);

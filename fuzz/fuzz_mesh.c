@@ -1,4 +1,4 @@
-/* Mesh files, OBJ, PLY and serialized, and files of curves, told apart by how they begin. */
+/* Mesh files, OBJ, PLY and serialized, and curve files, distinguished by their first bytes. */
 #include <string.h>
 #include <unistd.h>
 #include <zlib.h>

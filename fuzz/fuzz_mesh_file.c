@@ -41,7 +41,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     copy[size] = '\0';
     for (aur_mesh_format format = 0; format < AUR_MESH_FORMAT_COUNT; ++format) {
         const aur_mesh_source source = {.path = "a", .format = format, .size = size, .data = copy};
-        const bool told = aur_mesh_format_of_bytes(size, copy) < AUR_MESH_FORMAT_COUNT;
+        const bool recognized = aur_mesh_format_of_bytes(size, copy) < AUR_MESH_FORMAT_COUNT;
         aur_mesh_data mesh;
         aur_error error = {0};
         const aur_result result = aur_mesh_read(&source, &mesh, &error);
@@ -53,7 +53,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(result == AUR_OK || result == AUR_ERROR_FORMAT || result == AUR_ERROR_MEMORY,
                      "a failure of the wrong kind");
         aur_mesh_data_release(&mesh);
-        if (told)
+        if (recognized)
             break;
     }
     free(copy);

@@ -1,4 +1,4 @@
-/* Models that are one mesh: a model and, after the first zero byte in a text, its material library. */
+/* Models that consist of one mesh: a model and, after the first zero byte of a text, its material library. */
 #include "fuzz.h"
 #include "render/scene/importers/meshes/mesh_data.h"
 #include "render/scene/importers/model/import.h"
@@ -8,24 +8,24 @@ typedef struct library {
     size_t size;
 } library;
 
-/* Names that end in mtl are the library's; there are no images. */
+/* File names that end in mtl refer to the library; images are missing. */
 static aur_result find(void *state, const char *name, char **used, char **path, aur_error *error) {
     const library *const self = state;
     const size_t length = strlen(name);
-    char own[64];
+    char model_path[64];
     (void)error;
     *used = *path = NULL;
     if (length < 3 || strcmp(name + length - 3, "mtl") != 0)
         return AUR_OK;
-    snprintf(own, sizeof own, "fuzz-mesh-model-%ld", (long)getpid());
-    fuzz_write_file(own, self->data, self->size);
+    snprintf(model_path, sizeof model_path, "fuzz-mesh-model-%ld", (long)getpid());
+    fuzz_write_file(model_path, self->data, self->size);
     *used = strdup(name);
-    *path = strdup(own);
+    *path = strdup(model_path);
     fuzz_require(*used != NULL && *path != NULL, "no memory");
     return AUR_OK;
 }
 
-/* Parts must be meshes again. They have one triangle at least. */
+/* Each part must be a mesh with at least one triangle. */
 static void check_parts(const aur_model_files *files) {
     fuzz_require(files->count > 0, "a model of no part");
     for (size_t i = 0; i < files->count; ++i) {
@@ -78,12 +78,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (size > 0)
         memcpy(copy, data, size);
     copy[size] = '\0';
-    const bool known = aur_mesh_format_of_bytes(size, copy) < AUR_MESH_FORMAT_COUNT;
-    const size_t length = known ? size : strlen(copy);
+    const bool recognized = aur_mesh_format_of_bytes(size, copy) < AUR_MESH_FORMAT_COUNT;
+    const size_t length = recognized ? size : strlen(copy);
     library materials = {data, 0};
     if (length < size)
         materials = (library){data + length + 1, size - length - 1};
-    check_format(known ? AUR_MESH_PLY : AUR_MESH_OBJ, copy, length, &materials);
+    check_format(recognized ? AUR_MESH_PLY : AUR_MESH_OBJ, copy, length, &materials);
     free(copy);
     return 0;
 }
@@ -97,7 +97,7 @@ static const char materials[] = "\xef\xbb\xbfnewmtl a # x\nKd .1 .2 .3\r\nKs 0.5
                                 "30\nillum 2\nmap_Kd -s 2 2 2 -clamp on "
                                 "a\\b.png\nd 1\nnewmtl b 2\nmap_Ke -blendu off e.png\nnorm n.png\nmap_d "
                                 "x\nPr .5\nPm 1\nmap_Pr r\nmap_Pm m\n";
-static const char *const others[] = {
+static const char *const more_seeds[] = {
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
     "uchar "
     "red\nproperty uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int "
@@ -107,9 +107,10 @@ static const char *const others[] = {
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index > 0)
-        return fuzz_text_seed(sizeof others / sizeof others[0], others, index - 1, capacity, data);
+        return fuzz_text_seed(sizeof more_seeds / sizeof more_seeds[0], more_seeds, index - 1, capacity,
+                              data);
     fuzz_require(capacity >= sizeof model + sizeof materials, "a seed is too large");
-    memcpy(data, model, sizeof model); /* with its zero byte */
+    memcpy(data, model, sizeof model); /* including its zero byte */
     memcpy(data + sizeof model, materials, sizeof materials - 1);
     return sizeof model + sizeof materials - 1;
 }

@@ -1,4 +1,4 @@
-/* What a program that reads models sends: it may have been taken over by the file that it reads. */
+/* The messages of the importer process, which a malicious model may have taken over. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -15,7 +15,7 @@ static aur_result find(void *state, const char *name, char **used, char **path, 
     return AUR_OK;
 }
 
-/* Everything is sent before the conversation begins: answers are not waited for. */
+/* Sends everything before the conversation begins and ignores the answers. */
 static bool converse(const uint8_t *data, size_t size, aur_model_files *files, aur_nodes *nodes) {
     int ends[2];
     fuzz_require(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0, "no socket");
@@ -43,7 +43,7 @@ static bool converse(const uint8_t *data, size_t size, aur_model_files *files, a
     return result == AUR_OK;
 }
 
-/* Texts without control characters, and ids that are those of their elements. */
+/* Texts must have no control characters; ids must belong to their elements. */
 static void check_node(const aur_xml_node *node, size_t depth) {
     fuzz_require(depth <= 102, "a tree that is too deep");
     for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
@@ -83,7 +83,7 @@ static uint8_t *put(uint8_t *at, aur_import_kind kind, uint32_t value, size_t si
 }
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
-    /* with the zero byte of the last one */
+    /* including the zero byte of the last one */
     static const char records[] = "<shape\0=type\0sphere\0=id\0a\0<float\0=name\0radius\0=value\0"
                                   "1\0>\0>\0<ref\0>";
     aur_import_camera scene = {.aspect = 1.0};

@@ -1,5 +1,5 @@
-/* Command lines: every command's options are read by their tables, but no command is run. An input is one
- * line of arguments, cut at its blanks; the first is the command. */
+/* Command lines: parses every command's options without running a command. An input is one line of arguments
+ * separated by blanks; the first is the command. */
 int program_main(int argc, char **argv);
 #define main program_main
 #include "program/cli/main.c"
@@ -12,24 +12,24 @@ int program_main(int argc, char **argv);
 
 enum { MOST_ARGUMENTS = 32 };
 
-/* What a command says of a bad command line is not for the fuzzer's own output. */
+/* Silences the messages about invalid command lines. */
 static int turn_off(int stream) {
     fflush(stderr);
-    const int kept = dup(stream), null = open("/dev/null", O_WRONLY);
-    fuzz_require(kept >= 0 && null >= 0, "no descriptor");
+    const int saved = dup(stream), null = open("/dev/null", O_WRONLY);
+    fuzz_require(saved >= 0 && null >= 0, "no descriptor");
     dup2(null, stream);
     close(null);
-    return kept;
+    return saved;
 }
 
-static void turn_on(int stream, int kept) {
+static void turn_on(int stream, int saved) {
     fflush(stderr);
-    dup2(kept, stream);
-    close(kept);
+    dup2(saved, stream);
+    close(saved);
 }
 
-/* Limits hold for the fuzzer itself once they are read, and options may be shortened: --mem 8 is
- * --memory-limit. */
+/* Reading a limit applies it to the fuzzer itself, so these options are excluded. Options may be abbreviated:
+ * --mem 8 is --memory-limit. */
 static bool may_limit(const char *command, const char *argument) {
     const size_t length = strcspn(argument, "=");
     if (length == strlen("--time") && strcmp(command, "render") == 0)
@@ -58,9 +58,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (command != NULL && !limits) {
         cli_call call = {.commands = commands, .options = calloc(1, command->size + 1)};
         fuzz_require(call.options != NULL, "out of memory");
-        const int kept = turn_off(STDERR_FILENO);
+        const int saved = turn_off(STDERR_FILENO);
         const bool good = cli_read_options(command, count, arguments, &call);
-        turn_on(STDERR_FILENO, kept);
+        turn_on(STDERR_FILENO, saved);
         for (size_t i = 0; good && i < call.operand_count; ++i)
             fuzz_require(call.operands[i] != NULL, "an operand that is none");
         const cli_option *option;

@@ -1,4 +1,4 @@
-/* Files of measured lamps. */
+/* Photometric data files of luminaires. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,8 +7,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_error error = {0};
-    aur_photometry lamp;
-    const aur_result result = aur_photometry_parse("lamp", size, (const char *)data, &lamp, &error);
+    aur_photometry photometry;
+    const aur_result result = aur_photometry_parse("lamp", size, (const char *)data, &photometry, &error);
     if (result != AUR_OK) {
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");
         return 0;
@@ -16,9 +16,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (int i = 0; i < 27; ++i) {
         const double way[3] = {i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
         if (i != 13)
-            fuzz_require(aur_photometry_intensity(&lamp, way) >= 0.0, "an intensity below 0, or none");
+            fuzz_require(aur_photometry_intensity(&photometry, way) >= 0.0, "an intensity below 0, or none");
     }
-    aur_photometry_release(&lamp);
+    aur_photometry_release(&photometry);
     return 0;
 }
 

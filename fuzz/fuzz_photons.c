@@ -1,5 +1,5 @@
-/* Photon maps as the cache has them. The hash of an entry keeps out what is damaged; what has the right hash
- * even so must not lead beyond the map. */
+/* Photon maps in the format of the cache. A hash protects entries against damage; a malicious entry with a
+ * correct hash must not cause out-of-bounds accesses. */
 #include <aureole-render/scene.h>
 
 #include "fuzz.h"
@@ -16,7 +16,7 @@ static aur_scene *load_room(void) {
     return scene;
 }
 
-/* Looks up at the ends of rays into all directions. */
+/* Looks up at the hit points of rays in all directions. */
 static void look_around(const aur_irradiance_map *map, const aur_scene *scene) {
     for (size_t i = 0; i < 64; ++i) {
         const float z = 1.0f - (float)(2 * i + 1) / 64.0f, r = sqrtf(1.0f - z * z);

@@ -1,5 +1,5 @@
-/* Files of points, CSV and NPY, on any domain: the length of the input says which, and whether it is a file.
- */
+/* Files of points, CSV and NPY, on any domain: the length of the input selects the domain and whether it is
+ * read from a file. */
 #include <aureole/pointset.h>
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
-/* Files of radiosity solutions, for a scene of 12 triangles. The hash at their end is made right before they
- * are read, so that what is damaged reaches the checks behind it. */
+/* Radiosity solutions of a scene of 12 triangles. The hash at their end is corrected before they are read, so
+ * that damaged data reach the later checks. */
 #include "render/radiosity/solution.h"
 
 #include "words.h"
@@ -37,7 +37,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     unlink(path_of("rad"));
     fuzz_require((result == AUR_OK) == (radiosity != NULL), "a failure with a solution, or none without");
     if (result == AUR_OK) {
-        /* Whatever numbers it holds, it can be asked. */
+        /* Evaluating it must be safe whatever values it has. */
         aur_radiosity_description description = {.size = sizeof description};
         aur_radiosity_triangle_result results[12];
         aur_radiosity_get_description(radiosity, &description, NULL);

@@ -1,6 +1,6 @@
-/* Scene files: loading them, and a few paths through what they hold, so that materials, textures and lights
- * are asked too. Small files lie beside them for scenes to name. Two of three may name no other ones;
- * those that ask for $n are told what it is. */
+/* Scene files: loads them and renders a few paths, which evaluates materials, textures and lights. Small
+ * files exist for scenes to refer to. Two of three inputs may refer to no other files; inputs that contain $n
+ * get a definition of it. */
 #define _GNU_SOURCE /* memmem */
 #include <aureole-render/render.h>
 #include <string.h>
@@ -47,8 +47,8 @@ static void write_companions(void) {
     free(grid);
 }
 
-/* Whether the image comes out is not asked: a scene may ask for what no sample can give. Each length of the
- * input stands for an integrator. */
+/* The render may fail, because a scene may have settings that no sampler supports. The length of the input
+ * selects the integrator. */
 static void render(const aur_scene *scene, size_t size) {
     static const char *const integrators[] = {
         "path:max_depth=4",
@@ -86,10 +86,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ready = true;
     fuzz_write_file(input_path(), data, size);
     static const aur_definition definitions[] = {{"n", "3"}};
-    /* One in sixteen is given a definition that it may not have. */
-    const bool asks = size % 16 == 0 || memmem(data, size, "$n", 2) != NULL;
+    /* One input in sixteen gets a definition even if it does not use it. */
+    const bool has_definition = size % 16 == 0 || memmem(data, size, "$n", 2) != NULL;
     const aur_scene_options options = {.size = sizeof options,
-                                       .definition_count = asks,
+                                       .definition_count = has_definition,
                                        .definitions = definitions,
                                        .confine = size % 3 != 0};
     aur_error error = {0};
@@ -169,7 +169,7 @@ static const char *const seeds[] = {
     "name='value' value='.1'/></volume></medium></shape><emitter type='constant'/><emitter "
     "type='point'><point "
     "name='position' z='3'/></emitter></scene>",
-    /* A texture was once taken for the bsdf that its name says it is. */
+    /* Regression: a texture was taken for a bsdf of the same id. */
     "<scene version='3.0.0'><sensor type='perspective'/><shape type='sphere'><point name='center' "
     "z='$n'/><texture "
     "type='checkerboard' name='bsdf'/></shape><emitter type='constant'/></scene>",

@@ -1,5 +1,5 @@
-/* Places to measure light at: text, NPY, and meshes, told apart by the ends of their names: on the facets of
- * meshes or on their corners, at them or lifted. The first byte says which. */
+/* Sensor positions: text, NPY and meshes, distinguished by the file name's extension. Of meshes at facets or
+ * vertices, with or without an offset. The first byte selects the case. */
 #include <aureole-lighting/irradiance.h>
 #include <math.h>
 
@@ -69,7 +69,7 @@ static const char *const texts[] = {
 
 enum { TEXTS = sizeof texts / sizeof texts[0] };
 
-/* Texts, and NPY arrays in C's and in Fortran's order. */
+/* Texts, and NPY arrays in C and Fortran order. */
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index < TEXTS)
         return fuzz_text_seed(TEXTS, texts, index, capacity, data);
@@ -80,7 +80,7 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
         head, sizeof head, "\005\x93NUMPY\001%c\166%c{'descr': '<f8', 'fortran_order': %s, 'shape': (2, 6)}",
         0, 0, index == TEXTS ? "False" : "True");
     const double rows[12] = {0, 0, 1, 0, 0, 1, 1, 2, 3, 0, 1, 0};
-    const size_t size = 1 + 128; /* the head of 10 bytes and a text of 118 end on a multiple of 64 */
+    const size_t size = 1 + 128; /* the header of 10 bytes and a text of 118 end on a multiple of 64 */
     fuzz_require(size + sizeof rows <= capacity, "a seed is too large");
     memset(data, ' ', size);
     memcpy(data, head, (size_t)length);

@@ -1,4 +1,4 @@
-/* The names of sets, NAME[:key=value[,key=value...]]: what a command line, a scene and a caller give. */
+/* The names of sets, NAME[:key=value[,key=value...]]: input from command lines, scenes and callers. */
 #include <aureole/sphere.h>
 
 #include "fuzz.h"

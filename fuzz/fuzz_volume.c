@@ -1,4 +1,4 @@
-/* Grids of values: .vol files. */
+/* Volume grids: .vol files. */
 #include "fuzz.h"
 #include "render/scene/media/majorants.h"
 #include "render/scene/vol_file.h"
@@ -12,7 +12,7 @@ static const char *input_path(void) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_write_file(input_path(), data, size);
     const aur_location where = {.file = input_path(), .line = 1};
-    /* The last byte says how the grid is read. */
+    /* The last byte selects the options. */
     const unsigned how = size > 0 ? data[size - 1] : 0;
     static const char *const filters[] = {"trilinear", "nearest"}, *const wraps[] = {"clamp", "repeat",
                                                                                      "mirror"};

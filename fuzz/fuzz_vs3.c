@@ -1,4 +1,4 @@
-/* View3D's inputs. */
+/* View3D input files. */
 #include <string.h>
 
 #include "fuzz.h"
@@ -6,20 +6,20 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_error error = {0};
-    aur_vs3 made;
-    const aur_result result = aur_vs3_parse("input.vs3", size, (const char *)data, &made, &error);
+    aur_vs3 scene;
+    const aur_result result = aur_vs3_parse("input.vs3", size, (const char *)data, &scene, &error);
     if (result != AUR_OK) {
         fuzz_require((error.result == AUR_ERROR_FORMAT || error.result == AUR_ERROR_UNSUPPORTED) &&
-                         error.message[0] != '\0' && made.text == NULL,
+                         error.message[0] != '\0' && scene.text == NULL,
                      "a failure of the wrong kind, or without a message");
         return 0;
     }
-    fuzz_require(made.group_count > 0 && made.group_count <= made.shape_count &&
-                     made.shape_count == made.name_count && strlen(made.text) == made.length,
+    fuzz_require(scene.group_count > 0 && scene.group_count <= scene.shape_count &&
+                     scene.shape_count == scene.name_count && strlen(scene.text) == scene.length,
                  "other numbers of surfaces");
-    for (size_t i = 0; i < made.shape_count; ++i)
-        fuzz_require(made.groups[i] < made.group_count, "a surface of no group");
-    aur_vs3_release(&made);
+    for (size_t i = 0; i < scene.shape_count; ++i)
+        fuzz_require(scene.groups[i] < scene.group_count, "a surface of no group");
+    aur_vs3_release(&scene);
     return 0;
 }
 

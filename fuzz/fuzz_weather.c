@@ -1,5 +1,5 @@
-/* Weather files. Behind a text that ends with three dots, or four in a leap year, the harness goes on to the
- * year's end, as no input is as long as a year. */
+/* Weather files. If the text ends with three dots, or four in a leap year, the harness appends the rest of
+ * the year, because inputs are shorter than a year. */
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,20 +20,20 @@ typedef struct year {
     char text[LEAP_YEAR * LINE];
 } year;
 
-static void write_year(bool leap, year *made) {
+static void write_year(bool leap, year *written) {
     static const unsigned days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     size_t hour = 0;
     for (unsigned month = 1; month <= 12; ++month)
         for (unsigned day = 1; day <= days[month - 1] + (leap && month == 2); ++day)
             for (unsigned h = 1; h <= 24; ++h) {
-                made->starts[hour++] = made->size;
-                made->size +=
-                    (size_t)snprintf(made->text + made->size, LINE,
+                written->starts[hour++] = written->size;
+                written->size +=
+                    (size_t)snprintf(written->text + written->size, LINE,
                                      "2001,%u,%u,%u,60,x,10,6,75,1e5,9999,9999,300,0,0,0,0\n", month, day, h);
             }
 }
 
-/* The rest of a year of whose hours the text has the first, each in a line that begins with a digit. */
+/* The rest of a year after the hours in the text, each of which is a line that begins with a digit. */
 static size_t rest_of_year(bool leap, size_t text_size, const uint8_t *text, const char **rest) {
     static year years[2];
     year *const whole = &years[leap];

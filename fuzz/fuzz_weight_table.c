@@ -1,5 +1,5 @@
-/* Tables of weights. The check sum of every input is made right, so that what stands before it is what is
- * tried; the byte that it overwrites last says which table is asked for. */
+/* Tables of weights. The checksum of every input is corrected, so that the data before it are tested; the
+ * last byte that it overwrites selects the requested table. */
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -27,7 +27,7 @@ static aur_oswa_options options_of(size_t index) {
 
 static const aur_weight_table_grid grid = {sizeof(aur_weight_table_grid), 3, 1, 2};
 
-/* What was read can be written, and be read again. */
+/* A table that was read can be written and read again. */
 static void require_whole(const aur_weight_table *table) {
     size_t size;
     void *printed;
@@ -81,7 +81,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     return 0;
 }
 
-/* Each table where any will do, and where it is asked for. */
+/* Each table, read for any options and for the requested ones. */
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index > 7)
         return 0;

@@ -1,5 +1,5 @@
-/* With an engine that has seeds from folders only, AUREOLE_FUZZ_SEEDS=FOLDER makes a harness write its own
- * there and end. Engines call this before the first input. */
+/* For engines that read seeds only from folders: with AUREOLE_FUZZ_SEEDS=FOLDER a harness writes its seeds
+ * there and ends. Engines call this before the first input. */
 #include <errno.h>
 #include <sys/stat.h>
 

@@ -1,5 +1,5 @@
-/* Files of words that end with a hash of themselves (points/base/words.h): it is made right before they are
- * read, so that what is damaged reaches the checks behind it. */
+/* Files of 64-bit words that end with a hash of themselves (points/base/words.h): the hash is corrected
+ * before they are read, so that damaged data reach the later checks. */
 #pragma once
 
 #include "fuzz.h"
@@ -12,8 +12,8 @@ static inline uint64_t fuzz_word_at(const uint8_t *bytes) {
     return word;
 }
 
-/* Puts the hash of the words of bytes[size] but the last one in the place of that; a rest of less than a word
- * is left alone. */
+/* Replaces the last word of bytes[size] by the hash of the words before it; an incomplete word is unchanged.
+ */
 static inline void fuzz_mend_hash(uint8_t *bytes, size_t size) {
     uint64_t hash = 0;
     size_t at = 0;
@@ -23,7 +23,7 @@ static inline void fuzz_mend_hash(uint8_t *bytes, size_t size) {
         bytes[at + k] = (uint8_t)(hash >> 8 * k);
 }
 
-/* A copy that may be changed, from malloc. */
+/* A mutable copy, from malloc. */
 static inline uint8_t *fuzz_copy(const uint8_t *data, size_t size) {
     uint8_t *const copy = malloc(size + 1);
     fuzz_require(copy != NULL, "out of memory");

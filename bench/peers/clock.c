@@ -1,4 +1,4 @@
-/* CPU seconds of one call that makes a set's points, the median of some: clock SET N DOMAIN SCRAMBLE. */
+/* CPU seconds of one call that generates a set's points, median of several: clock SET N DOMAIN SCRAMBLE. */
 #include <aureole/sphere.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ int main(int argc, char **argv) {
     request.dimension = domain == AUR_DOMAIN_SQUARE ? 2 : 0;
     double seconds[MOST];
     size_t count = 0;
-    /* Short calls are repeated for a millisecond, a thousand ticks of the clock. */
+    /* Short calls repeat for a millisecond, a thousand clock ticks. */
     for (double spent = 0.0; count < 3 || (count < MOST && spent < 0.3); ++count) {
         size_t calls = 0;
         const double start = cpu_seconds();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Errors and CPU seconds of Mitsuba 3's images after Open Image Denoise, for `aureole-bench ask-speed`.
+"""Errors and CPU seconds of Mitsuba 3's images after Open Image Denoise, for `aureole-bench adaptive-speed`.
 
     denoised.py NAME WIDTHxHEIGHT TRUTH_A.pfm TRUTH_B.pfm ERROR SECONDS
 

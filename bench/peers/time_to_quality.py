@@ -19,7 +19,7 @@ not equal.
 renders (the first, which compiles, is left out) over our rendering (the whole process less one of a single sample, by as much more), and a fresh
 process of Mitsuba without kept kernels, which loads, compiles and renders, over our whole process.
 
---peers NAME prints for `aureole-bench ask-speed` what Mitsuba takes on one scene. There its samples grow fourfold from 16 until it
+--peers NAME prints for `aureole-bench adaptive-speed` what Mitsuba takes on one scene. There its samples grow fourfold from 16 until it
 has the least error, or until the next picture would take 60 s or more than a kernel's memory; the law is of the last sixteenfold.
 """
 import argparse
@@ -312,7 +312,7 @@ def child(kind, aureole, path, threads, wanted_errors, pixels):
                       "errors": [row[1] for row in found], "slope": slope, "many": many}))
 
 
-# --- the peers alone, for `aureole-bench ask-speed`
+# --- the peers alone, for `aureole-bench adaptive-speed`
 
 
 def print_peers(given, folder):
