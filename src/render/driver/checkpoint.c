@@ -1,4 +1,4 @@
-/* A render in a file, to go on from. */
+/* Checkpoint files of a render. */
 #include "points/base/error.h"
 #include "render/driver/renderer.h"
 #include "render/film/film.h"

@@ -9,8 +9,8 @@
 #include "points/base/words.h"
 #include "render/driver/renderer.h"
 
-/* Files that a text of the command line names, such as a set's: any piece of it that is a file, but those
- * that are written. */
+/* Files that a command-line text names, such as a set's: any piece of it that is an existing file, except
+ * output files. */
 static aur_result write_named_files(const char *text, FILE *stream, aur_error *error) {
     static const char *const written[] = {"save=", "ply="};
     while (text != NULL && *text != '\0') {

@@ -33,7 +33,7 @@ static bool read_number(const char *identity, const char *key, size_t *numbers, 
     return at != NULL;
 }
 
-/* Whether the part has all its samples, and none of tiles that are not its own. */
+/* Whether the part has all its samples, and none in tiles of other parts. */
 static bool is_finished(const aur_film *film, size_t part, size_t count, size_t samples) {
     for (size_t i = 0; i < aur_film_unit_count(film); ++i)
         if (aur_film_unit_given(film, i) != (aur_film_unit_tile(film, i) % count == part ? samples : 0))

@@ -1,5 +1,5 @@
-/* The driver: a film in tiles, each done by one thread from its pixels' own random numbers, so that neither
- * threads nor the order of tiles can change it. */
+/* The driver: a film in tiles, each rendered by one thread from its pixels' random numbers, so that the
+ * result does not depend on threads or the order of tiles. */
 #include <aureole-render/render.h>
 #include <aureole/text.h>
 
@@ -27,7 +27,7 @@ struct aur_renderer {
 
 struct aur_render {
     aur_renderer *renderer;
-    /* Complete; their texts are the caller's and gone once the render is made. */
+    /* Complete; their strings belong to the caller and are invalid once the render is created. */
     aur_render_options settings;
     aur_sampler *sampler;
     aur_integrator *integrator;
@@ -120,7 +120,7 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
     return result;
 }
 
-/* The side of the cells by which pixels share samples; 0 where they share none. */
+/* The side of the cells by which pixels share samples; 0 if they do not. */
 static size_t cell_of(const aur_render *render, const aur_filter *filter) {
     if (render->integrator->pixel_centre || render->integrator->descriptor->round != NULL ||
         aur_camera_factor(render->renderer->scene) != 1.0f || !aur_filter_shares_samples(filter))
@@ -259,9 +259,9 @@ static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) 
     return AUR_OK;
 }
 
-/* All samples that the tile lacks, in pieces where this changes no bit: what is finished stays when the work
- * is stopped, also in a tile of hours. Pieces grow to so many rays, which take some hundredths of a second.
- */
+/* Renders all missing samples of the tile, in pieces if this does not change the result: finished pieces
+ * survive cancellation, even in a tile that takes hours. Pieces grow up to this many rays, some hundredths of
+ * a second. */
 static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *counted) {
     enum { RAYS_A_PIECE = 1 << 16 };
     const uint32_t end = tile->first + tile->count;
@@ -331,7 +331,7 @@ static aur_result unpack_tile(void *context, size_t index, aur_bytes_reader *byt
     return bytes->failed ? AUR_ERROR_INTERNAL : AUR_OK;
 }
 
-/* Cut paths are worth a warning when they are more than so many a thousand samples. */
+/* Cut paths cause a warning above this number per thousand samples. */
 enum { MOST_CUT_PATHS = 10 };
 
 /* Said once, when all samples are there. */
@@ -357,8 +357,8 @@ static void warn_of_losses(const aur_render *render) {
                     (unsigned long long)counted->cut, samples);
 }
 
-/* aur_render_cancel is a wish that the progress callback answers, so that whatever asks it also hears of
- * that. */
+/* The progress callback returns the request of aur_render_cancel, so that every check for cancellation sees
+ * it. */
 static int ask_to_stop(void *user, const char *what, uint64_t done, uint64_t total) {
     const aur_render *const render = user;
     const aur_progress *const progress = &render->settings.progress;
@@ -367,8 +367,8 @@ static int ask_to_stop(void *user, const char *what, uint64_t done, uint64_t tot
     return progress->function != NULL ? progress->function(progress->user, what, done, total) : 0;
 }
 
-/* Sample by sample of the whole image, where light paths end anywhere in it. All pixels get as many as the
- * one that is to have most. */
+/* Sample by sample of the whole image, for light tracing. All pixels get the largest target of any of them.
+ */
 static aur_result do_rounds(render_work *work, const aur_parallel_options *parallel, aur_error *error) {
     aur_render *const render = work->render;
     const size_t done = aur_render_samples(render);

@@ -1,4 +1,4 @@
-/* What rooms above, and other files of this one, know of a renderer and of its renders. */
+/* Internals of a renderer and of its renders, for layers above and other files of this one. */
 #pragma once
 
 #include <aureole-render/render.h>
@@ -17,21 +17,21 @@ aur_result aur_render_identify(const aur_scene *scene, const aur_render_options 
 /* NULL for a render that is not resumable. */
 const char *aur_render_identity(const aur_render *render);
 
-/* What renders, as its keys have made it. */
+/* The integrator, as configured by its keys. */
 const struct aur_integrator *aur_render_integrator(const aur_render *render);
 
-/* What the render has taken, but for what its film counts, as words of a file, and added to its own. */
+/* The cost of the render besides the film's counters: written as words of a file, and added from them. */
 enum { AUR_SPENT_WORDS = 4 };
 void aur_render_put_spent(const aur_render *render, uint64_t words[AUR_SPENT_WORDS]);
 void aur_render_take_spent(aur_render *render, const uint64_t words[AUR_SPENT_WORDS]);
 
-/* Whether a checkpoint is of one render (parts.c). Errors: ARGUMENT. */
+/* Whether a checkpoint is of a single render (parts.c). Errors: ARGUMENT. */
 aur_result aur_render_check_kind(const char *path, const aur_checkpoint *checkpoint, aur_error *error);
 
 /* What a render is to do. */
 
-/* Puts the scene's own values into the options in the places that were left open, and finds the filter.
- * Errors: NAME for a filter, ARGUMENT for a crop. */
+/* Fills unset options from the scene, and finds the filter. Errors: NAME for a filter, ARGUMENT for a crop.
+ */
 aur_result aur_render_options_complete(const aur_scene *scene, aur_render_options *options,
                                        const aur_filter **filter, aur_error *error);
 
@@ -57,13 +57,12 @@ static inline void aur_stopwatch_add(const aur_stopwatch *start, double *wall, d
     *cpu += aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
 }
 
-/* aur_render_step pixel by pixel: pixel i of the film, row by row, gets the samples that it lacks up to
- * targets[i], so that samples can go where they are needed. Where pixels share what they find (`radiosity`,
- * finalgather's `share=true`), all of a tile of 16 x 16 pixels get as many as the one that is to have most.
- * Errors as above; ARGUMENT when the film has not `pixel_count` pixels, or a target is beyond
- * samples_per_pixel. */
+/* aur_render_step with a target per pixel: pixel i of the film, row by row, gets its missing samples up to
+ * targets[i]. Where pixels share results (`radiosity`, finalgather's `share=true`), all of a tile of 16 x 16
+ * pixels get the largest target of any of them. Errors as above; ARGUMENT if the film does not have
+ * `pixel_count` pixels, or a target exceeds samples_per_pixel. */
 aur_result aur_render_step_pixels(aur_render *render, size_t pixel_count, const uint32_t *targets,
                                   aur_error *error);
 /* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render
- * goes on where that one ended. Errors as for aur_film_merge. */
+ * continues from there. Errors as for aur_film_merge. */
 aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error);

@@ -18,7 +18,7 @@ static aur_result find_filter(const char *name, const aur_filter **filter, aur_e
 
 static aur_result complete_crop(const aur_film_settings *film, aur_render_options *s, aur_error *error) {
     if (s->crop_x0 == 0 && s->crop_x1 == 0 && s->crop_y0 == 0 && s->crop_y1 == 0) {
-        /* The film's own part holds for its own size. */
+        /* The film's crop applies only to the film's size. */
         const bool part = film->crop_x1 > 0 && s->width == film->width && s->height == film->height;
         s->crop_x0 = part ? film->crop_x0 : 0;
         s->crop_x1 = part ? film->crop_x1 : s->width;
@@ -34,7 +34,7 @@ static aur_result complete_crop(const aur_film_settings *film, aur_render_option
         s->crop_x0, s->crop_x1, s->crop_y0, s->crop_y1, s->width, s->height);
 }
 
-/* A side that is left out follows from the other one: the image keeps the shape that the scene gives it. */
+/* A missing side follows from the other one by the scene's aspect ratio. */
 static void complete_size(const aur_film_settings *film, aur_render_options *options) {
     const double aspect = (double)film->width / (double)film->height;
     if (options->width == 0)

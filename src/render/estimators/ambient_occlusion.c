@@ -39,8 +39,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     (void)parameters;
     occlusion_data *const data = integrator->data;
     aur_gather_rule_options *const pattern = &data->pattern;
-    /* AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. Many samples share long
-     * patterns, whose heights, which no rotation changes, lie close; a sample has an eighth of `samples`. */
+    /* AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. Many samples share long patterns, whose heights,
+     * which rotations do not change, are close together; each sample uses an eighth of `samples`. */
     enum { SAMPLES_KNOWN = 1 << 16, SAMPLES_A_PATTERN = 128, PATTERN_LENGTH = 16 };
     data->occlusion.renews = context->samples_per_pixel > SAMPLES_KNOWN;
     const size_t shares = data->occlusion.renews ? SAMPLES_A_PATTERN : context->samples_per_pixel;
@@ -54,7 +54,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     pattern->seed = pattern->set_seed = data->occlusion.seed;
     pattern->warnings = context->warnings;
     const aur_result result = aur_gather_rule_options_name(pattern, "ao", data->map, data->scramble, error);
-    /* Scrambled ones that were made beforehand would come again and again. */
+    /* Scramblings prepared in advance would repeat. */
     if (data->occlusion.renews && pattern->scramble != AUR_SCRAMBLE_ROTATE)
         pattern->rotations = 0;
     return result == AUR_OK
@@ -78,8 +78,8 @@ static void trace(void *context, size_t first, aur_embree_order order, aur_packe
         sums->stopped[first + k] += stopped >> k & 1;
 }
 
-/* The whole tile is done even where a part of it is wanted: what lies beside a ray in its packet is always
- * the same. */
+/* The whole tile is traced even if only a part of it is needed: a ray's packet must always have the same
+ * other rays. */
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
     const size_t x = tile->x0 - tile->x0 % AUR_TILE_SIZE, y = tile->y0 - tile->y0 % AUR_TILE_SIZE;
     aur_occlusion_points surface_points = {0};

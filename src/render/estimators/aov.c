@@ -1,5 +1,5 @@
-/* What is known of the surfaces that the camera sees, in channels beside the radiance of another integrator,
- * named as Mitsuba 3 names them. */
+/* Properties of the visible surfaces (AOVs), in channels after the radiance of another integrator, named as
+ * in Mitsuba 3. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,14 +13,14 @@ enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
 typedef struct aov_sample {
     aur_vector radiance;
     const aur_ray *ray;
-    const aur_hit *hit; /* NULL: the ray meets nothing, and the rest is 0 */
+    const aur_hit *hit; /* NULL: the ray hits nothing, and the rest is 0 */
     const aur_surface *surface;
     const double *origin; /* of the scene's coordinates */
 } aov_sample;
 
 typedef struct aov_type {
     const char *name;
-    const char *letters; /* one a channel */
+    const char *letters; /* one per channel */
     void (*evaluate)(const aov_sample *sample, float *values);
 } aov_type;
 
@@ -64,12 +64,12 @@ static void prim_index(const aov_sample *sample, float *values) {
     values[0] = (float)sample->hit->primitive;
 }
 
-/* From 1, so that 0 is nothing. */
+/* Numbered from 1; 0 means none. */
 static void shape_index(const aov_sample *sample, float *values) {
     values[0] = (float)(sample->hit->shape + 1);
 }
 
-/* The film makes these two of its sums: see channel_kind. */
+/* The film computes these two from its sums: see channel_kind. */
 static void sample_count(const aov_sample *sample, float *values) {
     (void)sample;
     values[0] = 0.0f;

@@ -1,4 +1,4 @@
-/* How far the camera sees: the distance along the ray in all three channels, 0 where there is nothing. */
+/* Depth: the distance along the camera ray in all three channels, 0 where it hits nothing. */
 #include "render/film/integrator.h"
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,

@@ -1,6 +1,6 @@
-/* Final gathering over a photon map: at every surface seen by the eye one pattern of directions for the
- * diffuse part about the normal and one for each glossy lobe about its axis (Marques 2013, section 5), the
- * radiance at what they meet from precomputed irradiance (Christensen 1999), direct light by shadow rays.
+/* Final gathering over a photon map: at every visible surface one pattern of directions for the diffuse part
+ * about the normal and one for each glossy lobe about its axis (Marques 2013, section 5). The radiance where
+ * they hit comes from precomputed irradiance (Christensen 1999), direct light from shadow rays.
  *
  * The directions of a pattern are split among the samples of a pixel: sample s of S takes every S-th. */
 #include "render/gather/plan.h"
@@ -8,7 +8,7 @@
 
 /* --- keys */
 
-/* integrator->data are the options, which a caller's integrator may have more of. */
+/* integrator->data are these options; a caller's integrator may append more. */
 static const aur_gather_settings initial = AUR_GATHER_SETTINGS_INITIAL;
 
 enum { MOST = 1 << 30, UNKNOWN_SPLIT = 8 };
@@ -92,7 +92,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     aur_gather_settings *const p = integrator->data;
     const aur_gather_method *method = integrator->gather != NULL ? integrator->gather->method : NULL;
     bool asked = false;
-    /* Of few samples, which its first ones cover too, where the final sample count is unknown. */
+    /* Short patterns, complete after few samples, if the final sample count is unknown. */
     if (p->split == 0 && !aur_integrator_knows_samples(context))
         p->split = UNKNOWN_SPLIT;
     aur_result result = aur_gather_settings_complete(p, error);
@@ -118,8 +118,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     return result;
 }
 
-/* The rays at edges are those of a step of the render: of at most four patterns, when it goes on in rounds,
- * so that each sample has at least so many for lamps. */
+/* Probe rays are those of one step of the render: of at most four patterns, if it continues in rounds, so
+ * that each sample has at least that many for emitters. */
 static aur_result look(const aur_view *view, const aur_integrator_context *context,
                        aur_integrator *integrator, aur_error *error) {
     enum { MOST_PATTERNS = 4 };

@@ -59,7 +59,7 @@ static aur_result refuse_moved(const aur_moved_key *moved, const aur_parameters 
     return AUR_OK;
 }
 
-/* Of several integrators that stand inside one. */
+/* An integrator may contain only one other. */
 static aur_result refuse_second(const aur_parameters *parameters, aur_error *error) {
     for (size_t i = 0; i < parameters->count; ++i)
         if (strcmp(parameters->items[i].name, "integrator2") == 0)
@@ -70,8 +70,8 @@ static aur_result refuse_second(const aur_parameters *parameters, aur_error *err
 
 /* What an integrator is filled from. */
 typedef struct source {
-    const aur_gather_integrator *gather;   /* where it is the caller's; else NULL */
-    const aur_integrator_context *context; /* NULL: the keys are read and nothing is made */
+    const aur_gather_integrator *gather;   /* if supplied by the caller; else NULL */
+    const aur_integrator_context *context; /* NULL: the keys are only read */
 } source;
 
 /* Options of the caller's, with what they begin with. Keys beyond them are refused: they would be written

@@ -43,7 +43,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     return aur_path_prepare(data, context->scene, error);
 }
 
-/* Hidden lamps are not looked at. */
+/* Hidden emitters need no probe rays. */
 static aur_result look(const aur_view *view, const aur_integrator_context *context,
                        aur_integrator *integrator, aur_error *error) {
     aur_path *const data = integrator->data;

@@ -1,8 +1,8 @@
 /* Light tracing: paths from the lights, each vertex of which is connected to the camera (Dutre, Lafortune,
- * Willems 1993; Veach 1997). A round of as many paths as the image has pixels is one sample of every pixel.
- * Paths write lists of splats, which are added in the order of the paths, so that threads and ranks change
- * nothing. What light paths cannot find, emitters that the camera sees and all that it sees in mirrors and
- * through glass, comes from a camera ray a pixel. */
+ * Willems 1993; Veach 1997). A round traces as many paths as the image has pixels and is one sample of every
+ * pixel. Paths write lists of splats, which are added in the order of the paths, so that results do not
+ * depend on threads and ranks. Light paths cannot find directly visible emitters, or what is seen in mirrors
+ * and through glass: one camera ray per pixel adds that. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,7 +112,7 @@ typedef struct particle {
     uint32_t depth; /* edges so far */
 } particle;
 
-/* What a particle brings to the camera is radiance by its power per area of the geometric surface, where
+/* A particle's contribution to the camera is radiance by its power per area of the geometric surface, where
  * BSDFs count the cosine to the shading normal (Veach 1997, section 5.3.2). */
 static bool connect(const round_work *work, const particle *at, const float lens[2], splats *list) {
     const aur_scene *const scene = work->view->scene;
@@ -143,7 +143,7 @@ static bool connect(const round_work *work, const particle *at, const float lens
         aur_vector_scale(aur_vector_multiply(aur_vector_multiply(at->power, value), passed), density));
 }
 
-/* The weight of a particle that goes on in a drawn direction: adjoint, as above. */
+/* The weight of a particle that continues in a sampled direction: adjoint, as above. */
 static aur_vector adjoint_weight(const particle *at, const aur_shading *shading,
                                  const aur_bsdf_sample *sample) {
     const aur_vector normal = at->surface->geometric_normal;
@@ -213,7 +213,7 @@ static bool trace_light(const round_work *work, size_t number, splats *list) {
 
 /* --- from the camera */
 
-/* Behind a mirror or a boundary of glass: path tracing, with numbers of its own. */
+/* Behind a mirror or a glass boundary: path tracing with separate random numbers. */
 static aur_vector mirrored_light(const round_work *work, const aur_camera_sample *sample, aur_ray ray,
                                  uint32_t depth, aur_counters *counters) {
     const ptracer *const self = work->self;
@@ -250,7 +250,7 @@ static aur_vector camera_light(const round_work *work, const aur_camera_sample *
                               (const float[3]){pairs[0][0], pairs[1][0], pairs[1][1]}, &walk) ||
             !walk.bounce.specular_bounce)
             break;
-        /* Light paths are connected through what lets light straight through. */
+        /* Light paths are connected through surfaces that transmit light unscattered. */
         if (aur_walk_passed(&surface, direction, &walk))
             continue;
         if (self->specular_paths)
@@ -267,7 +267,7 @@ static bool trace_camera(const round_work *work, size_t pixel, splats *list) {
     aur_camera_sample sample;
     aur_view_sample(work->view, x, y, work->index, &sample);
     const aur_vector light = camera_light(work, &sample, &list->counters);
-    /* The camera's sample is one of each pixel, a particle one of all of them. */
+    /* A camera ray is a sample of one pixel, a particle one of all pixels. */
     const float count = (float)(work->self->width * work->self->height);
     return add_splat(list, (float)x + 0.5f + sample.offset[0], (float)y + 0.5f + sample.offset[1],
                      aur_vector_scale(light, count));

@@ -1,5 +1,5 @@
-/* Quasi-Monte Carlo radiosity (Keller 1994): a particle walk makes a mean radiance for every triangle, and
- * the image gathers it once more at every point that the eye sees, with direct light apart. */
+/* Quasi-Monte Carlo radiosity (Keller 1994): a particle walk computes a mean radiance for every triangle; the
+ * image gathers it once more at every visible point, with separate direct light. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,7 +63,7 @@ static const aur_key keys[] = {
                        "all", "emission", "direct", "indirect")},
 };
 
-/* What the public interface has, and what is studied elsewhere. */
+/* Keys that have moved to the public interface or to another integrator. */
 #define OF_WALK "'walk=paper' has the paper's; aur_radiosity_options has each (aureole-render/radiosity.h)"
 #define OF_END "aur_radiosity_terminate has it (aureole-render/radiosity.h)"
 #define OF_PATTERN "gather rays have equal weights; 'finalgather-lab' has it"
@@ -84,8 +84,8 @@ static const aur_moved_key moved[] = {
     {NULL, NULL},
 };
 
-/* Whoever renders a scene of unknown origin must not have a file overwritten or read: such names come from
- * the caller's own text, which has no place in a file. */
+/* Rendering a scene of unknown origin must not write or read arbitrary files: file names are accepted from
+ * the caller's options, not from a scene file. */
 static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *error) {
     static const char *const names[] = {"save", "load", "ply"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
@@ -170,7 +170,7 @@ static void destroy_solution(void *radiosity) {
     aur_radiosity_destroy(radiosity);
 }
 
-/* The solution, shared by all images that ask for the same one. */
+/* The solution, shared by all images with the same options. */
 static aur_result solve(const radiosity_data *p, const aur_integrator_context *context,
                         aur_radiosity_image *image, aur_error *error) {
     char key[1024];

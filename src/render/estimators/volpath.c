@@ -1,5 +1,5 @@
-/* Path tracing in scenes with participating media. Both of Mitsuba 3's names for it are the same here, its
- * volpathmis: where extinction has no colour there is no difference but for noise. */
+/* Path tracing in scenes with participating media. Mitsuba 3's volpath and volpathmis are the same integrator
+ * here: without coloured extinction they differ only by noise. */
 #include "render/film/clamp.h"
 #include "render/vertex/vertex.h"
 #include "render/volume/volume_path.h"

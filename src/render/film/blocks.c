@@ -19,7 +19,7 @@ aur_result aur_blocks_create(size_t width, size_t height, aur_blocks *blocks, au
         free(taken);
         return aur_fail_memory(error);
     }
-    /* Points first, then the blocks that no point has met. */
+    /* First the blocks of points in sequence, then the blocks that no point has hit. */
     for (size_t i = 0; i < 65 * all && blocks->count < all; ++i) {
         const double x = fmod(0.5 + (double)i / g, 1.0), y = fmod(0.5 + (double)i / (g * g), 1.0);
         const size_t met = (size_t)(y * (double)rows) * columns + (size_t)(x * (double)columns);

@@ -53,7 +53,7 @@ static aur_result damaged(const char *name, const char *why, aur_error *error) {
     return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT, "%s", why);
 }
 
-/* A number that is followed by at least so many words; 0, and a reader that has failed, if it is not. */
+/* A count that is followed by at least that many words; otherwise 0, and the reader fails. */
 static size_t get_count(aur_word_reader *reader, uint64_t bytes_each) {
     const uint64_t count = aur_word_get(reader);
     if (!reader->failed && count / 8 <= aur_words_left(reader) / bytes_each)

@@ -1,11 +1,11 @@
-/* Samples whose light after the first surface is limited, for images without fireflies. What a limit takes
- * away is unbiased by itself and goes into channels of its own: their mean estimates the bias. */
+/* Limits the indirect light of samples, for images without fireflies. The light removed by a limit is
+ * unbiased and is stored in separate channels: their mean estimates the bias. */
 #pragma once
 
 #include "points/base/error.h"
 #include "render/film/integrator.h"
 
-/* A key for limits; the field is a float, 0: none. */
+/* A key for such limits; the field is a float, 0: none. */
 #define AUR_CLAMP_KEY(struct_)                                                                               \
     {                                                                                                        \
         AUR_KEY_OF_REAL(struct_, "clamp", clamp, 0.0, 1e30, "0",                                             \
@@ -13,7 +13,7 @@
                         "G, B; 0: none. Channels clamped.R, .G, .B have the removed light")                  \
     }
 
-/* The first of the channels that have what a limit takes away. */
+/* The first of the channels of removed light. */
 #define AUR_CLAMPED_CHANNEL "clamped.R"
 
 /* Adds the channels where there is a limit. */
@@ -25,7 +25,7 @@ static inline void aur_clamp_prepare(float clamp, aur_integrator *integrator) {
     integrator->extra_names = names;
 }
 
-/* What the limit leaves of a sample, of which `straight` comes from the first surface itself. */
+/* The limited radiance of a sample; `straight` is the part from the first surface, which is not limited. */
 static inline aur_vector aur_clamped(aur_vector radiance, aur_vector straight, float clamp) {
     const aur_vector rest = aur_vector_subtract(radiance, straight);
     const float most = aur_vector_max(rest);

@@ -86,7 +86,7 @@ static size_t smaller(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-/* The film's place of the tile's first pixel. */
+/* The index in the film of the tile's first pixel. */
 static size_t first_pixel(const aur_film *film, const aur_tile *tile) {
     const aur_film_layout *const layout = &film->layout;
     return (tile->y0 - layout->y0) * (layout->x1 - layout->x0) + (tile->x0 - layout->x0);
@@ -225,7 +225,7 @@ aur_counters aur_film_counted(const aur_film *film) {
     return counted;
 }
 
-/* Whether a side of the part lies on the film's own side or between two tiles. */
+/* Whether a side of the part lies on the same side of the film or between two tiles. */
 static bool fits(size_t part, size_t own) {
     return part == own || part % AUR_TILE_SIZE == 0;
 }
@@ -280,7 +280,7 @@ aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error
     return AUR_OK;
 }
 
-/* The unbiased estimate of the variance of one sample, of the means of it and of its square. */
+/* The unbiased estimate of the variance of one sample, from the mean and the mean square. */
 static double variance_of(uint32_t count, double mean, double mean_square) {
     const double spread = mean_square - mean * mean;
     return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;

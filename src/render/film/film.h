@@ -1,4 +1,4 @@
-/* The inside of a film: sums of samples for each pixel, and how far each tile has come. */
+/* Internals of a film: sums of samples for each pixel, and the progress of each tile. */
 #pragma once
 
 #include <aureole-render/film.h>
@@ -32,12 +32,12 @@ typedef struct aur_film_layout {
     /* The film's pixels: x0 <= x < x1, y0 <= y < y1. */
     size_t x0, x1, y0, y1;
     size_t channel_count;
-    /* Pixels share samples by this filter, in cells of so many pixels along a side; 0: they share none. */
+    /* Pixels share samples by this filter, in cells of this many pixels along a side; 0: they do not. */
     size_t cell;
     aur_filter filter;
 } aur_film_layout;
 
-/* The pixels whose samples count in those of a film. */
+/* The pixels whose samples contribute to those of a film. */
 typedef struct aur_film_area {
     size_t x0, x1, y0, y1;
 } aur_film_area;
@@ -53,12 +53,12 @@ static inline aur_film_area aur_film_area_of(const aur_film_layout *layout) {
 struct aur_film {
     aur_film_layout layout;
     aur_film_channel *channels;
-    /* The first tile on the grid over the whole image, and how many tiles there are: those of all pixels
-     * whose samples count. */
+    /* The first tile on the grid over the whole image, and the number of tiles: those of all pixels whose
+     * samples contribute. */
     size_t column0, row0, columns, tile_count;
-    /* For each pixel, row by row: samples that it was given, sums of each channel, and the number of samples
-     * in them, which is less where some were no radiance. Where pixels share samples, `spread` has the sums,
-     * and neither `sums` nor `squares` has any. */
+    /* For each pixel, row by row: the samples taken, the sums of each channel, and the number of samples in
+     * the sums, which excludes invalid ones. Where pixels share samples, `spread` has the sums, and `sums`
+     * and `squares` are unused. */
     uint32_t *given;
     double *sums;
     uint32_t *counts;
@@ -68,7 +68,7 @@ struct aur_film {
     double *squares;
     aur_spread *spread;    /* NULL: pixels share no samples */
     aur_counters counters; /* of all samples */
-    /* Held while a tile's sums are written or the film is read whole, so that it can be read while it is
+    /* Held while a tile's sums are written or the whole film is read, so that it can be read while it is
      * rendered. */
     pthread_mutex_t *lock;
 };
@@ -77,7 +77,7 @@ static inline size_t aur_film_pixel_count(const aur_film *film) {
     return (film->layout.x1 - film->layout.x0) * (film->layout.y1 - film->layout.y0);
 }
 
-/* Whether the film has pixel (x, y) of the image, and where. */
+/* Whether the film contains pixel (x, y) of the image, and its index. */
 static inline bool aur_film_has(const aur_film *film, size_t x, size_t y, size_t *at) {
     const aur_film_layout *const layout = &film->layout;
     if (x < layout->x0 || x >= layout->x1 || y < layout->y0 || y >= layout->y1)
@@ -91,7 +91,7 @@ static inline size_t aur_film_tile_at(const aur_film *film, size_t x, size_t y) 
     return (y / AUR_TILE_SIZE - film->row0) * film->columns + x / AUR_TILE_SIZE - film->column0;
 }
 
-/* Cells of films whose pixels may get different numbers of samples; others have one cell a tile. */
+/* Cells of films whose pixels may have different numbers of samples; other films have one cell per tile. */
 enum { AUR_FILM_CELL = 4 };
 
 /* Sets what follows from the film's layout alone. */
@@ -100,7 +100,7 @@ void aur_film_place(aur_film *film);
 /* An empty film; its channels after the first three are still to be named. Errors: ARGUMENT, MEMORY. */
 aur_result aur_film_create(const aur_film_layout *layout, aur_film **film, aur_error *error);
 
-/* What the pixels of a tile had before a step, row by row of the tile, and are to have after it. */
+/* The sample counts of a tile's pixels before a step, row by row, and their targets. */
 typedef struct aur_film_before {
     double sums[AUR_TILE_SIZE * AUR_TILE_SIZE][3];
     uint32_t counts[AUR_TILE_SIZE * AUR_TILE_SIZE];
@@ -115,7 +115,7 @@ static inline size_t aur_film_tile_of(const aur_film *film, size_t pixel) {
     return aur_film_tile_at(film, layout->x0 + pixel % width, layout->y0 + pixel / width);
 }
 
-/* What is given samples as a whole: pixels, or cells where pixels share samples. */
+/* The units that receive samples as a whole: pixels, or cells where pixels share samples. */
 static inline size_t aur_film_unit_count(const aur_film *film) {
     return film->spread != NULL ? film->tile_count * film->spread->tile_cells : aur_film_pixel_count(film);
 }
@@ -128,29 +128,29 @@ static inline size_t aur_film_unit_tile(const aur_film *film, size_t unit) {
     return film->spread != NULL ? unit / film->spread->tile_cells : aur_film_tile_of(film, unit);
 }
 
-/* How many samples each pixel is to have. */
+/* The target number of samples of each pixel. */
 typedef struct aur_film_targets {
     const uint32_t *pixels; /* of the film, row by row; NULL: `all` */
     uint32_t all;
-    bool whole_tiles; /* the pixels of a tile get as many as the one that is to have most */
+    bool whole_tiles; /* all pixels of a tile get the largest target of any of them */
 } aur_film_targets;
 
-/* Opens tile `index` for the samples that it lacks, tile->first to tile->first + tile->count - 1; no sums
- * when it has them. The tile's sums are copies. Different tiles may be open in different threads. To be
+/* Opens tile `index` for its missing samples, tile->first to tile->first + tile->count - 1; without sums if
+ * none are missing. The tile's sums are copies. Different tiles may be open in different threads. Must be
  * closed in every case. Errors: MEMORY. */
 aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
                               aur_film_before *before);
-/* Takes over the sums with the samples from tile->first to tile->first + tile->count - 1 and what was counted
- * for them, and moves on to the next ones. */
+/* Commits the tile's sums and counters for the samples from tile->first to tile->first + tile->count - 1, and
+ * advances to the next ones. */
 void aur_film_take_tile(aur_film *film, aur_tile *tile);
-/* Notes what the step brought, and gives up what has not been taken over. */
+/* Records the step's samples, and discards uncommitted sums. */
 void aur_film_close_tile(aur_film *film, aur_tile *tile, aur_film_before *before);
 
 /* Where the tile lies in the film: x0 .. y1 and the stride. */
 void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile);
 
-/* All that the film has of a tile, to and from bytes of another process that renders the same, with what was
- * counted there for the tile. */
+/* Serialises all data of a tile, with its counters, to and from another process that renders the same image.
+ */
 void aur_film_put_tile(const aur_film *film, size_t index, struct aur_bytes *bytes);
 void aur_film_get_tile(aur_film *film, size_t index, const aur_counters *counted,
                        struct aur_bytes_reader *bytes);
@@ -159,7 +159,7 @@ void aur_film_get_tile(aur_film *film, size_t index, const aur_counters *counted
 void aur_film_write(const aur_film *film, FILE *stream);
 size_t aur_film_file_size(const aur_film *film);
 
-/* A pixel's value in a channel of means; 0 where it has no samples. */
+/* A pixel's mean in a channel; 0 without samples. */
 double aur_film_mean(const aur_film *film, size_t pixel, size_t channel);
 
 /* Samples that every pixel was given. */
@@ -167,47 +167,49 @@ uint32_t aur_film_samples(const aur_film *film);
 /* What is counted of all samples, also while tiles are being rendered. */
 aur_counters aur_film_counted(const aur_film *film);
 
-/* What a long render keeps in a file: what it is of, how far it has come, and its films. */
+/* A checkpoint file of a long render: identity, progress and films. */
 
 typedef struct aur_checkpoint {
-    /* What the films are of, a line "KEY VALUE" each: a render goes on only from one with the same lines. */
+    /* What the films depend on, one line "KEY VALUE" each: a render continues only from a checkpoint with the
+     * same lines. */
     char *identity;
     size_t word_count;
-    uint64_t *words; /* numbers of whoever made it */
+    uint64_t *words; /* numbers of the creator */
     size_t film_count;
     aur_film **films;
 } aur_checkpoint;
 
-/* Replaces the file whole or not at all. Errors: WRITE, MEMORY. */
+/* Replaces the file atomically. Errors: WRITE, MEMORY. */
 aur_result aur_checkpoint_save(const char *path, const char *identity, size_t word_count,
                                const uint64_t *words, size_t film_count, const aur_film *const *films,
                                aur_error *error);
-/* To be released in every case. `input`: what must not be replaced (points/base/file.h), unlike a
- * checkpoint to go on from. Errors: OPEN, FORMAT, MEMORY; ARGUMENT for an input that is an output. */
+/* Must be released in every case. `input`: the file is an input that must not be overwritten
+ * (points/base/file.h), unlike a checkpoint to continue from. Errors: OPEN, FORMAT, MEMORY; ARGUMENT for an
+ * input that is an output. */
 aur_result aur_checkpoint_load(const char *path, bool input, aur_checkpoint *checkpoint, aur_error *error);
 aur_result aur_checkpoint_load_memory(const char *name, size_t size, const void *data,
                                       aur_checkpoint *checkpoint, aur_error *error);
 void aur_checkpoint_release(aur_checkpoint *checkpoint);
 
-/* Whether two texts say the same of what is rendered; lines that begin with `but` may differ (NULL: none).
- * The error, ARGUMENT, names `path` and the first line that differs. */
+/* Whether two identities are equal; lines that begin with `but` may differ (NULL: none). The error, ARGUMENT,
+ * names `path` and the first line that differs. */
 aur_result aur_identity_compare(const char *path, const char *kept, const char *wanted, const char *but,
                                 aur_error *error);
 /* The value of a key's line, or NULL; *length is its length. */
 const char *aur_identity_find(const char *identity, const char *key, size_t *length);
 
-/* Adds the samples of `part`, whose image has the same size and channels and whose pixels are the film's
- * own or whole tiles of them (16 x 16 pixels on a grid over the whole image). Pixels that have samples from
- * only one of the two keep every bit; where both have some, the sums are added in double precision. Where
- * pixels share samples the part has the film's own pixels. The parts' samples must be different ones: nothing
- * can tell. Errors: ARGUMENT for another size, filter or channels, or pixels that do not fit. */
+/* Adds the samples of `part`, an image of the same size and channels. Its pixels are the film's or whole
+ * tiles of them (16 x 16 pixels on a grid over the whole image). Pixels with samples in only one of the two
+ * are copied bit for bit; where both have some, the sums are added in double precision. Where pixels share
+ * samples, the part must have the same pixels as the film. The samples must be different ones, which cannot
+ * be checked. Errors: ARGUMENT for another size, filter or channels, or pixels that do not fit. */
 aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error);
 
-/* Writes all that the film holds, little-endian, with a checksum; the file is replaced whole or not at all.
- * Errors: WRITE, MEMORY. */
+/* Writes the whole film, little-endian, with a checksum; the file is replaced atomically. Errors: WRITE,
+ * MEMORY. */
 aur_result aur_film_save(const aur_film *film, const char *path, aur_error *error);
-/* Errors: OPEN, FORMAT (no film, a damaged one, or one of another version), MEMORY. */
+/* Errors: OPEN, FORMAT (not a film, damaged, or of another version), MEMORY. */
 aur_result aur_film_load(const char *path, aur_film **film, aur_error *error);
-/* The same from memory; `name` stands in messages. */
+/* The same from memory; `name` is used in messages. */
 aur_result aur_film_load_memory(const char *name, size_t size, const void *data, aur_film **film,
                                 aur_error *error);

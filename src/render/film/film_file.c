@@ -1,4 +1,4 @@
-/* A film in a file: 64-bit little-endian words, the last one a hash of all others. */
+/* A film file: 64-bit little-endian words, the last one a hash of all others. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -148,7 +148,7 @@ static void get_counters(aur_word_reader *reader, aur_counters *counted) {
         counted->levels[l] = aur_word_get(reader);
 }
 
-/* False when a channel is none that a film has. */
+/* False if a channel is not valid in a film. */
 static bool get_channels(aur_word_reader *reader, aur_film *film) {
     for (size_t c = 0; c < film->layout.channel_count; ++c) {
         const uint64_t kind = aur_word_get(reader);
@@ -189,7 +189,7 @@ static void get_pixels(aur_word_reader *reader, aur_film *film) {
         get_doubles(reader, values.cell_moments, spread->moments);
 }
 
-/* False where no film has such a filter and cells. */
+/* False if the filter or cells are not valid in a film. */
 static bool get_filter(const uint64_t words[4], aur_film_layout *layout) {
     aur_filter *const filter = &layout->filter;
     const uint64_t kind = words[1] & UINT32_MAX;
@@ -204,8 +204,8 @@ static bool get_filter(const uint64_t words[4], aur_film_layout *layout) {
     return layout->cell == 0 || (radius > 0.5 && radius <= AUR_FILTER_REACH_MAX + 0.5);
 }
 
-/* The words of a film after the header, or 0 when a file of `left` words cannot hold so many. Nothing is
- * allocated before this is known. */
+/* The number of words of a film after the header, or 0 if a file of `left` words is too short. Checked before
+ * anything is allocated. */
 static size_t words_of(const aur_film_layout *layout, size_t left) {
     if (layout->x0 >= layout->x1 || layout->y0 >= layout->y1 || layout->x1 > left || layout->y1 > left ||
         layout->x1 > layout->width || layout->y1 > layout->height || layout->width > LONGEST_SIDE ||

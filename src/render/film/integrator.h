@@ -1,4 +1,4 @@
-/* Integrators: how radiance along a camera ray is found. One a file, with one line in the table of
+/* Integrators: estimators of the radiance along camera rays. One per file, with one line in the table of
  * integrator.c. */
 #pragma once
 
@@ -12,11 +12,11 @@
 #include "render/film/film.h"
 #include "render/scene/scene.h"
 
-/* What an integrator is made for. Everything but the parameters outlives it. */
+/* The context of an integrator. Everything but the parameters outlives it. */
 typedef struct aur_integrator aur_integrator;
 typedef struct aur_integrator_context aur_integrator_context;
 
-/* Makes the integrator that parameters->plugin names ready; errors carry the place in the scene file. */
+/* Creates the integrator that parameters->plugin names; errors include the position in the scene file. */
 typedef aur_result aur_integrator_factory(aur_parameters *parameters, const aur_integrator_context *context,
                                           aur_integrator **integrator, aur_error *error);
 
@@ -25,12 +25,12 @@ struct aur_integrator_context {
     size_t samples_per_pixel;
     uint64_t seed;
     size_t threads;
-    aur_cache *cache; /* what renders of one scene share */
+    aur_cache *cache; /* shared by renders of one scene */
     bool use_cache;   /* ... and what later runs may take from files of the cache (points/base/file.h) */
     aur_progress progress;
     aur_warnings warnings;
-    const aur_gather_integrator *gather; /* the caller's own; or NULL */
-    /* For integrators that hold another one; set by aur_integrator_create. */
+    const aur_gather_integrator *gather; /* supplied by the caller; or NULL */
+    /* For integrators that contain another one; set by aur_integrator_create. */
     aur_integrator_factory *create;
 };
 
@@ -41,38 +41,36 @@ typedef struct aur_moved_key {
 
 typedef struct aur_integrator_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor */
-    /* Of what integrator->data points to: `initial`, or zeros where that is NULL, and then what the keys say.
-     * Freed in the end. */
+    /* Of the struct at integrator->data. It starts as `initial`, or zeros if that is NULL; then the keys are
+     * read. Freed with the integrator. */
     size_t size;
     const void *initial;
-    const aur_moved_key *moved; /* NULL: none; its last row is empty */
-    /* Prepares what all rays share (a photon map, say), on several threads; NULL: nothing. Texts among the
-     * keys are the caller's and are gone afterwards. */
+    const aur_moved_key *moved; /* NULL: none; the last row is empty */
+    /* Prepares what all rays share (a photon map, for example), on several threads; NULL: nothing. Strings
+     * among the keys belong to the caller and are invalid afterwards. */
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error);
-    /* Prepares what hangs on the image's size and on the camera's rays, too; NULL: nothing. */
+    /* Prepares what also depends on the image size and the camera; NULL: nothing. */
     aur_result (*look)(const aur_view *view, const aur_integrator_context *context,
                        aur_integrator *integrator, aur_error *error);
-    /* Frees what integrator->data points to further, if it was prepared; NULL: nothing. */
+    /* Frees what integrator->data points to, if it was prepared; NULL: nothing. */
     void (*release)(aur_integrator *integrator);
     /* Radiance that arrives along the camera ray. */
     aur_vector (*radiance)(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters);
-    /* Adds the samples of a tile, for integrators that treat pixels together or fill more channels; NULL: one
-     * camera ray after the other, as aur_integrator_add_samples does. The sums of a pixel must not depend on
-     * which of its neighbours are wanted. */
+    /* Adds the samples of a tile, for integrators that process pixels together or fill more channels; NULL:
+     * one camera ray at a time, as in aur_integrator_add_samples. The sums of a pixel must not depend on
+     * which of its neighbours need samples. */
     aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
-    /* For light paths, which end anywhere in the image: computes sample `index` of all pixels, which the
-     * tiles then take. Samples are weighed by `filter` as they are splatted. NULL: none. Errors: MEMORY,
-     * CANCELLED.
-     */
+    /* For light tracing, whose paths end anywhere in the image: computes sample `index` of all pixels; the
+     * tiles then read it. Splats are weighed by `filter`. NULL: none. Errors: MEMORY, CANCELLED. */
     aur_result (*round)(aur_integrator *integrator, const aur_view *view, const aur_filter *filter,
                         uint32_t index, const aur_parallel_options *parallel, aur_counters *counters,
                         aur_error *error);
-    /* Of `tile`: it adds a pixel's samples one after the other, so that any cut of them into calls gives the
-     * same bits. Else it asks aur_tile_stops on the way, and returns AUR_ERROR_CANCELLED. */
+    /* Of `tile`: it adds a pixel's samples one after the other, so that any division into calls gives the
+     * same bits. Otherwise it calls aur_tile_stops itself, and returns AUR_ERROR_CANCELLED. */
     bool cuts;
-    /* The camera's rays meet lamps, so that their outlines are part of the image's error. */
+    /* Camera rays hit emitters, so that their outlines contribute to the image's error. */
     bool shows_lamps;
 } aur_integrator_descriptor;
 
@@ -84,15 +82,16 @@ static inline bool aur_integrator_knows_samples(const aur_integrator_context *co
 struct aur_integrator {
     const aur_integrator_descriptor *descriptor;
     const aur_scene *scene;
-    const aur_gather_integrator *gather; /* where it is the caller's own; else NULL */
+    const aur_gather_integrator *gather; /* supplied by the caller; else NULL */
     void *data;
     void *made;                 /* by create, where it is not in `data` */
     bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
-    bool whole_tiles;           /* all pixels of a tile have as many samples */
-    bool refines_lamp_edges;    /* where neighbours see the edge of a lamp a pixel has more rays */
+    bool whole_tiles;           /* all pixels of a tile have the same number of samples */
+    bool refines_lamp_edges;    /* traces more rays in a pixel whose neighbours see the edge of an emitter */
     uint32_t samples_a_pattern; /* samples of a pixel that form one pattern; 0: no patterns */
-    const uint16_t *lamp_looks; /* of each pixel of the image: rays of a sample for lamps alone; NULL: none */
-    size_t extra_count;         /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
+    const uint16_t
+        *lamp_looks;    /* of each pixel of the image: probe rays for emitters per sample; NULL: none */
+    size_t extra_count; /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
     const char *const *extra_names; /* as in the image's file */
     /* What they show; NULL: means. */
     const aur_channel_kind *extra_kinds;
@@ -122,7 +121,7 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
 
 aur_integrator_factory aur_integrator_create;
 /* Whether the parameters name an integrator of the library or `gather` (or NULL), and its keys can be read:
- * what aur_integrator_create asks first. */
+ * the first check of aur_integrator_create. */
 aur_result aur_integrator_check(aur_parameters *parameters, const aur_gather_integrator *gather,
                                 aur_error *error);
 

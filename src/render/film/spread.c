@@ -60,7 +60,7 @@ void aur_spread_destroy(aur_spread *spread) {
 
 /* --- samples */
 
-/* Adds a row of pixels; `channels` is known where it is called for images without more of them. */
+/* Adds a row of pixels; inlined with a constant `channels` for images without extra ones. */
 static inline void add_row(size_t width, size_t channels, const float *across, double weight,
                            const double *values, double *sums) {
     for (size_t i = 0; i < width; ++i) {
@@ -104,7 +104,7 @@ static size_t clamped(size_t at, size_t first, size_t end) {
     return at < first ? first : at < end ? at : end - 1;
 }
 
-/* Pixels beside a crop get as many samples as the nearest one in it. */
+/* Pixels outside a crop get as many samples as the nearest one in it. */
 void aur_spread_set_wanted(const aur_film *film, size_t index, const aur_film_targets *targets,
                            const aur_tile *tile, aur_film_before *before) {
     const aur_film_layout *const layout = &film->layout;
@@ -171,7 +171,7 @@ void aur_spread_take_tile(aur_film *film, aur_tile *tile) {
             spread->given[first + cell] = last;
 }
 
-/* Notes a step of `count` samples of each pixel, after which a cell has `now`. */
+/* Records a step of `count` samples of each pixel, after which a cell has the sums `now`. */
 static void note_step(const aur_spread *spread, uint32_t count, const double *before, const double *now,
                       double *moments) {
     for (size_t i = 0; i < spread->side * spread->side; ++i) {
@@ -218,7 +218,7 @@ typedef struct reaching_cell {
 
 enum { CELLS_MAX = (2 * AUR_FILTER_REACH_MAX / 4 + 2) * (2 * AUR_FILTER_REACH_MAX / 4 + 2) };
 
-/* The cells with samples that reach a pixel, in the order of their places. */
+/* The cells with samples that reach a pixel, in the order of their positions. */
 static size_t find_cells(const aur_film *film, size_t pixel, reaching_cell *found) {
     const aur_film_layout *const layout = &film->layout;
     const aur_spread *const spread = film->spread;
@@ -258,8 +258,8 @@ double aur_spread_value(const aur_film *film, size_t pixel, size_t channel) {
     return weight != 0.0 ? sum / weight : 0.0;
 }
 
-/* A value is the ratio of sums over the cells, s / w, and its variance by the ratio's linear form that of
- * s - (value) w over w^2; the cells' steps are independent. */
+/* A value is the ratio of sums over the cells, s / w. Its variance, to first order, is that of s - (value) w
+ * over w^2; the cells' steps are independent. */
 bool aur_spread_error(const aur_film *film, size_t pixel, double squares[3]) {
     const aur_spread *const spread = film->spread;
     reaching_cell cells[CELLS_MAX];

@@ -1,9 +1,10 @@
-/* Samples that count in all pixels that the filter reaches from them. Pixels share samples then, and nothing
- * may depend on the order in which threads, ranks or parts of an image add them. So each square cell of
- * pixels has sums of its own for all pixels that its samples reach, a border around it included, in which the
- * samples stand in the order of their numbers and pixels; the image adds the cells that reach a pixel in the
- * order of their places. All pixels of a cell have as many samples, and a cell counts by its sums divided by
- * that number: so cells may have different numbers of samples without moving the filter's centre. */
+/* Samples that contribute to all pixels within the filter's reach. Pixels then share samples, and the result
+ * must not depend on the order in which threads, ranks or parts of an image add them. So each square cell of
+ * pixels has separate sums for all pixels that its samples reach, including a border around it. Within a
+ * cell, samples are added in the order of their numbers and pixels; the image adds the cells that reach a
+ * pixel in the order of their positions. All pixels of a cell have the same number of samples, and the cell's
+ * sums are divided by it. So cells may have different numbers of samples without shifting the filter's
+ * centre. */
 #pragma once
 
 #include "render/film/tile.h"
@@ -17,7 +18,7 @@ struct aur_film_before;
 /* Bins of the table over a pixel; between them the filter is linear, wrong by 2e-6 of a gaussian's peak. */
 enum { AUR_SPREAD_BINS = 512, AUR_SPREAD_WIDTH_MAX = 2 * AUR_FILTER_REACH_MAX + 1 };
 
-/* Samples of a pixel that are held back to be added in order; what takes them adds no more at a time. */
+/* Samples of a pixel that are stored to be added in order, at most this many per call. */
 enum { AUR_SPREAD_PIECE = 32 };
 
 typedef struct aur_spread {
@@ -31,8 +32,8 @@ typedef struct aur_spread {
     /* Cells tile by tile: their sums; the samples that each of their pixels was given; and steps. */
     double *sums;
     uint32_t *given, *steps;
-    /* Of each pixel of a cell with its borders, over the steps of n samples that summed to s (R, G, B) with
-     * weights w: the sums of s^2 / n, s w / n and w^2 / n. NULL: not kept. */
+    /* For each pixel of a cell with its borders, over the steps of n samples that summed to s (R, G, B) with
+     * weights w: the sums of s^2 / n, s w / n and w^2 / n. NULL: not computed. */
     double *moments;
 } aur_spread;
 
@@ -40,9 +41,9 @@ enum { AUR_SPREAD_MOMENTS = 7 };
 
 /* The pixels on each side that a sample reaches. */
 size_t aur_spread_reach(const aur_filter *filter);
-/* Sets all numbers of `spread` for a filter and cells; allocates nothing. */
+/* Computes the sizes in `spread` for a filter and cells; allocates nothing. */
 void aur_spread_measure(const aur_filter *filter, size_t cell, size_t channel_count, aur_spread *spread);
-/* Allocates for so many tiles. False: out of memory. To be released in every case. */
+/* Allocates for `tile_count` tiles. False: out of memory. Must be released in every case. */
 bool aur_spread_create(const aur_filter *filter, size_t cell, size_t channel_count, size_t tile_count,
                        aur_spread **spread);
 void aur_spread_destroy(aur_spread *spread);
@@ -64,8 +65,8 @@ static inline void aur_spread_weights(const aur_spread *spread, float offset, fl
         weights[i] = low[i] + part * (high[i] - low[i]);
 }
 
-/* Adds a sample of pixel (x, y) to the sums of a tile's cells: values[c] times `weight` and the filter, and
- * to the sum of weights `count` times them. */
+/* Adds a sample of pixel (x, y) to the sums of a tile's cells: values[c] times `weight` and the filter. If
+ * `counts`, their product is also added to the sum of weights. */
 void aur_spread_add(const aur_spread *spread, double *cells, size_t x, size_t y, const float offset[2],
                     double weight, const float *values, bool counts);
 
@@ -76,7 +77,7 @@ aur_result aur_spread_open_tile(const struct aur_film *film, aur_tile *tile, str
 void aur_spread_take_tile(struct aur_film *film, aur_tile *tile);
 void aur_spread_close_tile(struct aur_film *film, const aur_tile *tile, const struct aur_film_before *before);
 
-/* A pixel's value in a channel, and its squared standard error; false where too few steps tell it. */
+/* A pixel's value in a channel, and its squared standard error; false if there are too few steps. */
 double aur_spread_value(const struct aur_film *film, size_t pixel, size_t channel);
 bool aur_spread_error(const struct aur_film *film, size_t pixel, double squares[3]);
 

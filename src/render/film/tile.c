@@ -81,7 +81,7 @@ static size_t pixel_of(const aur_tile *tile, size_t x, size_t y) {
     return (y - tile->y0) * tile->stride + (x - tile->x0);
 }
 
-/* A sample's floats among those held back: its offset, whether there is one, and its channels. */
+/* A stored sample's floats: its offset, whether it is present, and its channels. */
 enum { SLOT_COUNTS = 2, SLOT_VALUES };
 
 static size_t slot_of(const aur_tile *tile, size_t x, size_t y, uint32_t index) {
@@ -208,7 +208,7 @@ bool aur_tile_hold(aur_tile *tile) {
     return tile->slots.values != NULL;
 }
 
-/* Lights of one sample stand in the order in which it met them. */
+/* Lights of one sample are ordered as they were hit. */
 static int compare_lights(const void *a, const void *b) {
     const aur_tile_light *const x = a, *const y = b;
     if (x->slot != y->slot)

@@ -12,16 +12,16 @@
 
 /* Counted by each tile for itself and added up afterwards. */
 typedef struct aur_counters {
-    uint64_t rays;      /* of all kinds; the driver's, which knows by aur_rays_traced */
-    uint64_t edge_rays; /* of these, what was traced to know how much pixels see of what is around an edge; a
-                           film's file does not keep it */
+    uint64_t rays;      /* of all kinds; set by the driver from aur_rays_traced */
+    uint64_t edge_rays; /* of these, rays that only measure how much of each surface a pixel at an edge sees;
+                           not stored in film files */
     uint64_t samples;   /* of the camera */
-    uint64_t invalid;   /* samples that were no radiance */
-    uint64_t cut; /* paths cut after so many mirrors, hidden lights or null collisions, one after another */
-    uint64_t unsolved; /* places whose system for optimal weights could not be solved */
+    uint64_t invalid;   /* samples with invalid radiance */
+    uint64_t cut;       /* paths cut after too many mirrors, hidden lights or null collisions in sequence */
+    uint64_t unsolved;  /* shading points whose system for optimal weights could not be solved */
     bool stopped; /* a sample was left unfinished because the work is to stop: the sums are of no use; never
                      added */
-    uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
+    uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: shading points that ended at each level */
 } aur_counters;
 
 void aur_counters_add(aur_counters *sum, const aur_counters *added);
@@ -35,16 +35,16 @@ typedef struct aur_camera_sample {
                      [2]; /* of the stream: those of the camera, and the first of an integrator */
 } aur_camera_sample;
 
-/* Dimension pairs that the camera uses; an integrator's own begin after them. */
+/* Dimension pairs that the camera uses; those of integrators begin after them. */
 enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
 
-/* Where camera samples come from; immutable while an image is made. */
+/* The generator of camera samples; constant while an image is rendered. */
 typedef struct aur_view {
     const aur_scene *scene;
     float factor; /* of radiance (aur_camera_factor); 0: 1 */
     const aur_sampler *sampler;
     const aur_filter *filter; /* that samples are drawn by: box where pixels share samples */
-    size_t reach;             /* pixels around one whose samples count in it */
+    size_t reach;             /* radius in pixels within which samples contribute to a pixel */
     size_t width, height;     /* of the whole image */
     uint64_t seed;
     bool pixel_centre; /* every camera ray goes through the centre of its pixel */
@@ -63,14 +63,14 @@ enum { AUR_TILE_SIZE = 16, AUR_EXTRA_CHANNELS_MAX = 64 };
 
 struct aur_spread;
 
-/* Part of a sample that is held back, seen at a place of its own. */
+/* Part of a sample that was stored separately, with its image position. */
 typedef struct aur_tile_light {
     size_t slot, number; /* of the sample, and of the light */
     float offset[2], part, radiance[3];
 } aur_tile_light;
 
-/* Samples that are held back, to be added in the order of their numbers and pixels: of each sample and pixel
- * its offset from the pixel's centre, 1 where there is one, and its channels. */
+/* Samples that are stored to be added in the order of their numbers and pixels. For each sample and pixel:
+ * its offset from the pixel's centre, 1 if present, and its channels. */
 typedef struct aur_tile_slots {
     float *values;
     size_t light_count, light_capacity;
@@ -78,14 +78,14 @@ typedef struct aur_tile_slots {
     bool failed; /* out of memory */
 } aur_tile_slots;
 
-/* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole image, so that a crop changes no neighbours.
- */
+/* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole image, so that a crop does not change other
+ * pixels. */
 typedef struct aur_tile {
     const aur_view *view;
-    size_t x0, x1, y0, y1; /* the pixels that are wanted: a whole tile or what a crop leaves of it */
+    size_t x0, x1, y0, y1; /* the pixels to render: a whole tile or its part within the crop */
     uint32_t first, count; /* samples of each pixel: first .. first + count - 1 */
     size_t stride;         /* pixels from one row of sums to the next */
-    /* Of each pixel, like `counts`: of those samples it wants from begins up to ends - 1. NULL: all. */
+    /* Of each pixel, like `counts`: it needs the samples from begins to ends - 1 of the range. NULL: all. */
     const uint32_t *begins, *ends;
     size_t channel_count;
     /* Of pixel (x0, y0), channel_count values per pixel; where pixels share samples, of its cells. */
@@ -94,8 +94,8 @@ typedef struct aur_tile {
     aur_tile_slots slots;
     uint32_t *counts; /* samples added to each pixel */
     aur_counters counters;
-    const atomic_bool *stop; /* true: the samples are no longer wanted; NULL: they are in any case */
-    uint64_t asked;          /* aur_rays_traced when aur_tile_stops asked last */
+    const atomic_bool *stop; /* true: the samples are no longer needed; NULL: never cancelled */
+    uint64_t asked;          /* aur_rays_traced at the last call of aur_tile_stops */
 } aur_tile;
 
 /* Whether the tile may be left unfinished. Asks as often as rays are traced that take some milliseconds, so
@@ -109,13 +109,13 @@ static inline bool aur_tile_stops(aur_tile *tile) {
            aur_parallel_stops();
 }
 
-/* Whether pixel (x, y) of the tile wants a sample of the range. */
+/* Whether pixel (x, y) of the tile needs a sample of the range. */
 static inline bool aur_tile_wants(const aur_tile *tile, size_t x, size_t y, uint32_t index) {
     const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
     return tile->begins == NULL || (index >= tile->begins[pixel] && index < tile->ends[pixel]);
 }
 
-/* How many samples of the range pixel (x, y) wants. */
+/* How many samples of the range pixel (x, y) needs. */
 static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y) {
     const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
     if (tile->begins == NULL)
@@ -142,21 +142,21 @@ void aur_tile_add(aur_tile *tile, size_t x, size_t y, uint32_t index, const floa
 /* One sample with all channels, the first three what the camera measures (aur_tile_measured). */
 void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2],
                            const float *values);
-/* Where pixels share samples: what another ray of a sample met, one of 1 / `part` of them. They say where the
- * sample counts; its other light counts at its own offset. So a light's radiance and weights, which vary
- * together, are of the same rays. */
+/* Where pixels share samples: adds the hit of one of the 1 / `part` probe rays of a sample. The probe rays'
+ * hits determine where the sample's emission counts; its other light counts at its camera offset. So a
+ * light's radiance and weights, which are correlated, come from the same rays. */
 void aur_tile_add_light(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2], float part,
                         aur_vector radiance);
-/* Adds a sample that is one of `made` in a step that gives each pixel `tile->count`, at once: for integrators
- * that do not cut. */
+/* Adds one of the `made` samples of a step that gives each pixel `tile->count`, in one call: for integrators
+ * without `cuts`. */
 void aur_tile_add_of(aur_tile *tile, size_t x, size_t y, size_t made, const float offset[2],
                      aur_vector radiance);
-/* Adds the mean of `count` samples, where pixels share none. */
+/* Adds the mean of `count` samples, where pixels do not share samples. */
 void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
-/* Adds to a channel after the first three, counting no sample, where pixels share none. */
+/* Adds to a channel after the first three without counting a sample, where pixels do not share samples. */
 void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
-/* Where pixels share samples: adds sums that stand for `count` samples of a pixel, (2 reach + 1)^2 pixels
- * around it row by row, each with all channels and the weight. */
+/* Where pixels share samples: adds the sums of `count` samples of a pixel to the (2 reach + 1)^2 pixels
+ * around it, row by row, each with all channels and the weight. */
 void aur_tile_add_sums(aur_tile *tile, size_t x, size_t y, uint32_t count, const double *sums);
 
 /* Holds samples first .. first + count - 1 back from now on. False: out of memory. */

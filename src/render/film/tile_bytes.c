@@ -1,4 +1,4 @@
-/* Tiles of a film in bytes, from one process to another. */
+/* Serialises tiles of a film between processes. */
 #include "points/base/bytes.h"
 #include "render/film/film.h"
 
@@ -9,7 +9,7 @@ typedef struct piece {
 
 enum { PIECES = 5, OWN_PIECES = 2 }; /* the first two only where pixels share no samples */
 
-/* Goes over the tile's rows, `move` by piece: each is a stretch of one of the film's arrays. */
+/* Calls `move` for each row of the tile in each of the film's arrays, as one contiguous piece of memory. */
 static void each_row(const aur_film *film, size_t index, void (*move)(void *bytes, size_t size, void *data),
                      void *bytes) {
     const aur_film_layout *const layout = &film->layout;

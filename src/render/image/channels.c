@@ -77,7 +77,7 @@ static bool is_combined(const char *name) {
            (length == 9 || name[length - 10] == '.');
 }
 
-/* The colours of the layer that is the only one to have any, or the only one called Combined. */
+/* The colours of the only layer that has any, or the only one called Combined. */
 static bool colors_of_layers(const aur_image *image, size_t channels[3]) {
     size_t layers = 0, combined = 0, there[3];
     for (size_t c = 0; c < image->channel_count; ++c) {

@@ -3,8 +3,8 @@
 #include "points/base/names.h"
 #include "render/image/format.h"
 
-/* One metric: the mean over pixels of a term, then what is made of the mean. Without a term it is the mean of
- * a map of the whole image. */
+/* One metric: the mean over pixels of a term, then a function of the mean. Without a term it is the mean of a
+ * map computed from the whole image. */
 typedef struct color_metric {
     const char *name;
     /* Adds to sum and weight the term of value a and reference r. */
@@ -76,7 +76,7 @@ const char *aur_image_metric_name(aur_image_metric which) {
     return (size_t)which < AUR_IMAGE_METRIC_COUNT ? metrics[which].name : NULL;
 }
 
-/* Sums a row before it is added to the whole, so that rounding stays small in large images. */
+/* Sums each row separately, so that rounding errors stay small in large images. */
 static void mean_of_channel(const aur_image *image, size_t channel, double *mean) {
     double sum = 0.0;
     for (size_t y = 0; y < image->height; ++y) {
@@ -151,7 +151,7 @@ aur_result aur_image_compare(const aur_image *reference, const aur_image *image,
     return AUR_OK;
 }
 
-/* Linear light of a ramp whose steps are even to the eye: t in [0,1]. */
+/* Linear light of a perceptually uniform colour ramp: t in [0,1]. */
 static void false_color(double t, float color[3]) {
     static const double ramp[][3] = {{0.00, 0.00, 0.00}, {0.16, 0.07, 0.36}, {0.42, 0.09, 0.48},
                                      {0.70, 0.17, 0.40}, {0.90, 0.33, 0.25}, {0.98, 0.58, 0.15},

@@ -18,7 +18,7 @@ static double square_of(aur_error_measure measure, const aur_error_weight *weigh
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-/* With halves a and b and what was made of each, A and B: the expectation of (A - b)^2 + (B - a)^2 - (a -
+/* With halves a and b and their denoised versions A and B: the expectation of (A - b)^2 + (B - a)^2 - (a -
  * b)^2 is the sum of the square errors of A and B, because a and b are independent and their errors average
  * out. */
 static double square_in_block(const aur_image *const halves[2], const aur_image *const made[2],

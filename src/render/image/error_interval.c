@@ -3,8 +3,8 @@
 #include <aureole/statistics.h>
 #include <math.h>
 
-/* The mean of ((X_i - X_j).(X_k - X_l))^2 / 4 over different i, j, k, l, by sums over all and the rows' sums,
- * which are zero: `squares` of all products, and `own` of the diagonal. */
+/* The mean of ((X_i - X_j).(X_k - X_l))^2 / 4 over distinct i, j, k, l, computed from the sum of squares of
+ * all products (`squares`), that of the diagonal (`own`), and the row sums, which are zero. */
 static double spread_of_fours(double count, double trace, double squares, double own) {
     const double two = squares - own, three = 2.0 * own - squares;
     const double four = trace * trace - 6.0 * own + 2.0 * squares;
@@ -54,9 +54,10 @@ void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
     }
 }
 
-/* Degrees of freedom of the sum of the blocks' spreads. One block's has as many as there are independent
- * differences of fours, count (count - 3) / 2 (two degrees of three replicas, Wishart's), for normal values;
- * a spread's relative variance is two over them, and so is the excess of its expected square. */
+/* Degrees of freedom of the sum of the blocks' spreads. For normal values, one block has as many as there are
+ * independent differences of four replicas, count (count - 3) / 2 (two for three replicas, Wishart). The
+ * relative variance of a spread is two divided by the degrees, and so is the excess of its expected square.
+ */
 static size_t degrees_of_spread(const aur_deviations *sum, size_t count) {
     const double one = count > 3 ? 0.5 * (double)(count * (count - 3)) : 2.0;
     if (!(sum->square_spreads > 0.0))

@@ -17,7 +17,7 @@ typedef struct error_scale {
 } error_scale;
 
 /* One measure: the weights of a pixel from the smoothed values, its differences, and a bound of the variance
- * that rare light makes in them. */
+ * that rare light causes in them. */
 typedef struct measure_row {
     const char *name;
     void (*weigh)(const double value[3], const error_scale *scale, double weight[3]);
@@ -30,7 +30,7 @@ static double luminance_of(const double value[3]) {
     return luminance[0] * value[0] + luminance[1] * value[1] + luminance[2] * value[2];
 }
 
-/* The root three makes the mean over three values per pixel that over pixels. */
+/* The factor sqrt(3) turns the mean over three values per pixel into a mean over pixels. */
 static void weigh_relative(const double value[3], const error_scale *scale, double weight[3]) {
     const double least = 0.01 * scale->bright;
     for (size_t c = 0; c < 3; ++c)
@@ -70,8 +70,8 @@ static void displayed_differences(const double weight[3], const double from[3], 
             aur_srgb_encode(weight[c] * (from[c] + errors[c])) - aur_srgb_encode(weight[c] * from[c]);
 }
 
-/* The sum of differences squared is at most that of the errors times that of the weights (Cauchy, Schwarz).
- */
+/* The sum of weighted differences, squared, is at most the sum of squared errors times that of squared
+ * weights (Cauchy-Schwarz). */
 static double bound_of_sum(const double weight[3], const aur_rare_light *light) {
     return light->variance * (weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2]);
 }
@@ -80,10 +80,9 @@ static double bound_of_three(const double weight[3], const aur_rare_light *light
     return light->variance * weight[0] * weight[0];
 }
 
-/* A displayed value lies between 0 and 1, and between what one hit makes of it and 1 where there is a hit:
- * the variance is at most that between the two cases and that within the second (a quarter of its range
- * squared).
- */
+/* A displayed value lies between 0 and 1, and after a hit between its value with one hit and 1. So its
+ * variance is at most the variance between hit and miss plus that within hits (a quarter of the squared
+ * range). */
 static double bound_of_displayed(const double weight[3], const aur_rare_light *light) {
     const double n = light->samples, p = light->share, missed = pow(1.0 - p, n);
     const double linear = light->variance * weight[0] * weight[0];
@@ -119,7 +118,7 @@ const char *aur_error_measure_name(aur_error_measure measure) {
     return (size_t)measure < AUR_ERROR_MEASURE_COUNT ? measures[measure].name : NULL;
 }
 
-/* Black pixels, whose logarithm is no number, count as a thousandth of the mean. */
+/* Black pixels, whose logarithm is undefined, count as a thousandth of the mean. */
 static error_scale scale_of(size_t count, const double (*values)[3], const double (*smooth)[3]) {
     error_scale scale = {.mean = 0.0};
     const double grey = 0.18, least = 1e-3;

@@ -1,13 +1,13 @@
-/* What one number says of the error of an image: a table of measures. A measure is the root mean square over
- * pixels of differences that follow from a pixel's errors in R, G and B. */
+/* Scalar error measures of an image, as a table. A measure is the root mean square over pixels of differences
+ * that follow from a pixel's errors in R, G and B. */
 #pragma once
 
 #include <aureole-render/image.h>
 #include <stddef.h>
 
 /* Factors of a pixel's errors in R, G and B, or the exposure at which its values are displayed. A measure of
- * luminance has one difference, other measures have three. Either way squares are averaged over 3 x pixels.
- */
+ * luminance has one difference per pixel, the others three; in both cases squares are averaged over 3 x
+ * pixels. */
 typedef struct aur_error_weight {
     double channel[3];
 } aur_error_weight;
@@ -16,20 +16,20 @@ typedef struct aur_error_weight {
  * aur_error_smooth. All are zero where the values are black. */
 void aur_error_weigh(aur_error_measure measure, size_t count, const double (*values)[3],
                      const double (*smooth)[3], aur_error_weight *weights);
-/* Means of magnitudes over 5 x 5 pixels, fewer at the image's edges: an error is put in relation to what lies
- * around it. Filters with negative lobes make negative values next to bright light, whose plain means may be
- * about zero. */
+/* Means of magnitudes over 5 x 5 pixels, fewer at the image's edges, to which errors are relative.
+ * Magnitudes, because filters with negative lobes produce negative values next to bright light, whose plain
+ * mean may be near zero. */
 void aur_error_smooth(size_t width, size_t height, const double (*values)[3], double (*smooth)[3]);
 
 /* The differences in a pixel whose values `from` change by `errors`. */
 void aur_error_apply(aur_error_measure measure, const aur_error_weight *weight, const double from[3],
                      const double errors[3], double differences[3]);
-/* Light that a sample of a pixel meets with a small probability, its share. */
+/* Light that a sample of a pixel hits with a small probability, `share`. */
 typedef struct aur_rare_light {
     double variance; /* of the mean of the samples in R, G and B together */
     double share, samples;
 } aur_rare_light;
 
-/* A bound of the variance that it makes in the differences. */
+/* An upper bound of the variance that it causes in the differences. */
 double aur_error_variance_bound(aur_error_measure measure, const aur_error_weight *weight,
                                 const aur_rare_light *light);

@@ -1,4 +1,4 @@
-/* What OpenEXR says, as errors of ours. */
+/* Converts OpenEXR's errors to those of the library. */
 #include "render/image/exr.h"
 
 static aur_result result_of(exr_result_t code) {

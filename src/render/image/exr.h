@@ -15,18 +15,18 @@ typedef struct aur_exr_stream {
     size_t capacity;
 } aur_exr_stream;
 
-/* Rows of an image whose strides OpenEXR can count. */
+/* Whether the strides of an image's rows fit OpenEXR's types. */
 static inline bool aur_exr_rows_fit(size_t width, size_t channel_count) {
     return width <= INT32_MAX / sizeof(float) / channel_count;
 }
 
-/* The stream whose calls of OpenEXR this thread makes, or NULL: what aur_exr_note writes to. OpenEXR gives
- * its handler of messages a context only, and holds a lock meanwhile that asking the context for its user
- * data would wait for without end. */
+/* Sets the stream for OpenEXR calls of this thread, or NULL: aur_exr_note writes to it. OpenEXR passes its
+ * message handler only a context, and holds a lock during the call: asking the context for its user data
+ * would deadlock. */
 void aur_exr_listen(aur_exr_stream *stream);
 
-/* The handler of messages: keeps the first one in the stream's error. */
+/* The message handler: stores the first message in the stream's error. */
 void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *message);
 
-/* The result of a failed call: what was noted, or else the code's own text. */
+/* The result of a failed call: the stored message, or else the text of the code. */
 aur_result aur_exr_fail(const aur_exr_stream *stream, exr_result_t code);

@@ -1,4 +1,4 @@
-/* Reading EXR with OpenEXR Core: chunk by chunk, each channel straight into its place in the image. */
+/* Reading EXR with OpenEXR Core: chunk by chunk, each channel directly into its position in the image. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,19 +27,19 @@ static int64_t stream_size(exr_const_context_t context, void *user) {
     return (int64_t)((const aur_exr_stream *)user)->size;
 }
 
-/* Where a channel of the file goes. */
+/* The destination of a file's channel. */
 typedef struct channel_order {
     char name[AUR_CHANNEL_NAME_CAPACITY];
     size_t in_file;
 } channel_order;
 
-/* A subsampled channel of a file, as it is stored; values NULL for a full one. */
+/* A subsampled channel of a file, as stored; `values` is NULL for a full-resolution one. */
 typedef struct channel_plane {
     float *values;
     size_t width, height;
 } channel_plane;
 
-/* What the image's R, G and B hold before they are made of it. */
+/* The contents of the image's R, G and B before conversion to RGB. */
 typedef enum color_form {
     FORM_RGB,
     FORM_CHROMA, /* RY, Y and BY */
@@ -99,8 +99,8 @@ static float value_at(const uint8_t *bytes, exr_pixel_type_t type) {
     return type == EXR_PIXEL_UINT ? (float)bits : value;
 }
 
-/* Takes the place of OpenEXR's own function where a channel is subsampled: that of 3.1 writes such lines
- * beyond their chunk. A chunk has line after line, and in a line channel after channel. */
+/* Replaces OpenEXR's unpacking for subsampled channels: version 3.1 writes such lines beyond their chunk. A
+ * chunk is stored line by line, and a line channel by channel. */
 static exr_result_t unpack_chunk(exr_decode_pipeline_t *pipeline) {
     const uint8_t *from = pipeline->unpacked_buffer;
     size_t left = pipeline->chunk.unpacked_size;
@@ -204,7 +204,7 @@ static exr_result_t check_chunk_table(exr_reader *reader, exr_storage_t storage)
     return exr_read_scanline_chunk_info(reader->context, 0, reader->window.min.y, &chunk);
 }
 
-/* The roles of the channels that R, G and B are made of, or NULL where they need not be. */
+/* The roles of the channels from which R, G and B are converted, or NULL if no conversion is needed. */
 static const aur_channel_role *find_form(exr_reader *reader) {
     static const aur_channel_role roles[][3] = {
         [FORM_RGB] = {AUR_CHANNEL_RED, AUR_CHANNEL_GREEN, AUR_CHANNEL_BLUE},
@@ -244,7 +244,7 @@ static aur_result create_planes(exr_reader *reader, aur_error *error) {
     return AUR_OK;
 }
 
-/* The image, with its channels named and their places known. */
+/* Creates the image with named channels and determines their positions. */
 static aur_result create_image(exr_reader *reader, aur_error *error) {
     const size_t count = (size_t)reader->channels->num_channels;
     const size_t width = (size_t)((int64_t)reader->window.max.x - reader->window.min.x + 1);
@@ -283,9 +283,9 @@ static aur_result create_image(exr_reader *reader, aur_error *error) {
     return result;
 }
 
-/* Value `at` of a line of `count` samples, one in `sampling` places. Chroma between two samples is
- * interpolated as OpenEXR's RgbaInputFile does it (ImfRgbaYca.cpp); other values last until the next sample.
- */
+/* Value `at` of a line of `count` samples, one per `sampling` pixels. Chroma between two samples is
+ * interpolated as in OpenEXR's RgbaInputFile (ImfRgbaYca.cpp); other values are repeated until the next
+ * sample. */
 static float between(const float *samples, size_t count, size_t stride, size_t at, size_t sampling,
                      bool smooth) {
     static const float taps[7] = {0.627123f, -0.186077f, 0.087929f, -0.043159f,
@@ -305,7 +305,7 @@ static float between(const float *samples, size_t count, size_t stride, size_t a
     return sum;
 }
 
-/* A subsampled channel becomes a full one: rows first. */
+/* Expands a subsampled channel to full resolution: rows first. */
 static aur_result spread_channel(const exr_reader *reader, size_t c, aur_error *error) {
     const exr_attr_chlist_entry_t *const entry = &reader->channels->entries[c];
     const channel_plane *const plane = &reader->planes[c];
@@ -327,7 +327,7 @@ static aur_result spread_channel(const exr_reader *reader, size_t c, aur_error *
     return AUR_OK;
 }
 
-/* R, G and B of what is in their places. */
+/* Converts the channels stored in R, G and B to RGB. */
 static void make_colors(const exr_reader *reader) {
     static const float red = 0.212639f, green = 0.7151687f, blue = 0.0721923f; /* of Y */
     static const float of_xyz[3][3] = {{3.240970f, -1.537383f, -0.498611f},
@@ -368,8 +368,8 @@ static void add_notes(const exr_reader *reader) {
                        "its chromaticities are not those of Rec. 709: colours are read as if they were");
 }
 
-/* How many bytes of pixels one byte of a chunk can become at most: deflate's limit, with room; lossy DWA may
- * do better by its blocks. */
+/* The most bytes of pixels that one byte of a chunk can expand to: deflate's limit with a margin; lossy DWA
+ * may exceed it by its blocks. */
 static uint64_t largest_ratio(exr_compression_t compression) {
     switch (compression) {
     case EXR_COMPRESSION_NONE:

@@ -38,7 +38,7 @@ static aur_result check_names(const aur_image *image, aur_error *error) {
     return AUR_OK;
 }
 
-/* Whether a channel's name has more than the 31 bytes that EXR's names had at first. */
+/* Whether a channel's name exceeds the 31 bytes of the original EXR format. */
 static bool has_long_name(const aur_image *image) {
     for (size_t c = 0; c < image->channel_count; ++c)
         if (strlen(image->channel_names[c]) > 31)
@@ -64,13 +64,13 @@ static float half_value(float value) {
     return isfinite(value) ? fmaxf(-largest, fminf(value, largest)) : value;
 }
 
-/* What the chunk's writer of the library is, since ours stands in its place. */
+/* The library's chunk writer, which write_chunk replaces and calls. */
 typedef struct chunk_writer {
     exr_result_t (*write)(exr_encode_pipeline_t *pipeline);
 } chunk_writer;
 
-/* A chunk that is as long compressed as it was before is read as if it were not compressed, and up to 3.4 the
- * library writes it compressed all the same (OpenEXR issue 2306): write it as it was. */
+/* Readers take a chunk as uncompressed if it is as long as its uncompressed data, but up to 3.4 the library
+ * writes the compressed bytes anyway (OpenEXR issue 2306). Writes the uncompressed data instead. */
 static exr_result_t write_chunk(exr_encode_pipeline_t *pipeline) {
     const chunk_writer *const library = pipeline->encoding_user_data;
     if (pipeline->compressed_bytes == pipeline->packed_bytes && pipeline->compressed_buffer != NULL &&

@@ -36,7 +36,7 @@ static flip_color relative_xyz(flip_color rgb) {
     return xyz;
 }
 
-/* The linear opponent space YyCxCz, in which the eye's contrast sensitivity is applied (section 4.1). */
+/* The linear opponent space YyCxCz, in which contrast sensitivity is applied (section 4.1). */
 static flip_color to_opponent(flip_color rgb) {
     const flip_color xyz = relative_xyz(rgb);
     return (flip_color){
@@ -141,7 +141,7 @@ static flip_kernel scaled(flip_kernel kernel, double factor) {
     return kernel;
 }
 
-/* Positive weights add to 1 and negative ones to -1 (section 4.2). */
+/* Normalises positive weights to a sum of 1 and negative ones to -1 (section 4.2). */
 static flip_kernel balanced(flip_kernel kernel) {
     double positive = 0.0, negative = 0.0;
     for (int i = 0; i <= 2 * kernel.radius; ++i) {
@@ -153,7 +153,7 @@ static flip_kernel balanced(flip_kernel kernel) {
     return kernel;
 }
 
-/* Planes of one image, width x height each, and room for a convolution. */
+/* Planes of one image, width x height each, and working memory for a convolution. */
 typedef struct flip_planes {
     size_t width, height;
     float *opponent[3];
@@ -170,7 +170,7 @@ static size_t clamped(size_t at, int offset, size_t count) {
     return place < 0 ? 0 : (size_t)place < count ? (size_t)place : count - 1;
 }
 
-/* out += in convolved with across (x) by along (y); pixels beyond the border are those at the border. */
+/* out += in convolved with `across` (x) and `along` (y); the border is extended by its pixels. */
 static void add_convolution(const flip_planes *planes, const float *in, const flip_kernel *across,
                             const flip_kernel *along, float *out) {
     const size_t width = planes->width, height = planes->height;
@@ -225,8 +225,8 @@ static void filter_contrast(const flip_planes *planes) {
     }
 }
 
-/* Edges by the first and points by the second derivative of a Gaussian of the eye's feature width
- * (section 4.2). */
+/* Detects edges by the first and points by the second derivative of a Gaussian of the visual system's feature
+ * width (section 4.2). */
 static void detect_features(const flip_planes *planes) {
     const double feature_width = 0.082; /* degrees */
     const double deviation = 0.5 * feature_width * pixels_per_degree;

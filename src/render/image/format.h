@@ -1,5 +1,5 @@
-/* File formats, and what they share. A format is one aur_image_format_<name>, defined in the file that reads
- * it, and one line in AUR_IMAGE_FORMATS. */
+/* File formats, and their shared code. A format is one aur_image_format_<name>, defined in the file that
+ * reads it, and one line in AUR_IMAGE_FORMATS. */
 #pragma once
 
 #include <aureole-render/image.h>
@@ -18,11 +18,12 @@ struct aur_image {
     float *data;        /* data[(y * width + x) * channel_count + c]; the top row first */
     bool data_is_owned; /* false: the caller's, see aur_image_wrap */
     char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY];
-    bool chosen; /* one or three channels that the caller chose: they are the colour, whatever their names */
+    bool chosen; /* one or three channels chosen by the caller: they are the colour, whatever their names */
     char notes[AUR_NOTES_CAPACITY];
 };
 
-/* Values (pixels times channels) that an image may have: 4 GiB of floats. A file that claims more lies. */
+/* The most values (pixels times channels) of an image: 4 GiB of floats. A file that claims more is rejected.
+ */
 #define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
 
 /* A file in memory. */
@@ -44,9 +45,9 @@ typedef struct aur_image_format {
     const char *name;   /* what aur_image_format_of returns */
     bool every_channel; /* all channels are written, not a colour */
     bool (*recognize)(const aur_image_source *source);
-    /* Both leave the file's name in errors, and an image that has only been begun, to their caller. */
+    /* Both leave it to the caller to add the file's name to errors, and to destroy an incomplete image. */
     aur_result (*read)(const aur_image_source *source, aur_image **image, aur_error *error);
-    /* Errors of the stream are left to whoever commits the file. NULL: read only. */
+    /* The caller that commits the file checks the stream for errors. NULL: read only. */
     aur_result (*write)(const aur_image_target *target, const aur_image *image, aur_error *error);
 } aur_image_format;
 
@@ -67,24 +68,24 @@ extern const aur_table aur_image_format_table;
 
 aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error);
 
-/* Formats of 8 bits: the image as it is displayed, grey or R, G, B, by exposure and tone curve; NULL where
- * memory is short, else to be freed. And the keys of that, for the rows of such formats. */
+/* For 8-bit formats: the displayed image, grey or R, G, B, after exposure and tone curve; NULL if out of
+ * memory, else to be freed. The macro below has the keys for the rows of such formats. */
 unsigned char *aur_image_display(const aur_image_target *target, const aur_image *image,
                                  size_t *channel_count);
 enum { AUR_DISPLAY_KEY_COUNT = 2 };
 extern const aur_key aur_display_keys[AUR_DISPLAY_KEY_COUNT];
 
-/* FORMAT when a file claims a size that no image may have. */
+/* FORMAT if a file claims a size beyond the limit of images. */
 aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error);
 
-/* FORMAT when no file of this length can hold so many pixels: decoders allocate before they read. */
+/* FORMAT if a file of this length cannot contain that many pixels: decoders allocate before they read. */
 aur_result aur_image_check_claim(const aur_image_source *source, const char *format, size_t pixel_count,
                                  size_t pixels_a_byte, aur_error *error);
 
 /* Does the source begin with these bytes? */
 bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count);
 
-/* For stb's writer: the context is a stream, whose errors are left to whoever commits the file. */
+/* For stb's writer: the context is a stream, whose errors are checked by the caller that commits the file. */
 void aur_image_put_bytes(void *stream, void *bytes, int count);
 aur_result aur_image_fail_encode(aur_error *error);
 
@@ -111,23 +112,24 @@ typedef enum aur_channel_role {
     AUR_CHANNEL_OTHER,
     AUR_CHANNEL_RY, /* (R - Y) / Y */
     AUR_CHANNEL_BY,
-    AUR_CHANNEL_DATA /* known, and no colour */
+    AUR_CHANNEL_DATA /* recognised, and not a colour */
 } aur_channel_role;
 
-/* The length of a name's layer, its dot included; 0 without one. */
+/* The length of the layer prefix of a name, including its dot; 0 without one. */
 size_t aur_channel_layer(const char *name);
 aur_channel_role aur_channel_role_of(const char *name);
-/* The first channel of a role in the layer that the name `layer` stands in; SIZE_MAX when there is none. */
+/* The first channel of a role in the layer of the name `layer`; SIZE_MAX if there is none. */
 size_t aur_image_find_role(const aur_image *image, const char *layer, aur_channel_role role);
 
 /* What the measures of difference share. */
 
-/* The places of red, green and blue in two images that can be compared. */
+/* The indices of red, green and blue in two images that can be compared. */
 typedef struct aur_color_pair {
     size_t reference[3], image[3];
 } aur_color_pair;
 
-/* ARGUMENT with the place of the first value of the channels that is not finite; `what` is whose it is. */
+/* ARGUMENT with the position of the first value of the channels that is not finite; `what` names the image.
+ */
 aur_result aur_image_check_finite(const char *what, const aur_image *image, const size_t channels[3],
                                   aur_error *error);
 

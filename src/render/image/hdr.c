@@ -21,9 +21,9 @@ typedef struct hdr_input {
     const unsigned char *at, *end;
 } hdr_input;
 
-/* What the header says. */
+/* The values of the header. */
 typedef struct hdr_header {
-    bool xyz;          /* X, Y, Z in place of R, G, B */
+    bool xyz;          /* X, Y, Z instead of R, G, B */
     double divisor[3]; /* of the values: EXPOSURE and COLORCORR multiplied */
     bool primaries;    /* of other colours than ours */
     /* Scan lines follow each other along `slow`, from its end where `backward[0]`, and so do pixels in them.
@@ -53,8 +53,8 @@ static bool read_values(const char *line, const char *name, size_t count, double
            aur_parse_doubles(line + length + 1, values, count) == count;
 }
 
-/* Whether chromaticities are Rec. 709's or those that Radiance takes where a header has none, whose values
- * other renderers read as Rec. 709, too. */
+/* Whether chromaticities are Rec. 709's, or Radiance's default for files without any, which other renderers
+ * read as Rec. 709, too. */
 static bool is_usual(const double chromaticities[8]) {
     static const double usual[2][8] = {{0.64, 0.33, 0.29, 0.6, 0.15, 0.06, 0.3333, 0.3333},
                                        {0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329}};
@@ -107,7 +107,7 @@ static bool read_size(const char *line, hdr_header *header) {
     return axes[0] != axes[1] && *aur_skip_spaces(line) == '\0';
 }
 
-/* Past the header: its lines, an empty one, the size. */
+/* Reads the header: its lines, an empty one, the size. */
 static aur_result read_header(hdr_input *input, hdr_header *header, aur_error *error) {
     char line[256];
     bool format = false;
@@ -128,7 +128,7 @@ static aur_result read_header(hdr_input *input, hdr_header *header, aur_error *e
                                 header->columns ? header->length : header->lines, 3, error);
 }
 
-/* One component of a row in run lengths: above 128 a run, else bytes as they are. */
+/* Decodes one component of a row: a run for lengths above 128, else literal bytes. */
 static bool decode_runs(hdr_input *input, size_t width, unsigned char *row) {
     for (size_t x = 0; x < width;) {
         if (input->end - input->at < 2)
@@ -148,8 +148,8 @@ static bool decode_runs(hdr_input *input, size_t width, unsigned char *row) {
     return true;
 }
 
-/* Pixels as they are, or in the old run lengths: 1, 1, 1 and n is the pixel before n times more, and a
- * further one at once after it 256 n times. */
+/* Decodes pixels that are uncompressed or in the old run lengths: 1, 1, 1 and n repeats the previous pixel n
+ * times; the next such pixel directly after it, 256 n times. */
 static bool decode_old(hdr_input *input, size_t width, unsigned char *planes) {
     size_t shift = 0;
     for (size_t x = 0; x < width;) {
@@ -187,8 +187,8 @@ static bool decode_line(hdr_input *input, size_t width, unsigned char *planes) {
     return true;
 }
 
-/* A pixel of four bytes as radiance. XYZE is in lumens, 179 a watt of Radiance's white, and becomes R, G and
- * B of the primaries .64 .33, .29 .6, .15 .06 and the white of equal energy, as `ra_xyze -r` has it. */
+/* Converts a pixel of four bytes to radiance. XYZE is in lumens (179 lm/W for Radiance's white), and is
+ * converted to the primaries .64 .33, .29 .6, .15 .06 and the white of equal energy, as in `ra_xyze -r`. */
 static void decode_pixel(const hdr_header *header, const unsigned char *mantissa, size_t step, float rgb[3]) {
     static const double to_rgb[3][3] = {{2.56531284, -1.16684962, -0.39846323},
                                         {-1.02210817, 1.97828662, 0.04382156},
@@ -234,7 +234,7 @@ static aur_result read_hdr(const aur_image_source *source, aur_image **image, au
     aur_result result = read_header(&input, &header, error);
     if (result != AUR_OK)
         return result;
-    /* Twelve bytes make a scan line of 65536 pixels in the old run lengths, and longer ones are rare. */
+    /* Twelve bytes make a scan line of 65536 pixels in the old run lengths; longer ones are rare. */
     if (header.lines * header.length / 8192 > source->size)
         return fail_broken("it claims more pixels than it can hold", error);
     result = header.columns ? aur_image_create(header.lines, header.length, 3, image, error)

@@ -19,7 +19,7 @@ static bool size_is_allowed(size_t width, size_t height, size_t channel_count) {
     return channel_count <= AUR_IMAGE_VALUES_MAX / (width * height);
 }
 
-/* `data` NULL: zeros of the image's own. */
+/* `data` NULL: allocated by the image and zeroed. */
 static aur_result create(size_t width, size_t height, size_t channel_count, float *data, aur_image **image,
                          aur_error *error) {
     *image = NULL;

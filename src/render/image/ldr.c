@@ -69,7 +69,7 @@ static bool recognize_jpeg(const aur_image_source *source) {
     return aur_image_begins(source, "\xff\xd8\xff", 3);
 }
 
-/* The decoder fills what is missing with grey, so the end marker must be looked for here. */
+/* The decoder fills missing data with grey, so the end marker must be checked here. */
 static bool has_jpeg_end(const aur_image_source *source) {
     for (size_t i = source->size; i >= 2; --i)
         if (source->data[i - 2] == 0xff && source->data[i - 1] == 0xd9)
@@ -78,14 +78,14 @@ static bool has_jpeg_end(const aur_image_source *source) {
 }
 
 static aur_result read_jpeg(const aur_image_source *source, aur_image **image, aur_error *error) {
-    const size_t block_pixels = 64, bits = 8; /* at least one bit a block */
+    const size_t block_pixels = 64, bits = 8; /* at least one bit per block */
     if (!has_jpeg_end(source))
         return aur_fail(error, AUR_ERROR_FORMAT, "broken JPEG: it is cut short");
     return read_ldr(source, "JPEG", block_pixels * bits, image, error);
 }
 
 static aur_result write_jpeg(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    enum { QUALITY = 90, LARGEST_SIDE = 65535 }; /* above 90 colours have as many samples as brightness */
+    enum { QUALITY = 90, LARGEST_SIDE = 65535 }; /* above 90, chroma is stored at full resolution */
     size_t count;
     if (image->width > LARGEST_SIDE || image->height > LARGEST_SIDE)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -116,10 +116,10 @@ static bool recognize_bmp(const aur_image_source *source) {
 }
 
 static aur_result read_bmp(const aur_image_source *source, aur_image **image, aur_error *error) {
-    return read_ldr(source, "BMP", 8, image, error); /* at least one bit a pixel */
+    return read_ldr(source, "BMP", 8, image, error); /* at least one bit per pixel */
 }
 
-/* Nothing in a TGA file says what it is: its name does. */
+/* TGA files have no signature: they are recognised by their name. */
 static bool recognize_tga(const aur_image_source *source) {
     const char *const dot = source->name != NULL ? strrchr(source->name, '.') : NULL;
     return dot != NULL && strcasecmp(dot, ".tga") == 0;

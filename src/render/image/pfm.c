@@ -1,4 +1,4 @@
-/* Portable float maps: "PF" (colour) or "Pf" (grey), width, height, a scale whose sign is the byte order,
+/* Portable float maps: "PF" (colour) or "Pf" (grey), width, height, a scale whose sign gives the byte order,
  * then rows from the bottom (Debevec 2001). */
 #include <ctype.h>
 #include <math.h>
@@ -18,7 +18,7 @@ typedef struct pfm_cursor {
     size_t at;
 } pfm_cursor;
 
-/* The next word of the header, and past the one white space that ends it. */
+/* Reads the next word of the header, and the one white space after it. */
 static bool next_word(pfm_cursor *cursor, char word[32]) {
     const aur_image_source *const source = cursor->source;
     while (cursor->at < source->size && isspace(source->data[cursor->at]))

@@ -1,4 +1,4 @@
-/* PNG through libpng: deflated well, and read with its checksums, which tell a damaged file. */
+/* PNG through libpng: well compressed, and read with checksums, which reveal damaged files. */
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
@@ -7,7 +7,7 @@
 
 #include "render/image/format.h"
 
-/* What a read has in hand where libpng leaves it by a jump. */
+/* What a read must free if libpng leaves it by longjmp. */
 typedef struct png_reader {
     const unsigned char *at, *end;
     aur_image **image;
@@ -33,8 +33,8 @@ static void ignore_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-/* Values of 16 bits, the high byte first, stand in the second half of the image's memory: value i is read
- * before float i is written over it. An 8-bit value v is 257 v as one of 16 bits, so nothing is lost. */
+/* Values of 16 bits, the high byte first, are stored in the second half of the image's memory: value i is
+ * read before float i overwrites it. An 8-bit value v is 257 v in 16 bits, so the conversion is lossless. */
 static aur_result decode_values(const aur_image *image, aur_error *error) {
     float *const table = malloc(65536 * sizeof *table);
     if (table == NULL)
@@ -53,7 +53,7 @@ static aur_result decode_values(const aur_image *image, aur_error *error) {
     return AUR_OK;
 }
 
-/* What cannot be seen from the values; sRGB's own chunk overrides the others. */
+/* Chunks that say how to interpret the values; sRGB's chunk overrides the others. */
 static void add_notes(png_structp png, png_infop info, aur_image *image) {
     static const double usual[8] = {0.3127, 0.329, 0.64, 0.33, 0.3, 0.6, 0.15, 0.06};
     double gamma = 1.0 / 2.2, there[8];
@@ -72,7 +72,7 @@ static void add_notes(png_structp png, png_infop info, aur_image *image) {
                        "its chromaticities are not those of Rec. 709: colours are read as if they were");
 }
 
-/* Whatever the file holds becomes 16 bits of grey or R, G, B, with alpha where it has any. */
+/* Converts any pixel format to 16 bits of grey or R, G, B, with alpha if present. */
 static aur_result read_values(png_structp png, png_infop info, const aur_image_source *source,
                               png_reader *reader, aur_error *error) {
     /* One byte of deflate is at most 1032 bytes: 8 pixels each. */

@@ -2,7 +2,7 @@
 
 #include "render/trace/packet_rays.h"
 
-/* --- places */
+/* --- shading points */
 
 static void put(float arrays[3][AUR_OCCLUSION_POINTS], size_t surface_point, aur_vector v) {
     arrays[0][surface_point] = v.x;
@@ -71,7 +71,7 @@ static aur_embree_order order_of(const aur_occlusion_points *surface_points, siz
     return apart == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
 }
 
-/* Direction `index` of the rule in the frames of 16 places, which have one randomisation together or one
+/* Direction `index` of the rule in the frames of 16 shading points, which share one randomisation or have one
  * each. */
 static void aim(const aur_gather_rule *rule, const aur_occlusion_points *surface_points, size_t first,
                 const aur_gather_rotation *rotations, bool together, size_t index, struct RTCRay16 *rays) {
@@ -92,8 +92,8 @@ static void aim(const aur_gather_rule *rule, const aur_occlusion_points *surface
     }
 }
 
-/* Which part of the pattern a sample has. Who does not have all of them is to lack none in particular
- * (aur_gather_part). */
+/* The part of the pattern that a sample uses. Tiles and groups start at different parts, so that incomplete
+ * patterns do not all lack the same directions (aur_gather_part). */
 static size_t part_of(const aur_occlusion *occlusion, uint64_t tile, size_t within, uint32_t index) {
     const size_t parts = occlusion->samples_per_pattern;
     if (!occlusion->renews)
@@ -102,7 +102,7 @@ static size_t part_of(const aur_occlusion *occlusion, uint64_t tile, size_t with
     return (first + index % parts * occlusion->part_stride) % parts;
 }
 
-/* What the pattern is turned by, for all places of a group or for one of them. */
+/* The pattern's rotation for all shading points of a group, or for one of them. */
 static aur_gather_rotation rotation_of(const aur_occlusion *occlusion, uint64_t tile, size_t within) {
     const aur_gather_rule *const rule = &occlusion->rule;
     const aur_gather_rotation rotation =

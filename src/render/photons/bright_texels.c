@@ -5,7 +5,7 @@
 #include "points/base/array.h"
 #include "points/base/error.h"
 
-/* A texel is bright from so many times the mean radiance of the lit ones on. */
+/* A texel is bright from this multiple of the mean radiance of the lit ones. */
 static const double BRIGHTNESS = 2.0;
 
 typedef struct patch_search {

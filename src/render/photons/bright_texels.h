@@ -1,7 +1,7 @@
-/* Texels that reflect far more light than most, drawn as if they were lights: where a small part of the
- * surfaces has much of the indirect light (a window's reveal, a lit page), directions about the normal find
- * it by chance only. Gather rays that meet such texels are weighed against these draws (Veach 1997, multiple
- * importance sampling), so nothing is counted twice. */
+/* Texels that reflect far more light than most, sampled like light sources. Where a small part of the
+ * surfaces has much of the indirect light (a window's reveal, a lit page), directions about the normal rarely
+ * hit it. Gather rays that hit such texels are combined with these samples by multiple importance sampling
+ * (Veach 1997), so nothing is counted twice. */
 #pragma once
 
 #include "render/photons/irradiance.h"
@@ -20,8 +20,8 @@ typedef struct aur_bright_patch {
 typedef struct aur_bright_texels {
     aur_distribution distribution; /* of patches; its total is 0 where no texel is bright */
     aur_bright_patch *patches;
-    float threshold; /* radiance under which a texel is none of them */
-    float scale;     /* density = scale * (radiance - threshold), a square unit */
+    float threshold; /* texels below this radiance are not bright */
+    float scale;     /* density = scale * (radiance - threshold), per square unit */
 } aur_bright_texels;
 
 /* A point on a bright texel. */
@@ -34,19 +34,18 @@ typedef struct aur_bright_point {
     float rounding;    /* aur_triangle_rounding */
 } aur_bright_point;
 
-/* Only texels of shapes whose class is plain count. Errors: MEMORY. */
+/* Only texels of plain shapes are used. Errors: MEMORY. */
 aur_result aur_bright_texels_create(const aur_scene *scene, const aur_irradiance_map *map,
                                     const aur_shape_class *classes, aur_bright_texels *bright,
                                     aur_error *error);
 void aur_bright_texels_release(aur_bright_texels *bright);
 
-/* Numbers in [0,1). Only where the distribution's total is not 0. */
+/* Numbers in [0,1). The distribution's total must not be 0. */
 aur_bright_point aur_bright_texels_sample(const aur_bright_texels *bright, const aur_scene *scene,
                                           const aur_irradiance_map *map, double choice,
                                           const float position[2]);
 
-/* The density, a square unit, with which points of a texel are drawn that reflects `radiance` by the map's
- * irradiance. */
+/* The density per square unit of the samples on a texel that reflects `radiance` by the map's irradiance. */
 static inline float aur_bright_texels_density(const aur_bright_texels *bright, aur_vector radiance) {
     const float excess = aur_vector_max(radiance) - bright->threshold;
     return excess > 0.0f ? bright->scale * excess : 0.0f;

@@ -36,7 +36,7 @@ static void add_power(aur_irradiance_map *map, const aur_photon_map *photons, co
     }
 }
 
-/* Sorts the photons of glossy surfaces by light, each light's in their own order. */
+/* Sorts the photons of glossy surfaces by light, in stable order. */
 static aur_result collect_members(aur_irradiance_map *map, const aur_photon_map *photons,
                                   const uint32_t *lights) {
     size_t count = 0;
@@ -49,7 +49,7 @@ static aur_result collect_members(aur_irradiance_map *map, const aur_photon_map 
     map->members = malloc(count * sizeof *map->members);
     if (map->member_first == NULL || map->members == NULL)
         return AUR_ERROR_MEMORY;
-    /* Counted two places on, so that filling leaves each first where it belongs. */
+    /* Counted two positions ahead, so that filling leaves each start at its index. */
     uint32_t *const next = map->member_first + 1;
     for (size_t i = 0; i < photons->count; ++i)
         if (photons->photons[i].glossy)
@@ -173,7 +173,7 @@ static aur_vector glossy_radiance(const aur_irradiance_map *map, size_t light_in
         const aur_vector value = glossy_value(lobes, light);
         if (aur_vector_is_zero(value))
             continue;
-        /* The value is of BSDF * cos, and a photon's power has its cosine already. */
+        /* The value includes the cosine, and a photon's power includes it already. */
         const float cosine = fmaxf(fabsf(light.z), 0.05f);
         sum = aur_vector_add_scaled(sum, 1.0f / cosine, aur_vector_multiply(value, photon->power));
     }

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* First these numbers, then arrays in the machine's own form: ranges, lights, and where surfaces are glossy
- * the places of members and the members. */
+/* First these numbers, then arrays in the machine's format: ranges, lights, and, if there are glossy
+ * surfaces, the starts of members and the members. */
 typedef struct head {
     uint64_t elements, texels, glossy, members, photons, paths, rays, cut;
 } head;
@@ -17,7 +17,7 @@ static size_t first_count(const head *h) {
     return h->glossy != 0 ? light_count(h) + 1 : 0;
 }
 
-/* In double, so that nothing wraps around; exact below 2^53. */
+/* In double, so that it cannot overflow; exact below 2^53. */
 static double size_of(const head *h) {
     return (double)sizeof *h + (double)h->elements * sizeof(aur_texel_range) +
            2.0 * (double)h->texels * sizeof(aur_texel_light) +

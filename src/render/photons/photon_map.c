@@ -12,9 +12,8 @@
 enum {
     CHUNKS_A_BATCH = 16,
     PATHS_A_BATCH = 16 * 1024,
-    LONGEST_PATH =
-        512, /* edges; longer paths, which only scenes without absorption have, are cut and counted */
-    PATHS_A_PHOTON_LIMIT = 64 /* give up when so many paths leave less than one photon each */
+    LONGEST_PATH = 512, /* edges; longer paths, which need scenes without absorption, are cut and counted */
+    PATHS_A_PHOTON_LIMIT = 64 /* give up if this many paths yield less than one photon each */
 };
 
 typedef struct photon_chunk {
@@ -106,7 +105,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         aur_scene_surface(work->scene, &ray, &hit, &surface);
         const aur_vector in = aur_vector_scale(ray.direction, -1.0f);
         const aur_shading shading = aur_shading_at(&surface, in);
-        /* Gather rays go on by the other lobes, and ask for no photons. */
+        /* Gather rays continue by the other lobes, and need no photons. */
         const unsigned parts = aur_bsdf_scatters(surface.bsdf, shading.view.z) &
                                (unsigned)(AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY);
         const bool is_caustic = specular_so_far && edge > 1;
@@ -121,7 +120,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         if (!aur_shading_sample(&shading, (const float[3]){lobe[0], towards[0], towards[1]}, &sample))
             return true;
         specular_so_far = specular_so_far && sample.specular;
-        /* Panes leave the direction as it is: shadow rays pass them. */
+        /* Panes do not change the direction: shadow rays pass them. */
         const bool bent = !aur_is_unbent(ray.direction, sample.light);
         if (kind == AUR_PHOTONS_FOUND && hidden && specular_so_far && bent)
             return true;
@@ -186,8 +185,8 @@ static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *c
     return AUR_OK;
 }
 
-/* Paths between two looks at the number of photons: few when few photons are wanted, and a power of two, as
- * nets like it. */
+/* Paths between two checks of the number of photons: few for a small map, and a power of two, as suits nets.
+ */
 static uint64_t paths_a_chunk(size_t photons) {
     uint64_t paths = PATHS_A_BATCH / CHUNKS_A_BATCH;
     while (paths > 16 && paths * CHUNKS_A_BATCH > photons / 2)

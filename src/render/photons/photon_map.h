@@ -1,5 +1,5 @@
-/* Photons: particles from the lights, stored where they meet surfaces that reflect diffusely (Jensen 1996).
- * The map is a function of scene, options and seed; the number of threads changes nothing. */
+/* Photons: particles from the lights, stored where they hit surfaces that reflect diffusely (Jensen 1996).
+ * The map is a function of scene, options and seed; it does not depend on the number of threads. */
 #pragma once
 
 #include "render/sampling/stream.h"
@@ -12,8 +12,8 @@ typedef struct aur_photon {
     aur_vector power;     /* watts, RGB */
     uint32_t element;
     float coordinates[2]; /* on the element */
-    bool behind;          /* it came from the side that the normal of the shape does not show */
-    bool glossy;          /* the surface has glossy lobes beside the diffuse one, or only such */
+    bool behind;          /* it hit the back of the surface */
+    bool glossy;          /* the surface has glossy lobes, with or without a diffuse one */
 } aur_photon;
 
 typedef struct aur_photon_map {
@@ -21,11 +21,11 @@ typedef struct aur_photon_map {
     aur_photon *photons;
     uint64_t paths; /* particles that left the lights */
     uint64_t rays;
-    uint64_t cut; /* particles whose path was cut because it was too long to follow */
+    uint64_t cut; /* particles whose path was cut because it was too long */
 } aur_photon_map;
 
-/* Caustic photons came from the light by specular bounces alone, one at least. Found are those of light that
- * path tracing finds too: without what a point or a single direction sends over mirrors or lenses first. */
+/* Caustic photons left the light by specular bounces alone, at least one. FOUND: only light that path tracing
+ * can find, without specular paths from point and directional lights. */
 typedef enum aur_photon_kind {
     AUR_PHOTONS_ALL,
     AUR_PHOTONS_CAUSTIC,
@@ -34,20 +34,20 @@ typedef enum aur_photon_kind {
 } aur_photon_kind;
 
 typedef struct aur_photon_options {
-    size_t count; /* photons to store, at least; whole batches of paths are traced until there are so many */
-    size_t max_edges; /* edges of a particle's path; SIZE_MAX: no limit but roulette's */
+    size_t count; /* photons to store, at least; whole batches of paths are traced until there are enough */
+    size_t max_edges; /* edges of a particle's path; SIZE_MAX: limited by Russian roulette only */
     aur_photon_kind kind;
-    const aur_sampler *sampler; /* of the particles' numbers; NULL: Sobol points */
+    const aur_sampler *sampler; /* for the particles' random numbers; NULL: Sobol points */
     uint64_t seed;
     size_t threads;
     aur_progress progress;
-    aur_warnings warnings; /* particles whose path was cut */
+    aur_warnings warnings; /* of particles whose path was cut */
 } aur_photon_options;
 
-/* Caustic photons, and those that are found, may be none: then the map is empty. Errors: UNSUPPORTED when the
- * scene has no light or (nearly) no particle meets a surface. */
+/* For CAUSTIC and FOUND the map may be empty. Errors: UNSUPPORTED if the scene has no light or (nearly) no
+ * particle hits a surface. */
 aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
                                  const aur_photon_options *options, aur_photon_map *map, aur_error *error);
-/* Warns of particles whose path was cut, of all that left the lights, as the function above does. */
+/* Warns of particles whose path was cut, out of `paths`, as the function above does. */
 void aur_photon_map_warn(uint64_t cut, uint64_t paths, const aur_warnings *warnings);
 void aur_photon_map_release(aur_photon_map *map);

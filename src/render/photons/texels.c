@@ -7,7 +7,7 @@
 
 enum { COORDINATE_BITS = 20, COORDINATE_MAX = (1 << COORDINATE_BITS) - 1 };
 
-/* Cubes that gather small elements, each split in six by the way that they face. */
+/* Cubes that collect small elements, each split into six by the direction that they face. */
 typedef struct cluster {
     uint64_t key; /* 0: empty */
     uint32_t texel;
@@ -17,7 +17,7 @@ typedef struct layout {
     const aur_scene *scene;
     const uint32_t *hits;
     double photons_a_texel;
-    double cell_area; /* on which so many photons fall on average */
+    double cell_area; /* the area with this number of photons on average */
     aur_vector origin;
     float cell_size;
     size_t mask; /* slots - 1 */
@@ -97,9 +97,9 @@ static aur_result lay_out_all(layout *work) {
     return AUR_OK;
 }
 
-/* The area on which photons may fall: of the elements that some met, and, where elements are smaller than the
- * photons' distance, of those that were missed by chance, by the numbers of those met once and twice (Chao
- * 1984). */
+/* The area that photons can reach: the elements that were hit, and, where elements are small compared with
+ * the photons' distance, an estimate of those missed by chance from the numbers of elements hit once and
+ * twice (Chao 1984). */
 static double lit_area(const layout *work, double *photons) {
     const aur_elements *const elements = &work->texels->elements;
     double area = 0.0, once_area = 0.0, once = 0.0, twice = 0.0;

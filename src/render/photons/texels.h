@@ -1,7 +1,7 @@
-/* Texels over the surfaces of a scene, sized by photon density. An element on which many photons fell is cut
- * in side x side parts of equal area; small elements that lie together and face alike share one texel. So
- * the light at a hit is one array read, no photon counts for a surface that it did not meet, and the power in
- * the texels is the power of the photons. */
+/* Texels over the surfaces of a scene, sized by photon density. An element with many photons is divided into
+ * side x side parts of equal area; small elements that are close together and have similar normals share one
+ * texel. So the light at a hit is one array read, photons count only for the surface that they hit, and the
+ * texels have the total power of the photons. */
 #pragma once
 
 #include "render/scene/elements.h"
@@ -13,16 +13,16 @@ typedef struct aur_texel_range {
 
 typedef struct aur_texels {
     aur_elements elements;
-    aur_texel_range *ranges; /* one an element */
+    aur_texel_range *ranges; /* one per element */
     size_t count;
     float *areas; /* of texels, square scene units */
 } aur_texels;
 
 enum { AUR_TEXELS_SIDE_MAX = 4096 };
 
-/* `hits` photons fell on each element; a texel is to hold about `photons_a_texel` of them. `hits` has room
- * for all of `elements`, which the texels take over in every case. Errors: MEMORY, ARGUMENT for more texels
- * than 32 bits can number. */
+/* `hits` is the number of photons on each element; a texel is sized for about `photons_a_texel` of them.
+ * `hits` has an entry for each of `elements`, which the texels own afterwards in every case. Errors: MEMORY,
+ * ARGUMENT for more texels than 32 bits can number. */
 aur_result aur_texels_create(const aur_scene *scene, aur_elements elements, const uint32_t *hits,
                              double photons_a_texel, aur_texels *texels);
 void aur_texels_release(aur_texels *texels);

@@ -1,6 +1,5 @@
-/* Triangles that lie on each other: a box that stands exactly on a floor, say. Particles between them are on
- * the wrong side of one, so that they leave the scene. Found by a tree of boxes that is held against itself.
- */
+/* Coincident triangles: a box that stands exactly on a floor, for example. Particles between them are on the
+ * wrong side of one, so they leave the scene. Found by intersecting a tree of boxes with itself. */
 #include "render/radiosity/scene.h"
 
 #include <stdlib.h>
@@ -17,7 +16,7 @@ typedef struct item {
     uint32_t triangle;
 } item;
 
-/* The children of node i are 2 i + 1 and 2 i + 2, and have one half of its items each. */
+/* The children of node i are 2 i + 1 and 2 i + 2, with half of its items each. */
 typedef struct node {
     box bounds;
     size_t first, count;
@@ -50,7 +49,7 @@ static float slack_of(const aur_radiosity_triangle *t) {
     return 2.0f * t->offset;
 }
 
-/* Whether an edge of `a` has all of `b` on its outer side, but for rounding in that direction. */
+/* Whether an edge of `a` separates it from all of `b`, up to rounding in that direction. */
 static bool separates(const aur_radiosity_triangle *a, const aur_vector p[3], const aur_vector q[3]) {
     for (size_t i = 0; i < 3; ++i) {
         const aur_vector edge = aur_vector_subtract(p[(i + 1) % 3], p[i]);
@@ -158,9 +157,8 @@ static void test_leaves(search *s, const node *a, const node *b) {
             test_pair(s, &s->items[i], &s->items[j]);
 }
 
-/* All pairs of an item of node a and another of node b: the greater node is split, or both where they are
- * one.
- */
+/* Visits all pairs of an item of node a and another of node b: splits the larger node, or both if they are
+ * the same. */
 static void join(search *s, size_t a, size_t b) {
     const node *const left = &s->nodes[a], *const right = &s->nodes[b];
     if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES || !boxes_meet(s, &left->bounds, &right->bounds))

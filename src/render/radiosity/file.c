@@ -1,5 +1,5 @@
-/* Solutions on disk: a line that names the format and its version, then whole numbers of 8 bytes, the lowest
- * byte first, and a hash of them all. */
+/* Solution files: a line with the format's name and version, then integers of 8 bytes, little-endian, and a
+ * hash of them all. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 static const char magic[] = "aureole-radiosity 1\n";
 enum { MAGIC_LENGTH = sizeof magic - 1, HEAD_NUMBERS = 11, TALLY_NUMBERS = 8, NAME_LIMIT = 4096 };
 
-/* Calls `visit` with each number of a tally, in the order that files have. */
+/* Calls `visit` with each number of a tally, in file order. */
 static void each_number(aur_radiosity_tally *tally, void (*visit)(void *file, uint64_t *number), void *file) {
     uint64_t *const counts[] = {&tally->rays,     &tally->lost,      &tally->behind,   &tally->trapped,
                                 &tally->last.low, &tally->last.high, &tally->rest.low, &tally->rest.high};
@@ -30,7 +30,7 @@ static void put_number(void *file, uint64_t *number) {
     aur_word_put(file, *number);
 }
 
-/* The name's characters, one a number: it is short. */
+/* Writes a short name, one character per number. */
 static void put_name(aur_word_writer *out, const char *name) {
     aur_word_put(out, strlen(name));
     for (const char *c = name; *c != '\0'; ++c)
@@ -82,7 +82,7 @@ static aur_result damaged(const char *path, const char *what, aur_error *error) 
                        what);
 }
 
-/* What does not fit its type is refused here; the options' own limits are checked when they are used. */
+/* Values that do not fit their types are refused here; the options' limits are checked when they are used. */
 static aur_result read_head(aur_word_reader *in, const char *path, file_head *head, aur_error *error) {
     uint64_t *const n = head->numbers;
     for (size_t i = 0; i < HEAD_NUMBERS; ++i)
@@ -107,7 +107,7 @@ static aur_result read_head(aur_word_reader *in, const char *path, file_head *he
     return AUR_OK;
 }
 
-/* Whether what is left of the file holds so many sums, before memory is asked for. */
+/* Whether the rest of the file can hold this many sums, before memory is allocated. */
 static bool has_room(const aur_word_reader *in, const file_head *head) {
     const uint64_t left = aur_words_left(in), count = head->options.randomizations,
                    patches = head->numbers[1];

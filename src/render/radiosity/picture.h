@@ -1,4 +1,4 @@
-/* Images of a radiosity solution (Keller 1994, section 4): hit points that the eye sees, each with direct
+/* Images of a radiosity solution (Keller 1994, section 4): hit points that the camera sees, each with direct
  * light from triangles by solid angle (eq. 6; Arvo 1995), and with indirect light by a hemisphere of gather
  * rays (eq. 9). */
 #pragma once
@@ -9,14 +9,14 @@
 #include "render/radiosity/solution.h"
 
 typedef enum aur_radiosity_oversampling {
-    AUR_RADIOSITY_HALTON,   /* Halton points, as many as asked for */
+    AUR_RADIOSITY_HALTON,   /* Halton points, any number */
     AUR_RADIOSITY_ADAPTIVE, /* the same in rounds, until the mean no longer changes */
     AUR_RADIOSITY_SAMPLER   /* the scene's sampler */
 } aur_radiosity_oversampling;
 
 typedef enum aur_radiosity_component {
     AUR_RADIOSITY_ALL,
-    AUR_RADIOSITY_EMISSION, /* L0 as the eye sees it */
+    AUR_RADIOSITY_EMISSION, /* directly visible L0 */
     AUR_RADIOSITY_DIRECT,   /* T L0 */
     AUR_RADIOSITY_INDIRECT  /* T T L */
 } aur_radiosity_component;
@@ -47,12 +47,12 @@ void aur_radiosity_image_release(aur_radiosity_image *image);
 typedef struct aur_radiosity_surface_point {
     aur_vector position, normal; /* normal: on the side that is seen */
     uint32_t triangle, patch;    /* patch: of that side, or AUR_NO_PATCH */
-    bool mirrored;               /* it is seen by way of mirrors */
+    bool mirrored;               /* it is seen through mirrors */
     aur_vector albedo, emission;
 } aur_radiosity_surface_point;
 
-/* The place that a ray leads to from its first hit, by way of mirrors, and what these keep. False when it
- * leaves the scene or ends between mirrors. `hash` is of what mirrors choose. */
+/* Finds the shading point of a ray from its first hit, following mirrors, and their throughput. False if the
+ * ray leaves the scene or ends between mirrors. `hash` seeds the choices at mirrors. */
 bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray ray, aur_hit hit,
                        aur_radiosity_surface_point *surface_point, aur_vector *throughput);
 
@@ -61,13 +61,13 @@ bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray 
 double aur_spherical_triangle(const double corner[9], const double from[3], double u, double v,
                               double direction[3]);
 
-/* One sample of the radiance that the light `triangle` makes the place reflect; 0 when something else is met
- * first. */
+/* One sample of the reflected radiance due to the light `triangle` at the shading point; 0 if it is occluded.
+ */
 aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene,
                                 const aur_radiosity_surface_point *surface_point, uint32_t triangle, float u,
                                 float v);
 
-/* The indirect irradiance over pi at a place; `hash` turns the pattern. */
+/* The indirect irradiance over pi at a shading point; `hash` selects the pattern's rotation. */
 aur_vector aur_radiosity_gather(const aur_radiosity_image *image,
                                 const aur_radiosity_surface_point *surface_point, uint64_t hash);
 

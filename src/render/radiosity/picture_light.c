@@ -1,4 +1,4 @@
-/* Light at a place of an image: direct light by solid angle, and gathered light. */
+/* Light at a shading point of an image: direct light by solid angle, and gathered light. */
 #include <stdlib.h>
 
 #include "points/base/random.h"
@@ -84,7 +84,7 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
 
 /* --- direct light */
 
-/* A ray from the place. */
+/* A ray from the shading point. */
 static aur_ray leave(const aur_radiosity_scene *scene, const aur_radiosity_surface_point *surface_point,
                      aur_vector direction) {
     return (aur_ray){aur_vector_add_scaled(surface_point->position,
@@ -140,7 +140,7 @@ static aur_result make_pattern(const aur_rule_options *rule, aur_radiosity_image
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         image->x[i] = (float)numbers[3 * i];
         image->y[i] = (float)numbers[3 * i + 1];
-        /* A ray along the surface would meet the surface itself. */
+        /* A ray along the surface would hit the surface itself. */
         image->z[i] = fmaxf((float)numbers[3 * i + 2], 1e-6f);
         image->weights[i] = (float)numbers[3 * count + i];
     }
@@ -189,7 +189,7 @@ bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray 
     return true;
 }
 
-/* The radiance that the solution has where a gather ray ends. */
+/* The solution's radiance at the end of a gather ray. */
 static aur_vector radiance_at(const aur_radiosity_image *image, const aur_ray *ray, const aur_hit *hit,
                               uint64_t hash) {
     aur_radiosity_surface_point surface_point;

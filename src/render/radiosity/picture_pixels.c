@@ -8,14 +8,14 @@
 
 enum { ROUND = 4, HALTON_DIMENSIONS = 4 };
 
-/* One hit point. The radiance that the eye sees there is rest + throughput * irradiance; the irradiance
- * stands apart because pixels may share it. */
+/* One hit point. Its radiance towards the camera is rest + throughput * irradiance; the irradiance is
+ * separate because pixels may share it. */
 typedef struct hit_point {
     aur_vector rest;       /* emitted and directly reflected */
-    aur_vector throughput; /* path to the eye, times albedo */
+    aur_vector throughput; /* path to the camera, times albedo */
     aur_vector irradiance; /* over pi */
-    uint32_t triangle; /* that the eye's ray met first, with its side in the lowest bit; or AUR_NO_PATCH */
-    float offset[2];   /* from the pixel's centre */
+    uint32_t triangle;     /* hit first by the camera ray, with its side in the lowest bit; or AUR_NO_PATCH */
+    float offset[2];       /* from the pixel's centre */
 } hit_point;
 
 typedef struct pixel_points {
@@ -75,9 +75,9 @@ static aur_vector light_sample(const workspace *work, const aur_radiosity_surfac
     return aur_radiosity_direct(&work->image->solution->scene, surface_point, triangle, u, v);
 }
 
-/* Light number p of the round's order is taken by one hit point alone, `points` times: over the round every
- * light is used once. Which point begins is a matter of chance: the first ones have one light more where
- * their number is no multiple, and the last round may lack the others. */
+/* Light number p of the round's order is sampled at one hit point only, with weight `points`: over the round
+ * every light is used once. The first point is random, because the first ones have one light more if the
+ * number is not a multiple, and the last round may not cover the others. */
 static aur_vector direct_light(const workspace *work, const aur_radiosity_surface_point *surface_point,
                                uint64_t pixel, uint32_t index, uint32_t points) {
     const bool permuted = work->image->permuted;
@@ -94,7 +94,7 @@ static bool wants(const workspace *work, aur_radiosity_component component) {
     return work->image->component == AUR_RADIOSITY_ALL || work->image->component == component;
 }
 
-/* Hit point `index`, one of `points` that share out the lights. */
+/* Hit point `index`, one of `points` that divide the lights among them. */
 static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t index, uint32_t points) {
     const uint64_t pixel = pixel_hash(work, x, y), hash = aur_hash2(pixel, index);
     const aur_radiosity_scene *const scene = &work->image->solution->scene;
@@ -160,8 +160,8 @@ static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first
     }
 }
 
-/* The pixels that are made: those of the tile, and one more around them within the image when pixels share.
- */
+/* The pixels to compute: those of the tile, and a ring around them within the image if pixels share
+ * irradiance. */
 typedef struct area {
     size_t x0, y0, columns, rows;
     pixel_points *pixels;
@@ -175,7 +175,7 @@ static area area_of(const aur_tile *tile, bool shared) {
     return (area){x0, y0, x1 - x0, y1 - y0, NULL};
 }
 
-/* The mean irradiance of all hit points on one triangle in a pixel and those around it. */
+/* The mean irradiance of all hit points on one triangle in a pixel and its neighbours. */
 static aur_vector pooled(const area *a, size_t column, size_t row, uint32_t triangle) {
     aur_vector sum = {0};
     size_t count = 0;

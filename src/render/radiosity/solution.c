@@ -184,7 +184,7 @@ static aur_result make_points(const aur_radiosity *radiosity, uint64_t paths, po
 
 /* --- tracing */
 
-/* A run of points of one randomisation, shared out in blocks. */
+/* A range of points of one randomisation, processed in blocks. */
 typedef struct batch {
     const aur_radiosity *radiosity;
     const point_source *points;

@@ -58,7 +58,7 @@ static double patch_area(const aur_radiosity *radiosity, size_t patch) {
     return radiosity->scene.areas[aur_radiosity_triangle_of(&radiosity->scene, patch)];
 }
 
-/* The root of the mean square of a power's deviation, over that of the lights: the unit of epsilon. */
+/* The root mean square deviation of powers, relative to the power of the lights: the unit of epsilon. */
 static double relative_deviation(const aur_radiosity *radiosity, double (*before)[3]) {
     double sum = 0.0, area = 0.0, lights[3];
     for (size_t i = 0; i < radiosity->scene.patch_count; ++i) {
@@ -87,7 +87,7 @@ double aur_radiosity_measure_change(const aur_radiosity *radiosity, double (*bef
     return relative_deviation(radiosity, before);
 }
 
-/* --- what the caller asks for */
+/* --- results for the caller */
 
 void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_description *d) {
     const aur_radiosity_scene *const scene = &radiosity->scene;
@@ -145,7 +145,7 @@ aur_result aur_radiosity_get_results(const aur_radiosity *radiosity, size_t capa
                                      aur_radiosity_triangle_result *results, aur_error *error) {
     const size_t count = radiosity->scene.triangle_count;
     aur_radiosity_triangle_result row;
-    /* The field that was the last one of version 0.1: an older program's row ends there. */
+    /* The last field of version 0.1: the struct of an older program ends there. */
     const size_t first_size =
         offsetof(aur_radiosity_triangle_result, standard_error) + sizeof row.standard_error;
     if (size < first_size)

@@ -7,8 +7,8 @@
 
 enum { BLOCK = AUR_RADIOSITY_BLOCK };
 
-/* A quantum is 2^-42 of the greatest power that a path starts with. Uniform angles multiply it by up to pi/2
- * a flight, so there is room for 2^20 times it, beyond which terms are cut, counted and reported. */
+/* A quantum is 2^-42 of the greatest initial power of a path. Uniform angles multiply it by up to pi/2 per
+ * flight, so sums have a margin of 2^20; larger terms are clipped, counted and reported. */
 static const double QUANTA = 0x1p42, MOST_QUANTA = 0x1p62;
 
 /* --- lights */
@@ -39,8 +39,8 @@ static aur_result choose_lights(aur_radiosity_walk *walk, aur_error *error) {
     return result;
 }
 
-/* L0 A pi / probability, for the lights' mean radiance. A light whose weight is lost beside that of brighter
- * ones, less than 2^-53 of the sum, is never chosen and starts no path. */
+/* L0 A pi / probability, for the lights' mean radiance. A light with less than 2^-53 of the total weight is
+ * lost to rounding: it is never chosen and starts no path. */
 static void find_start(aur_radiosity_walk *walk) {
     double greatest = 0.0;
     for (size_t i = 0; i < walk->light_count; ++i) {
@@ -85,7 +85,7 @@ void aur_radiosity_walk_release(aur_radiosity_walk *walk) {
 typedef struct particle {
     aur_vector position;
     uint32_t triangle; /* or AUR_NO_PATCH: the path has ended */
-    float side;        /* 1 in front of it, -1 behind */
+    float side;        /* 1 on its front, -1 on its back */
     double power[3];   /* quanta */
 } particle;
 
@@ -96,7 +96,7 @@ typedef struct block {
     size_t count;
     aur_radiosity_tally *tally;
     particle particles[BLOCK];
-    _Alignas(64) double u[2 * BLOCK];                /* two coordinates, one after another */
+    _Alignas(64) double u[2 * BLOCK];                /* two coordinates, one array after the other */
     _Alignas(64) float x[BLOCK], y[BLOCK], z[BLOCK]; /* local directions */
     _Alignas(64) float factor[BLOCK];                /* of the power, for uniform angles */
 } block;
@@ -146,14 +146,14 @@ static inline void sine_cosine(float turn, float *sine, float *cosine) {
     *cosine = ((quarter + 1) & 2) != 0 ? -minor : minor;
 }
 
-/* The least cosine of a direction with the normal: a ray along the surface would meet the surface itself. */
+/* The least cosine of a direction with the normal: a ray along the surface would hit the surface itself. */
 static const float LEAST_COSINE = 1e-6f;
 
 static void make_directions(block *b) {
     const bool uniform = b->walk->options->directions == AUR_RADIOSITY_UNIFORM_ANGLE;
     const double *const u = b->u, *const v = b->u + BLOCK;
-    /* The loops run over whole blocks, so that the compiler knows their length; what is beyond the count is
-     * not used. */
+    /* The loops process whole blocks, so that their length is a compile-time constant; values beyond the
+     * count are not used. */
     for (size_t i = 0; i < BLOCK; ++i) {
         const float radius = sqrtf((float)u[i]), height = sqrtf((float)(1.0 - u[i]));
         float sine, cosine;
@@ -208,8 +208,7 @@ static inline aur_ray departure(const block *b, size_t i, const aur_radiosity_tr
                      INFINITY};
 }
 
-/* Traces a particle's ray, by way of mirrors, to the surface that receives it. False when the path has
- * ended. */
+/* Traces a particle's ray, through mirrors, to the surface that receives it. False if the path has ended. */
 static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) {
     particle *const p = &b->particles[i];
     if (!aur_scene_intersect(b->walk->scene->scene, ray, hit)) {
@@ -230,7 +229,7 @@ static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) 
     return true;
 }
 
-/* One flight of one particle; false when its path has ended. */
+/* One flight of one particle; false if its path has ended. */
 static bool fly(block *b, size_t i, size_t flight) {
     const aur_radiosity_walk *const walk = b->walk;
     const aur_radiosity_scene *const scene = walk->scene;

@@ -4,13 +4,13 @@
 
 #include "points/base/vector.h"
 
-/* The azimuth of a point over that of the one before it, in turns. */
+/* The azimuth of a point relative to the previous one, in turns. */
 static double golden_turn(void) {
     return 0.5 * (sqrt(5.0) - 1.0);
 }
 
-/* Neighbours in the lattice differ by Fibonacci numbers F of points: in azimuth by F golden turns less whole
- * ones, which is little, and in height by F / count, downwards. */
+/* Lattice neighbours are F points apart, F a Fibonacci number. Their azimuths differ by F golden turns modulo
+ * 1, which is small, and their heights by F / count, downwards. */
 typedef struct lattice_step {
     double azimuth, height;
 } lattice_step;
@@ -20,7 +20,7 @@ static lattice_step step_of(double fibonacci, size_t count) {
     return (lattice_step){turns - round(turns), -fibonacci / (double)count};
 }
 
-/* Half-way up, where a turn is 2 pi sin(theta) long and a height 1 / sin(theta). */
+/* At half height, where a turn is 2 pi sin(theta) long and a height 1 / sin(theta). */
 static double square_length(lattice_step step) {
     const double sine_squared = 0.75;
     return 4.0 * AUR_PI * AUR_PI * sine_squared * step.azimuth * step.azimuth +

@@ -37,7 +37,7 @@ static aur_vector warp(double x, double y, double z, double exponent) {
     return (aur_vector){(float)(x * scale), (float)(y * scale), (float)warped};
 }
 
-/* The directions, and the weights of a set that has them. */
+/* Computes the directions, and the weights of a set that has them. */
 static aur_result find_directions(const aur_gather_rule_options *options, double *xyz, double *weights,
                                   aur_error *error) {
     const size_t count = options->count;
@@ -136,7 +136,7 @@ static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gat
         v += rotation->word_v;
         break;
     }
-    /* The centre of the word's cell keeps z away from 0 and the pole's azimuth defined. */
+    /* The centre of the word's cell: z is not 0, and the pole's azimuth is defined. */
     const double point[2] = {((double)u + 0.5) * 0x1p-32, ((double)v + 0.5) * 0x1p-32};
     double xyz[3];
     aur_point_to_cap(rule->map, AUR_CAP_HEMISPHERE, point, xyz);
@@ -160,7 +160,7 @@ static void prepare_nested(aur_gather_rule *rule) {
     }
 }
 
-/* Rotations are spread evenly over the circle; scramblings are made into directions once and for all. */
+/* Rotations are equally spaced on the circle; scramblings are converted to directions in advance. */
 static void prepare_rotations(uint64_t seed, aur_gather_rule *rule) {
     for (size_t k = 0; k < rule->rotation_count; ++k) {
         aur_gather_rotation *const rotation = &rule->rotations[k];
@@ -180,7 +180,7 @@ static void prepare_rotations(uint64_t seed, aur_gather_rule *rule) {
     rule->square = NULL;
 }
 
-/* Density of the directions: (M'+1)/(2 pi) cos^M'; the integrand's known part: cos^M. */
+/* Density of the directions: (M'+1)/(2 pi) cos^M'; the analytic factor of the integrand: cos^M. */
 float aur_gather_rule_density(const aur_gather_rule *rule, float cosine) {
     const float scale = (float)((rule->drawn_exponent + 1.0) / (2.0 * AUR_PI));
     return cosine > 0.0f ? scale * powf(cosine, (float)rule->drawn_exponent) : 0.0f;
@@ -288,7 +288,7 @@ void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotati
     aur_gather_rule_direction(rule, rotation, index, &direction);
     const float circles = atan2f(direction.y, direction.x) * (0.5f / AUR_PI_F);
     point[0] = fminf(circles < 0.0f ? circles + 1.0f : circles, 0x1.fffffep-1f);
-    /* Rotated directions keep their heights; in the square a shift is as good as a rotation. */
+    /* Rotated directions keep their heights; in the square a shift is equivalent to a rotation. */
     const float shift = rule->square == NULL ? aur_unit_float(rotation->word_v) : 0.0f;
     const float height = fmaxf(1.0f - direction.z, 0.0f) + shift;
     point[1] = fminf(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);

@@ -1,5 +1,5 @@
 /* Random numbers of a light path: for every pixel, sample and dimension pair a point of one two-dimensional
- * set, randomised independently for each pixel and pair ("padding"). Any SET may serve; random access
+ * set, randomised independently for each pixel and pair ("padding"). Any SET can be used; access is random
  * throughout. */
 #pragma once
 
@@ -20,11 +20,11 @@ typedef enum aur_sampler_kind {
 typedef struct aur_stream aur_stream;
 typedef struct aur_stream_kernels aur_stream_kernels;
 
-enum { AUR_STREAM_BLOCK = 8 }; /* pairs that are made at once */
+enum { AUR_STREAM_BLOCK = 8 }; /* pairs computed at once */
 
 typedef struct aur_sampler {
     aur_sampler_kind kind;
-    /* By this processor's instructions; NULL for tables. */
+    /* For this processor's instruction set; NULL for tables. */
     const aur_stream_kernels *kernels;
     uint32_t size;         /* points in the table; a power of two for nets */
     uint32_t (*points)[2]; /* words: x / 2^32 */
@@ -44,10 +44,10 @@ struct aur_stream {
 
 /* The pair of numbers in [0,1) of dimension pair `pair`. */
 void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]);
-/* The pairs first .. first + count - 1, faster than one by one, most of all AUR_STREAM_BLOCK at once. */
+/* The pairs first .. first + count - 1: faster than one by one, fastest for AUR_STREAM_BLOCK at once. */
 void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]);
 /* One pair for sample `index` of `count` pixels, given by their hashes. */
 AUR_INTERNAL void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels,
                                     uint32_t index, uint32_t pair, float *u, float *v);
-/* A single number in [0,1), from a pair of its own. */
+/* A single number in [0,1); uses a whole pair. */
 float aur_stream_single(const aur_stream *stream, uint32_t pair);

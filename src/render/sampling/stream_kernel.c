@@ -1,5 +1,5 @@
-/* Sobol and random pairs, eight of one pixel or one of many pixels at once. Integers only, and one exact
- * conversion: every set gives the same bits. */
+/* Sobol and random pairs, eight of one pixel or one of many pixels at once. Integer arithmetic and one exact
+ * conversion: results are bit-identical for all instruction sets. */
 #include "render/sampling/stream_kernels.h"
 
 #if defined(__AVX512F__)
@@ -8,7 +8,7 @@
 
 #if AUR_KERNEL_WIDE && defined(__AVX512F__)
 
-/* Eight pairs fill a register, which takes half the time of what the compiler makes of the loop below. */
+/* Eight pairs fill a register, which halves the time of the compiler's code for the loop below. */
 
 static inline __m512i every64(uint64_t word) {
     return _mm512_set1_epi64((long long)word);

@@ -18,9 +18,9 @@ typedef struct aur_stream_kernel_sets {
 
 AUR_KERNELS(const aur_stream_kernel_sets, aur_stream_kernels);
 
-/* The pair of floats in [0,1) of a sample, from its index with reversed bits and a hash of all else. An index
- * is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is a net
- * (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
+/* The pair of floats in [0,1) of a sample, from its bit-reversed index and a hash of pixel and dimension. The
+ * index is scrambled so that aligned blocks of a power of two are shuffled: every such block remains a net
+ * (Burley 2020). In bit-reversed form the first coordinate is the index itself. */
 static inline void aur_sobol_pair(uint32_t reversed_index, uint64_t hash, float *u, float *v) {
     const uint32_t index = aur_reverse_bits(aur_nested_hash(reversed_index, (uint32_t)aur_mix64(hash + 1)));
     const uint32_t x = aur_nested_hash(index, (uint32_t)hash);

@@ -44,28 +44,30 @@ static inline void aur_packet_set_lanes(aur_packet *packet, uint32_t lanes) {
         packet->valid[k] = -(int)(lanes >> k & 1u);
 }
 
-/* Whether the rays that leave 16 places in like directions make a coherent packet: where the places lie on
- * one plane, nearly. A function of positions and normals, never of timing. */
+/* Whether the rays that leave 16 shading points in similar directions form a coherent packet: if the points
+ * are nearly coplanar. A function of positions and normals, never of timing. */
 
-/* 1 where a place is off the plane of another one: `offset` leads there, `normal` is the plane's, and
- * `cosine` that of the angle between the two places' normals. The limits are 6 degrees each. Without
+/* 1 if a point is off the plane of another one. `offset` is the vector between them, `normal` that of the
+ * plane, and `cosine` the cosine between the two points' normals. The limits are 6 degrees each. Without
  * branches, for loops over lanes. */
 static inline uint32_t aur_is_off_plane(aur_vector offset, aur_vector normal, float cosine) {
     const float height = aur_vector_dot(offset, normal);
     return (uint32_t)(cosine < 0.995f) | (uint32_t)(height * height > 0.01f * aur_vector_dot(offset, offset));
 }
 
-/* What is known of each shape before a ray meets it, so that most hits need no look at their surface. */
+/* Properties of each shape that are known before a ray hits it, so that most hits need no evaluation of their
+ * surface. */
 
 typedef struct aur_shape_class {
     bool curved; /* not a mesh */
     bool emits;
-    /* A mesh with only diffuse reflection, alike at all its points, and no light. */
+    /* A mesh with only uniform diffuse reflection, and no emission. */
     bool plain;
     bool plain_flat; /* plain, and without normals at its vertices */
-    /* The same but for a reflectance that is not alike at all points. */
+    /* The same with a textured reflectance. */
     bool textured_flat;
-    /* Reflectance of plain shapes seen from the side of the normal, and from behind: RGB, and over pi. */
+    /* Reflectance of plain shapes on the side of the normal, and on the back: RGB, and the same divided by
+     * pi. */
     aur_vector albedo[2], albedo_on_pi[2];
 } aur_shape_class;
 

@@ -1,5 +1,5 @@
-/* Path tracing in media: distances and directions are drawn, points on lights are drawn where light scatters,
- * and both ways to find a light, and what the three channels would have drawn, are weighed by the balance
+/* Path tracing in media: distances and directions are sampled, and light is sampled at each scattering. Both
+ * ways to find a light, and what the three colour channels would have sampled, are weighed by the balance
  * heuristic (Miller, Georgiev and Jarosz 2019). */
 #include "render/volume/volume_path.h"
 
@@ -42,26 +42,26 @@ bool aur_volume_shadow(const aur_scene *scene, bool passes, float reach, const a
     return false;
 }
 
-/* A path on its way. */
+/* The state of a path. */
 typedef struct volume_walk {
     aur_medium_walk state;
-    aur_vector sum, straight; /* radiance found so far, and what of it was never scattered */
+    aur_vector sum, straight; /* accumulated radiance, and its unscattered part */
     aur_ray ray;
-    const aur_medium *medium; /* that the ray is in; NULL: none */
+    const aur_medium *medium; /* that the ray is inside; NULL: none */
     aur_bounce bounce;        /* of the ray; its pdf is in `state` */
-    float ior_squared;        /* product of those of the boundaries: what radiance has become larger by */
+    float ior_squared;        /* product over the boundaries: the factor by which radiance has grown */
     uint32_t depth;           /* of the edge that the ray belongs to */
-    size_t passed;            /* surfaces that let the path straight through */
+    size_t passed;            /* surfaces that the path passed unscattered */
     const float (*pairs)[2];  /* the numbers of this depth */
-    bool fresh;               /* the number of its first distance has not been taken */
+    bool fresh;               /* the random number of its first distance is still unused */
 } volume_walk;
 
 static float mean(aur_vector color) {
     return (color.x + color.y + color.z) / 3.0f;
 }
 
-/* Makes what all channels would have drawn 1 in the mean: numbers stay small, and the throughput is what
- * counts. False where no channel could have. */
+/* Scales the pdfs of all channels to a mean of 1, so that numbers stay in range; the throughput carries the
+ * weight. False if no channel has a positive pdf. */
 static bool normalise(aur_medium_walk *state) {
     const float size = mean(state->path);
     if (!(size > 0.0f) || !isfinite(size))
@@ -74,7 +74,7 @@ static bool normalise(aur_medium_walk *state) {
     return true;
 }
 
-/* Adds light that the ray has found; light sampling finds it with density `light_pdf`. */
+/* Adds emission that the ray hits; light sampling finds it with density `light_pdf`. */
 static void add_light(volume_walk *walk, aur_vector radiance, float light_pdf) {
     if (aur_vector_is_zero(radiance))
         return;
@@ -99,13 +99,15 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, vol
         walk->straight = aur_vector_add(walk->straight, aur_vector_subtract(walk->sum, before));
 }
 
-/* A point on a light that is seen from `from` by a ray in `medium`, where `scattered` of its light is
- * scattered along the path, a direction that the path would draw with `pdf`. */
+/* Adds a light sample seen from `from` by a ray in `medium`. `scattered` is the fraction of light scattered
+ * into the path; the path would sample this direction with `pdf`. */
 static void add_drawn_light(const aur_volume_path *data, const aur_scene *scene, const volume_walk *walk,
                             const aur_light_sample *light, const aur_ray *ray, const aur_medium *medium,
                             aur_vector scattered, float pdf, aur_vector *sum, aur_counters *counters) {
     aur_medium_walk state = walk->state;
-    state.hash = aur_mix64(state.hash ^ UINT64_C(0x736861646f77)); /* the path's own numbers stay its own */
+    state.hash =
+        aur_mix64(state.hash ^
+                  UINT64_C(0x736861646f77)); /* a separate stream: the path's random numbers do not change */
     state.light = state.path;
     state.throughput = aur_vector_multiply(state.throughput, aur_vector_multiply(scattered, light->radiance));
     if (aur_vector_is_zero(state.throughput) ||
@@ -124,8 +126,8 @@ static bool draw_light(const aur_scene *scene, const aur_light_reference *from, 
            light->pdf > 0.0f;
 }
 
-/* Roulette. What a path has gained in radiance by going into glass it loses when it comes out: that is no
- * reason to keep it. */
+/* Russian roulette. Radiance grows on entering glass and shrinks on leaving it: that gain does not raise the
+ * survival probability. */
 static bool survives(const aur_volume_path *data, volume_walk *walk) {
     if (!normalise(&walk->state) || aur_vector_is_zero(walk->state.throughput))
         return false;
@@ -135,7 +137,7 @@ static bool survives(const aur_volume_path *data, volume_walk *walk) {
     return aur_vertex_survives(survival, walk->pairs[AUR_PATH_CHOICE][1], &walk->state.throughput);
 }
 
-/* In a medium: adds light from a point on a light, and goes on in a drawn direction. */
+/* In a medium: adds a light sample, and continues in a sampled direction. */
 static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scene, float way,
                               volume_walk *walk, aur_counters *counters) {
     if (!normalise(&walk->state))
@@ -165,14 +167,15 @@ static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scen
     return survives(data, walk);
 }
 
-/* Goes on straight behind a surface. */
+/* Continues unscattered behind a surface. */
 static void pass_surface(const aur_scene *scene, const aur_surface *surface, volume_walk *walk) {
     aur_surface_medium(scene, surface, walk->ray.direction, &walk->medium);
     walk->ray = aur_surface_ray(surface, walk->ray.direction);
     ++walk->passed;
 }
 
-/* At a surface; *edge becomes whether the path has a new edge, and not gone straight through. */
+/* At a surface; *edge becomes true if the path is scattered and so has a new edge, false if it passes
+ * through. */
 static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *scene,
                                const aur_surface *surface, volume_walk *walk, bool *edge,
                                aur_counters *counters) {
