@@ -283,12 +283,12 @@ AUREOLE_INLINE void aureole_phase_sincos(uint64_t phase, double *sine, double *c
     *cosine = ((quadrant + 1) & 2) != 0 ? -turned_cosine : turned_cosine;
 }
 
-/* Maps from the unit square. Every one but POLAR preserves area, so that uniform points stay uniform.
- * LAMBERT: the cylindrical equal-area map, z = 1 - u (hemisphere) or 1 - 2u (sphere), phi = 2 pi v.
- * CONCENTRIC: Shirley and Chiu 1997, square to disk, then z = 1 - r^2 (sphere 1 - 2 r^2).
- * AZIMUTHAL: Lambert's azimuthal equal-area map by polar coordinates, r = sqrt u; once lifted it is LAMBERT.
- * POLAR: Schretter 2012 fig. 3, r = u, phi = 2 pi v, no square root; points crowd about the pole and carry
- * the weight aureole_map_weight. */
+/* Maps from the unit square. All except POLAR preserve area, so that uniform points stay uniform. LAMBERT:
+ * the cylindrical equal-area map, z = 1 - u (hemisphere) or 1 - 2u (sphere), phi = 2 pi v. CONCENTRIC:
+ * Shirley and Chiu 1997, square to disk, then z = 1 - r^2 (sphere 1 - 2 r^2). AZIMUTHAL: Lambert's azimuthal
+ * equal-area map by polar coordinates, r = sqrt u; once lifted it is LAMBERT. POLAR: Schretter 2012 fig. 3, r
+ * = u, phi = 2 pi v, no square root; points are denser near the pole and have the weight aureole_map_weight.
+ */
 typedef enum aureole_map {
     AUREOLE_MAP_LAMBERT,
     AUREOLE_MAP_CONCENTRIC,

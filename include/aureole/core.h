@@ -8,7 +8,7 @@
  * of weather, reports of weights. Rows of tables are read by pointer; elements of arrays of results grow
  * where the function takes the size of one.
  *
- * An enumeration whose values a user names in text has aur_..._from_name and aur_..._name. */
+ * Enumerations that users name in text have aur_..._from_name and aur_..._name. */
 #ifndef AUREOLE_CORE_H
 #define AUREOLE_CORE_H
 
@@ -26,7 +26,7 @@
 #define AUR_PRINTF(text, first)
 #endif
 
-/* In the place of AUR_API where a function, its structs and what it computes may change in any version. */
+/* Replaces AUR_API where a function, its structs and its results may change in any version. */
 #define AUR_EXPERIMENTAL AUR_API
 
 #ifdef __cplusplus
@@ -38,12 +38,12 @@ typedef enum aur_result {
     AUR_OK = 0,
     AUR_ERROR_INTERNAL = -1,     /* a defect of the library or of one that it uses */
     AUR_ERROR_MEMORY = -2,       /* an allocation failed */
-    AUR_ERROR_CANCELLED = -3,    /* the progress callback asked to stop */
+    AUR_ERROR_CANCELLED = -3,    /* the progress callback requested a stop */
     AUR_ERROR_ARGUMENT = -10,    /* an argument is out of its range */
     AUR_ERROR_CAPACITY = -11,    /* an output buffer is too small */
     AUR_ERROR_NAME = -12,        /* no such set, plugin, metric or key */
     AUR_ERROR_UNSUPPORTED = -13, /* the combination is valid but has no meaning or no implementation */
-    AUR_ERROR_FORMAT = -20,      /* a file or text is not what it should be */
+    AUR_ERROR_FORMAT = -20,      /* a file or text has invalid contents */
     AUR_ERROR_OPEN = -30,        /* a file cannot be opened or read */
     AUR_ERROR_WRITE = -31        /* a file cannot be written */
 } aur_result;
@@ -53,8 +53,8 @@ AUR_API const char *aur_result_string(aur_result result);
 
 enum { AUR_ERROR_FILE_CAPACITY = 1024, AUR_ERROR_MESSAGE_CAPACITY = 1024 };
 
-/* What went wrong, for a person. `file` is empty when no file is concerned; line and column count from 1 and
- * are 0 when unknown. A caller may pass NULL wherever an aur_error pointer is asked for. */
+/* A readable error. `file` is empty when no file is concerned; line and column count from 1 and are 0 when
+ * unknown. Every aur_error pointer parameter may be NULL. */
 typedef struct aur_error {
     aur_result result;
     size_t line;
@@ -63,18 +63,18 @@ typedef struct aur_error {
     char message[AUR_ERROR_MESSAGE_CAPACITY];
 } aur_error;
 
-/* Writes "FILE:LINE:COLUMN: message" (or as much of it as is known) into text[capacity], always terminated.
- * Returns the length that the whole text has, as snprintf does. */
+/* Writes "FILE:LINE:COLUMN: message" (or the parts that are set) into text[capacity], always terminated.
+ * Returns the length of the whole text, as snprintf does. */
 AUR_API size_t aur_error_format(const aur_error *error, size_t capacity, char *text) AUR_NONNULL(1);
 
-/* Fills `error` (NULL: nothing is filled) with a result and a formatted message, and returns that result: for
- * callbacks that fail, and for programs that report their own errors as the library's. */
+/* Fills `error` (may be NULL) with a result and a formatted message, and returns that result. For callbacks
+ * that fail, and for programs that report errors in the library's form. */
 AUR_API aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...) AUR_NONNULL(3)
     AUR_PRINTF(3, 4);
 
-/* Called now and then, from any thread but by one at a time for each call of the library, with 0 <= done <=
- * total; total is 0 while it is not known how much there is to do. A non-zero return asks the work to stop;
- * it then ends with AUR_ERROR_CANCELLED. The callback may call the library. */
+/* Called at intervals with 0 <= done <= total; total is 0 while the amount of work is unknown. Any thread may
+ * call it, but only one at a time for each call of the library. A non-zero return cancels the work, which
+ * then ends with AUR_ERROR_CANCELLED. The callback may call the library. */
 typedef int (*aur_progress_function)(void *user, const char *what, uint64_t done, uint64_t total);
 
 typedef struct aur_progress {
@@ -82,8 +82,8 @@ typedef struct aur_progress {
     void *user;
 } aur_progress;
 
-/* Called for each thing that is worth saying and is not an error. The message begins with "FILE:LINE:COLUMN:
- * " as far as these are known. */
+/* Receives each warning. The message begins with "FILE:LINE:COLUMN: ", or with those of the three that are
+ * known. */
 typedef void (*aur_warning_function)(void *user, const char *message);
 
 typedef struct aur_warnings {
@@ -91,8 +91,7 @@ typedef struct aur_warnings {
     void *user;
 } aur_warnings;
 
-/* Replaces the file `path` by data[size], whole or not at all ("-": standard output). Errors: WRITE, MEMORY.
- */
+/* Replaces the file `path` atomically by data[size] ("-": standard output). Errors: WRITE, MEMORY. */
 AUR_API aur_result aur_file_write(const char *path, size_t size, const void *data, aur_error *error)
     AUR_NONNULL(1);
 
@@ -102,7 +101,7 @@ AUR_API aur_result aur_file_write(const char *path, size_t size, const void *dat
  * has been read; MEMORY. */
 AUR_API aur_result aur_file_announce_output(const char *path, aur_error *error) AUR_NONNULL(1);
 
-/* "major.minor.patch" of the library in use; version.h has that of the headers. */
+/* "major.minor.patch" of the library in use; version.h has the version of the headers. */
 AUR_API const char *aur_version(void);
 
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
-/* How sure a number is: any functional of points with weights, by independent randomisations of the points.
+/* Confidence intervals for any functional of weighted points, by independent randomisations of the points.
  *
- * A functional is what a program makes of a set of points: the mean of a function, the brightness of a
- * image, a quantile. It is computed for every randomisation by itself; the mean over them is the estimate,
- * and their spread says how far it is from what infinitely many would give. Where the functional is linear in
- * the weights, as means are, that is the integral, without bias; else what is left is the functional's own
- * bias at the number of points of one randomisation. */
+ * A functional is any number that a program computes from a set of points: the mean of a function, the
+ * brightness of an image, a quantile. It is computed separately for every randomisation. The mean over the
+ * randomisations is the estimate; their spread gives its error. If the functional is linear in the weights,
+ * as means are, the estimate is unbiased. Otherwise it has the bias of the functional at the number of points
+ * of one randomisation. */
 #ifndef AUREOLE_ESTIMATE_H
 #define AUREOLE_ESTIMATE_H
 
@@ -24,20 +24,19 @@ typedef struct aur_estimate_points {
 } aur_estimate_points;
 
 /* Computes the functional's values[] from the points. Called on the caller's thread, for levels and
- * randomisations one after the other. What is not AUR_OK ends the estimate with that result, and may fill
- * `error`. */
+ * randomisations one after the other. A result other than AUR_OK ends the estimate with that result, and may
+ * fill `error`. */
 typedef aur_result (*aur_functional)(void *user, const aur_estimate_points *points, double *values,
                                      aur_error *error);
 
 typedef struct aur_estimate_options {
-    size_t size;      /* of the caller's struct, so that it can grow */
-    const char *set;  /* a SET of `dimension` dimensions; NULL: "sobol" */
-    size_t dimension; /* 1 or more */
-    size_t values;    /* of the functional, 1 to 4096; the first is held against the errors wanted */
-    double absolute,
-        relative;      /* the half width wanted: the larger of the two; both 0: one level of all points */
-    double confidence; /* of the intervals, in (0,1) */
-    size_t replicates; /* randomisations, 4 to 64 */
+    size_t size;               /* sizeof the caller's struct */
+    const char *set;           /* a SET of `dimension` dimensions; NULL: "sobol" */
+    size_t dimension;          /* 1 or more */
+    size_t values;             /* of the functional, 1 to 4096; the first is compared with the target error */
+    double absolute, relative; /* target half width: the larger of the two; both 0: one level of all points */
+    double confidence;         /* of the intervals, in (0,1) */
+    size_t replicates;         /* randomisations, 4 to 64 */
     /* Points of a randomisation on the first level; each level has twice as many. 0: 128, or fewer where two
      * levels need it. */
     size_t first;
@@ -59,23 +58,23 @@ typedef struct aur_estimated {
     double half_width; /* of Student's interval about the value */
 } aur_estimated;
 
-/* How an estimate came about; `size` is set by the caller. */
+/* Statistics of an estimate; the caller sets `size`. */
 typedef struct aur_estimate_report {
     size_t size;
     uint64_t evaluations;
     size_t levels;
-    bool reached;  /* the error wanted; false where one more level would take more points than allowed */
+    bool reached;  /* the target error; false where one more level would exceed `evaluations` */
     bool constant; /* the first value is the same in all randomisations: its half width is infinite */
 } aur_estimate_report;
 
 /* Estimates a functional: results[options->values]. Sets that are nets in base 2 are scrambled (Owen 1995),
- * the others shifted modulo 1 (Cranley and Patterson 1976). Levels have points of their own, and are put
- * together by weights n^1.5 of their sizes n, whatever they say, so that a linear functional has no bias; the
- * interval is Student's over the randomisations, and where few of these are distinct, as counts of points
- * are, never below what one more point can do. A target is reached after two levels or more; a functional of
- * one value ends after 65536 points. `report` may be NULL. Errors: ARGUMENT (which option, and
- * the range; a value that is not finite), NAME, UNSUPPORTED (a set without that dimension), MEMORY,
- * CANCELLED, and what the functional returns. */
+ * the others shifted modulo 1 (Cranley and Patterson 1976). Levels have independent points. They are combined
+ * with weights n^1.5 of their sizes n, independent of their values, so that a linear functional is unbiased.
+ * The interval is Student's over the randomisations. Where few values are distinct, as for counts of points,
+ * it is never below the effect of one more point. A target is reached after two levels or more; a functional
+ * of one value ends after 65536 points. `report` may be NULL. Errors: ARGUMENT (which option, and the range;
+ * a value that is not finite), NAME, UNSUPPORTED (a set without that dimension), MEMORY, CANCELLED, and what
+ * the functional returns. */
 AUR_API aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,
                                 aur_estimated *results, aur_estimate_report *report, aur_error *error)
     AUR_NONNULL(1, 3, 4);

@@ -1,13 +1,13 @@
 /* Weights that make a quadrature of any points exact to a degree.
  *
  * On square, cube, disk and rotations the functions are polynomials of a total degree in the coordinates, and
- * Wigner's functions to a degree. Of axes only polynomials of even degree have a meaning: their rule is
- * the sphere's of both ends, each with half the weight. On the sphere, the hemisphere or a cap about +z a
+ * Wigner's functions to a degree. On axes only polynomials of even degree are defined: the rule is that of
+ * the sphere with both ends, each with half the weight. On the sphere, the hemisphere or a cap about +z a
  * rule is exact to degree L when it integrates every polynomial in x, y, z of degree L or less without error:
  * on the sphere all spherical harmonics to degree L, (L+1)^2 of them. Of all such weights these are the
- * nearest to equal ones, or to given ones. Everywhere the density that is integrated against is normalised to
- * integral 1, so that equal weights are 1/N and the weights sum to 1: multiply by the area (4 pi, 2 pi, ...)
- * for integrals over solid angle. */
+ * nearest to equal weights, or to given weights. Everywhere the density that is integrated against is
+ * normalised to integral 1, so that equal weights are 1/N and the weights sum to 1: multiply by the area (4
+ * pi, 2 pi, ...) for integrals over solid angle. */
 #ifndef AUREOLE_EXACT_H
 #define AUREOLE_EXACT_H
 
@@ -19,26 +19,26 @@
 extern "C" {
 #endif
 
-/* In the place of a degree: the largest that keeps every weight positive. */
+/* Instead of a degree: the largest with positive weights. */
 #define AUR_DEGREE_LARGEST SIZE_MAX
-/* No degree is larger. */
+/* The largest degree. */
 #define AUR_EXACT_DEGREE_MAX 1500
-/* No exponent of a lobe is larger. */
+/* The largest exponent of a lobe. */
 #define AUR_EXACT_EXPONENT_MAX 1e4
-/* No degree for a GGX lobe is larger. */
+/* The largest degree for a GGX lobe. */
 #define AUR_EXACT_GGX_DEGREE_MAX 64
-/* Of conjugate gradients, in the place of 0. */
+/* The tolerance of conjugate gradients that 0 stands for. */
 #define AUR_EXACT_TOLERANCE_DEFAULT 1e-14
-/* No tolerance is smaller or larger. */
+/* The smallest and largest tolerance. */
 #define AUR_EXACT_TOLERANCE_MIN 1e-15
 #define AUR_EXACT_TOLERANCE_MAX 1e-2
-/* No cube has more dimensions. */
+/* The largest dimension of a cube. */
 #define AUR_EXACT_DIMENSION_MAX 4096
-/* On square, cube, disk and rotations functions times points are not more. */
+/* The largest product of functions and points on square, cube, disk and rotations. */
 #define AUR_EXACT_ENTRIES_MAX 134217728
 
 typedef struct aur_exact_options {
-    size_t size;        /* of the caller's struct, so that it can grow */
+    size_t size;        /* sizeof the caller's struct */
     aur_domain domain;  /* any */
     double cap_degrees; /* 0: all of the domain; else the cap of that polar angle about +z */
     /* The density: uniform unless the domain is the whole HEMISPHERE. With GGX points below the surface (z <
@@ -46,10 +46,10 @@ typedef struct aur_exact_options {
     aur_lobe lobe;
     size_t degree;      /* AUR_DEGREE_LARGEST, or 0 to AUR_EXACT_DEGREE_MAX */
     bool negative;      /* a given degree may take negative weights */
-    const double *near; /* the weights to stay near to: one a point, >= 0, not all 0; NULL: equal ones */
-    size_t threads;     /* 0: all; no bit depends on it */
+    const double *near; /* weights to approximate: one per point, >= 0, not all 0; NULL: equal */
+    size_t threads;     /* 0: all; results are bit-identical for any number */
     aur_progress progress;
-    /* Of more than 2048 points: conjugate gradients end when no function errs by more; 0:
+    /* For more than 2048 points: conjugate gradients end when the error of every function is at most this. 0:
      * AUR_EXACT_TOLERANCE_DEFAULT. */
     double tolerance;
     size_t dimension; /* of the CUBE: 1 to AUR_EXACT_DIMENSION_MAX */
@@ -70,38 +70,38 @@ typedef struct aur_exact_report {
     double residual; /* the largest error among the orthonormal functions to the degree (harmonics on the
                         sphere), whose mean square is 1 */
     double least, largest; /* weight times `points` */
-    size_t points;         /* how many were weighed: without those below a GGX lobe's surface */
-    size_t places;         /* of them at different places */
+    size_t points;         /* points with weights: without those below a GGX lobe's surface */
+    size_t places;         /* distinct points among them */
     size_t iterations;     /* of conjugate gradients; 0: solved by a factorisation */
 } aur_exact_report;
 
 /* weights[count] for unit vectors points[3 * count], or coordinates points[dimension * count] of square, cube
- * and disk, or unit quaternions w,x,y,z points[4 * count]: of all weights that are exact to the degree those
- * that make the sum of (w - near)^2 / near least, where the near ones are scaled to sum 1. Points at one
- * place share the weight of one point, unless near ones are given; points with the near weight 0 keep it. Up
- * to 2048 points every degree is tried by one factorisation that grows, O(count degree^4); more points are
- * solved by conjugate gradients until the residual is at the tolerance, or ends below 1e-10 after 600 steps,
- * each O(count + degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then
- * found by bisection with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count
- * + 1e4 to 1e5 nodes) degree^4) for any count, and the search for the largest degree ends after four without
- * positive weights. On square, cube, disk and rotations steps of conjugate gradients take
- * O(count functions), and the largest degree is sought among those with AUR_EXACT_ENTRIES_MAX. `capacity`
- * counts weights; `report` may be NULL.
+ * and disk, or unit quaternions w,x,y,z points[4 * count]: those that minimise the sum of (w - near)^2 / near
+ * among all weights that are exact to the degree, where `near` is scaled to sum 1. Coincident points share
+ * the weight of one point, unless `near` is given; points with `near` 0 keep the weight 0. For up to 2048
+ * points one growing factorisation tries every degree, O(count degree^4). More points are solved by conjugate
+ * gradients until the residual reaches the tolerance, or is below 1e-10 after 600 steps. Each step is O(count
+ * + degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is found by bisection
+ * with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count + 1e4 to 1e5
+ * nodes) degree^4) for any count, and the search for the largest degree ends after four without positive
+ * weights. On square, cube, disk and rotations steps of conjugate gradients take O(count functions), and
+ * AUR_EXACT_ENTRIES_MAX limits the search for the largest degree. `capacity` counts weights; `report` may be
+ * NULL.
  *
  * Errors: ARGUMENT for no point, a vector that is not of unit length or lies outside the domain (which),
- * options out of range, a degree that no weights of these points have (and the error that is left), a degree
- * that needs negative weights unless they are allowed (and the least one); CAPACITY; MEMORY; CANCELLED. */
+ * options out of range, a degree that no weights of these points reach (with the remaining error), a degree
+ * that needs negative weights unless they are allowed (with the least one); CAPACITY; MEMORY; CANCELLED. */
 AUR_API aur_result aur_weights_exact(size_t count, const double *points, const aur_exact_options *options,
                                      size_t capacity, double *weights, aur_exact_report *report,
                                      aur_error *error) AUR_NONNULL(2, 3, 5);
 
 /* Nested rules: the same for the first counts[k] points of a set, for each of `level_count` ascending counts,
- * of which the last may be less than all. weights[level_count * count] are those of the first level first, 0
- * for points behind it, so that one function value a point gives an integral for every level, and the
- * differences of neighbours estimate the error: of the lower of the two for smooth functions, of either for
- * rough ones. Made for the levels of extensible grids (esfg) and
- * for prefixes of sequences. `reports`, unless NULL, has room for level_count; `near` of the options is of
- * all points. Errors: as aur_weights_exact, with the level; ARGUMENT for counts that do not ascend from 1. */
+ * the last of which may be less than `count`. weights[level_count * count] begin with the first level;
+ * weights of points beyond a level are 0. One function value per point then gives an integral for every
+ * level. Differences of consecutive levels estimate the error: of the lower level for smooth functions, of
+ * either for rough ones. Intended for the levels of extensible grids (esfg) and for prefixes of sequences.
+ * `reports`, unless NULL, has level_count elements; `near` of the options covers all points. Errors: as
+ * aur_weights_exact, with the level; ARGUMENT for counts that do not ascend from 1. */
 AUR_API aur_result aur_weights_nested(size_t count, const double *xyz, size_t level_count,
                                       const size_t *counts, const aur_exact_options *options, size_t capacity,
                                       double *weights, aur_exact_report *reports, aur_error *error)

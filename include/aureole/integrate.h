@@ -1,5 +1,5 @@
-/* Integrals to a tolerance: a function is called with many points at a time until the interval about the
- * integral is narrow enough.
+/* Integrals to a tolerance: a function is called with many points at a time until the confidence interval of
+ * the integral is narrow enough.
  *
  * Domains are those of points (square, cube, disk, hemisphere, sphere, caps, axes, rotations), the ball, the
  * triangle and the tetrahedron, and the product of each with one more axis, a radius or an energy. The value
@@ -15,17 +15,17 @@
 extern "C" {
 #endif
 
-/* Fills values[count * options.values], those of the first point first, at points[count * coordinates] and,
- * where there is an axis, the numbers along[count] on it, else NULL. Points of the sphere, hemisphere and
- * axes are unit vectors, rotations are unit quaternions w,x,y,z. At most AUR_INTEGRAND_POINTS points per
- * call, in an order that the options fix, on the caller's thread. A result other than AUR_OK ends the
- * integration with that result, and may fill `error`. */
+/* Fills values[count * options.values], the values of the first point first, at points[count * coordinates].
+ * With an axis, along[count] are the coordinates on it; otherwise `along` is NULL. Points of the sphere,
+ * hemisphere and axes are unit vectors, rotations are unit quaternions w,x,y,z. At most AUR_INTEGRAND_POINTS
+ * points per call, in an order that the options fix, on the caller's thread. A result other than AUR_OK ends
+ * the integration with that result, and may fill `error`. */
 typedef aur_result (*aur_integrand)(void *user, size_t count, const double *points, const double *along,
                                     double *values, aur_error *error);
 
 enum { AUR_INTEGRAND_POINTS = 1024, AUR_INTEGRATE_DIMENSION_MAX = 1024, AUR_INTEGRATE_VALUES_MAX = 65536 };
 
-/* Domains that are not domains of points. BALL: of radius 1, volume 4 pi/3. TRIANGLE, TETRAHEDRON: all
+/* Domains other than those of point sets. BALL: of radius 1, volume 4 pi/3. TRIANGLE, TETRAHEDRON: all
  * coordinates >= 0 and their sum <= 1, area 1/2 and volume 1/6. */
 typedef enum aur_region {
     AUR_REGION_DOMAIN, /* the field `domain` has the domain */
@@ -34,7 +34,7 @@ typedef enum aur_region {
     AUR_REGION_TETRAHEDRON
 } aur_region;
 
-/* A part of the domain with points of its own: where the function is large in a small place, or singular. */
+/* A part of the domain with separate points: where the function has a narrow peak or a singularity. */
 typedef struct aur_integrate_peak {
     const double *centre; /* sphere, hemisphere, axes: a unit vector; square, cube: a point */
     double radius;        /* degrees; square, cube: half the side of a box. 0: all of the domain */
@@ -43,7 +43,7 @@ typedef struct aur_integrate_peak {
 } aur_integrate_peak;
 
 typedef struct aur_integrate_options {
-    size_t size; /* of the caller's struct, so that it can grow */
+    size_t size; /* sizeof the caller's struct */
     aur_domain domain;
     double cap_degrees; /* SPHERE, HEMISPHERE; 0: all of it; else the cap of that polar angle about +z */
     double exponent;    /* the function is multiplied by cos^exponent theta; 0 to 1e9, whole HEMISPHERE */
@@ -52,11 +52,11 @@ typedef struct aur_integrate_options {
     double absolute, relative; /* the target error: the larger of the two; both 0: one level of `first` */
     double confidence;         /* of the interval, in (0,1) */
     size_t replicates;         /* randomisations, 4 to 64 */
-    uint64_t evaluations;      /* at most so many */
+    uint64_t evaluations;      /* the largest number */
     uint64_t seed;
     aur_progress progress; /* evaluations so far, of those allowed */
 
-    aur_region region; /* in the place of `domain` */
+    aur_region region; /* replaces `domain` */
     size_t dimension;  /* of CUBE: 1 to AUR_INTEGRATE_DIMENSION_MAX */
     size_t values;     /* of the function: 1 to AUR_INTEGRATE_VALUES_MAX; 0 stands for 1 */
     /* Values are separate integrals: each has its own target error and its own warnings. Otherwise they are
@@ -64,7 +64,7 @@ typedef struct aur_integrate_options {
     bool separate;
     bool mean; /* the value is divided by the measure of the domain */
     /* Points of a randomisation on the first level. 0: as many as give 2048 evaluations, and no result below
-     * 8192. Otherwise the caller vouches that this many see the function. */
+     * 8192. Otherwise the caller must know that this many resolve the function. */
     size_t first;
     size_t peak_count;
     const aur_integrate_peak *peaks; /* a point in several peaks belongs to the first of them */
@@ -76,9 +76,9 @@ typedef struct aur_integrate_options {
      * rules (aur_symmetric_rule) of 256 points (or `first`) and four times as many until two agree. Error and
      * interval are the change from the rule before. Without axis, peaks, set and `separate`. */
     const aur_point_group *group;
-    /* The share of the domain that the smallest feature takes: no result comes before a feature of that size
-     * has been seen with 95 % probability (3 / resolution points beside those of peaks). 0: as small as the
-     * points happen to see; else at least 1e-12 and below 1. Not with a group or a set. */
+    /* The size of the smallest feature as a fraction of the domain. The integration ends only after a feature
+     * of that size has been sampled with 95 % probability (3 / resolution points in addition to those of
+     * peaks). 0: no such condition; else at least 1e-12 and below 1. Not with a group or a set. */
     double resolution;
 } aur_integrate_options;
 
@@ -92,52 +92,51 @@ AUR_API size_t aur_integrate_coordinates(const aur_integrate_options *options) A
 typedef enum aur_integrate_reason {
     AUR_INTEGRATE_TOLERANCE,   /* the target error was reached */
     AUR_INTEGRATE_EVALUATIONS, /* one more level would take more evaluations than allowed */
-    AUR_INTEGRATE_CONSTANT     /* one value at all of 65536 points or more: nothing bounds what differs */
+    AUR_INTEGRATE_CONSTANT     /* the same value at all of 65536 points or more: the error has no bound */
 } aur_integrate_reason;
 
 /* Reasons not to trust an interval: bits of aur_integral.doubts. */
 typedef enum aur_integrate_doubt {
     AUR_INTEGRATE_ALL_EQUAL = 1, /* all values are equal: the interval is infinite */
     AUR_INTEGRATE_SPARSE = 2,    /* fewer than 64 values differ from the most frequent one */
-    AUR_INTEGRATE_DOMINATED = 4, /* one point has more than half of the sum of magnitudes */
+    AUR_INTEGRATE_DOMINATED = 4, /* one point contributes more than half of the sum of magnitudes */
     AUR_INTEGRATE_HEAVY_TAIL = 8 /* the largest values fall as slowly as those of infinite variance do */
 } aur_integrate_doubt;
 
 typedef struct aur_integral {
-    size_t size;       /* of the caller's struct, so that it can grow */
+    size_t size;       /* sizeof the caller's struct */
     double value;      /* the mean of the replicates; of several values the first */
     double error;      /* compared with the target: the larger of the interval and of difference/4; of several
                           values the largest */
     double interval;   /* half the width of the interval about the value */
     double difference; /* between the values of the last two levels, both from points of the last */
     uint64_t evaluations;
-    size_t levels; /* each has twice the points of the one before, those among them */
+    size_t levels; /* each doubles the points and includes those of the previous level */
     aur_integrate_reason reason;
     unsigned doubts;   /* of aur_integrate_doubt */
-    double resolution; /* with 95 % probability a feature of this share of the domain has been seen: 3/N */
+    double resolution; /* 3/N: size of features, as a fraction of the domain, sampled with 95 % probability */
 } aur_integral;
 
-/* The integral of a function. On the whole sphere and for axes each replicate is a grid (esfg, Marques 2019)
- * turned at random, with exact weights (exact.h) to about the degree sqrt(points / 2.2) - 1 for at most 1024
- * points and to degree 6 beyond; elsewhere it is a Sobol sequence with a random Owen scrambling and equal
- * weights. Both are without bias at a fixed level. Points double until the error is below the target;
+/* The integral of a function. On the whole sphere and for axes each replicate is a randomly rotated grid
+ * (esfg, Marques 2019) with exact weights (exact.h) to about the degree sqrt(points / 2.2) - 1 for at most
+ * 1024 points and to degree 6 beyond; elsewhere it is a Sobol sequence with a random Owen scrambling and
+ * equal weights. Both are unbiased at a fixed level. Points double until the error is below the target;
  * nothing is evaluated twice.
  *
- * The interval is Student's over the replicates, whose variance is pooled with what earlier levels let expect
- * where replicates agree by chance, and never below what one more point in one replicate could
- * do: by the largest lasting gap between values, and by the largest value where the tail is heavy. At least
+ * The interval is Student's over the replicates. Where replicates agree by chance, their variance is pooled
+ * with the variance that earlier levels predict. It is never below the effect of one more point in one
+ * replicate: the largest lasting gap between values, or the largest value where the tail is heavy. At least
  * two levels are compared, and a level with a doubt is not the last. A function of one value alone ends the
- * work after 65536 evaluations.
- * docs/integrals.md has the measured coverage.
+ * work after 65536 evaluations. docs/integrals.md has the measured coverage.
  *
- * `results`, unless NULL, has one element for each of the function's values. The integral's size must be
- * set. Errors: ARGUMENT (which option, and the range; a value that is not finite, and where), UNSUPPORTED,
- * MEMORY, CANCELLED, and what the function returns. */
+ * `results`, unless NULL, has one element for each of the function's values. The caller sets `size` of the
+ * integral. Errors: ARGUMENT (which option, and the range; a value that is not finite, and where),
+ * UNSUPPORTED, MEMORY, CANCELLED, and what the function returns. */
 AUR_API aur_result aur_integrate_values(aur_integrand function, void *user,
                                         const aur_integrate_options *options, aur_estimated *results,
                                         aur_integral *integral, aur_error *error) AUR_NONNULL(1, 3, 5);
 
-/* The same of the first value. */
+/* The same for the first value. */
 AUR_API aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate_options *options,
                                  aur_integral *integral, aur_error *error) AUR_NONNULL(1, 3, 4);
 

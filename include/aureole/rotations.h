@@ -1,7 +1,7 @@
 /* Rotations of space, SO(3): sets of them, quaternions and matrices, and the symmetries of crystals.
  *
  * A rotation is a unit quaternion w,x,y,z, turning by 2 acos(w) about (x,y,z); q and -q are one rotation.
- * Densities and evenness are with respect to Haar's measure. */
+ * Densities and uniformity are with respect to the Haar measure. */
 #ifndef AUREOLE_ROTATIONS_H
 #define AUREOLE_ROTATIONS_H
 
@@ -15,13 +15,13 @@ extern "C" {
 AUR_API void aur_rotation_from_quaternion(const double wxyz[4], aur_rotation *rotation) AUR_NONNULL(1, 2);
 AUR_API void aur_rotation_to_quaternion(const aur_rotation *rotation, double wxyz[4]) AUR_NONNULL(1, 2);
 
-/* A set of rotations made ready: immutable, for any number of threads. */
+/* A prepared set of rotations: immutable, usable by any number of threads. */
 typedef struct aur_rotations aur_rotations;
 
 typedef struct aur_rotations_options {
-    size_t size;           /* of the caller's struct, so that it can grow */
+    size_t size;           /* sizeof the caller's struct */
     uint64_t count;        /* rotations of the set: at least 1 */
-    aur_scramble scramble; /* ROTATE3D: all are turned by one random rotation; others as for the cube */
+    aur_scramble scramble; /* ROTATE3D: one random rotation of all; others as for the cube */
     uint64_t seed;
     aur_warnings warnings;
 } aur_rotations_options;
@@ -29,21 +29,22 @@ typedef struct aur_rotations_options {
 AUR_API aur_result aur_rotations_options_init(uint64_t count, aur_rotations_options *options,
                                               aur_error *error) AUR_NONNULL(2);
 
-/* Makes rotations ready: a set native to them (super-fibonacci, its grid, esfg-rotations), or any set of the
- * cube, whose first three coordinates are lifted (Shoemake 1992). Errors: as aur_pointset_create. */
+/* Prepares a set of rotations: a native one (super-fibonacci, its grid, esfg-rotations), or any set of the
+ * cube, whose first three coordinates are mapped to rotations (Shoemake 1992). Errors: as
+ * aur_pointset_create. */
 AUR_API aur_result aur_rotations_create(const char *set, const aur_rotations_options *options,
                                         aur_rotations **rotations, aur_error *error) AUR_NONNULL(1, 2, 3);
 AUR_API void aur_rotations_destroy(aur_rotations *rotations); /* NULL is allowed */
 AUR_API uint64_t aur_rotations_size(const aur_rotations *rotations) AUR_NONNULL(1);
 
-/* Rotations first .. first+count-1 as w,x,y,z into wxyz[4 * count] (`capacity` counts doubles). Errors:
- * ARGUMENT for a range beyond the set, CAPACITY. */
+/* Writes rotations first .. first+count-1 as w,x,y,z into wxyz[4 * count] (`capacity` counts doubles).
+ * Errors: ARGUMENT for a range beyond the set, CAPACITY. */
 AUR_API aur_result aur_rotations_points(const aur_rotations *rotations, uint64_t first, size_t count,
                                         size_t capacity, double *wxyz, aur_error *error) AUR_NONNULL(1, 5);
 
-/* The rotations that take a crystal to itself, by Hermann and Mauguin's symbols: the eleven groups without
- * reflections. An axis of order 2, 3, 4 or 6 that stands first is along z; those of order 2 across it lie
- * along x; 23 and 432 have the cube's axes x, y, z and (1,1,1). */
+/* The rotational symmetry groups of crystals by their Hermann-Mauguin symbols: the eleven groups without
+ * reflections. The first axis, of order 2, 3, 4 or 6, is along z; axes of order 2 across it are along x; 23
+ * and 432 have the cube's axes x, y, z and (1,1,1). */
 typedef enum aur_symmetry {
     AUR_SYMMETRY_1,   /* triclinic */
     AUR_SYMMETRY_2,   /* monoclinic */
@@ -64,17 +65,16 @@ enum { AUR_SYMMETRY_ORDER_MAX = 24 };
 AUR_API aur_result aur_symmetry_from_name(const char *name, aur_symmetry *symmetry, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_symmetry_name(aur_symmetry symmetry);
-/* The quaternions of the group, the identity first, into group[4 * AUR_SYMMETRY_ORDER_MAX]; returns how many
- * there are, or 0 for a value out of range. */
+/* The quaternions of the group, the identity first, into group[4 * AUR_SYMMETRY_ORDER_MAX]; returns their
+ * number, or 0 for a value out of range. */
 AUR_API size_t aur_symmetry_group(aur_symmetry symmetry, double *group) AUR_NONNULL(2);
-/* Replaces each q of wxyz[4 * count] by the one of all q g, g in the group, that turns by the smallest angle,
- * with w >= 0: the same orientation of the crystal, where q takes the crystal's frame to the specimen's. All
- * of them fill the fundamental zone, 1/order of the rotations. Errors: ARGUMENT for a symmetry out of range.
- */
+/* Replaces each q of wxyz[4 * count] by the rotation of smallest angle among all q g, g in the group, with w
+ * >= 0: the same orientation of the crystal, where q maps the crystal's frame to the specimen's. The results
+ * are in the fundamental zone, 1/order of all rotations. Errors: ARGUMENT for a symmetry out of range. */
 AUR_API aur_result aur_symmetry_reduce(aur_symmetry symmetry, size_t count, double *wxyz, aur_error *error)
     AUR_NONNULL(3);
-/* Keeps those of `count` rotations that are in the fundamental zone, in their order, with w >= 0; returns how
- * many. A rotation on the zone's boundary, within 1e-12, is kept. 0 for a symmetry out of range. */
+/* Selects the rotations in the fundamental zone among `count`, in their order, with w >= 0; returns their
+ * number. A rotation on the zone's boundary, within 1e-12, is kept. 0 for a symmetry out of range. */
 AUR_API size_t aur_symmetry_select(aur_symmetry symmetry, size_t count, double *wxyz) AUR_NONNULL(3);
 
 #ifdef __cplusplus

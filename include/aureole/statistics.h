@@ -24,9 +24,9 @@ AUR_API double aur_moments_standard_error(const aur_moments *moments) AUR_NONNUL
  * (0,1), for normal values (Student's t); 0 for fewer than two values. */
 AUR_API double aur_moments_interval(const aur_moments *moments, double confidence) AUR_NONNULL(1);
 
-/* The quantile t with P(T < t) = probability in (0,1) for Student's t with `degrees` >= 1 degrees of freedom,
- * of which more than a million count as a million. The relative error is below 1e-9 for probabilities between
- * 1e-6 and 1 - 1e-6. NaN for arguments out of range. */
+/* The quantile t with P(T < t) = probability in (0,1) for Student's t with `degrees` >= 1 degrees of freedom;
+ * more than a million count as a million. The relative error is below 1e-9 for probabilities between 1e-6 and
+ * 1 - 1e-6. NaN for arguments out of range. */
 AUR_API double aur_student_quantile(size_t degrees, double probability);
 
 #ifdef __cplusplus

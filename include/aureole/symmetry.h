@@ -1,5 +1,5 @@
-/* Point groups of objects, and rules for functions that have their symmetry: each evaluation counts as often
- * as the group has elements. */
+/* Point groups, and quadrature rules for functions with their symmetry: each evaluation stands for all images
+ * under the group. */
 #ifndef AUREOLE_SYMMETRY_H
 #define AUREOLE_SYMMETRY_H
 
@@ -25,19 +25,19 @@ typedef struct aur_point_group {
 AUR_API aur_result aur_point_group_from_name(const char *name, aur_point_group *group, aur_error *error)
     AUR_NONNULL(1, 2);
 
-/* Keeps one of each orbit of `count` unit vectors xyz[3 * count], in their order: those in the fundamental
- * region, the directions that no element brings nearer to the direction 40 degrees from +z at the azimuth 2.3
- * degrees. Returns how many. Of points on its boundary (within 1e-12) one image is kept. weights[count],
- * unless NULL, become those of the whole orbits: of a set that has the symmetry they still have the same sum.
- */
+/* Selects one point of each orbit of `count` unit vectors xyz[3 * count], in their order: those in the
+ * fundamental region. These are the directions that no element brings nearer to the direction 40 degrees from
+ * +z at the azimuth 2.3 degrees. Returns their number. Of points on the boundary (within 1e-12) one image is
+ * selected. weights[count], unless NULL, become those of the whole orbits; for a set with the symmetry their
+ * sum is unchanged. */
 AUR_API size_t aur_point_group_select(const aur_point_group *group, size_t count, double *xyz,
                                       double *weights) AUR_NONNULL(1, 3);
 
 /* At most `most` directions xyz[3 * *count] and weights[*count] of sum 1 whose images under the group are a
  * product rule on the sphere: Gauss-Legendre heights times equal azimuths. Means of functions that are
- * invariant under the group are exact for polynomials of degree about sqrt(2 most order) - 1, where the order
- * counts elements that take the z axis to itself or to -z. `capacity` counts doubles of xyz; weights has room
- * for a third as many. Errors: ARGUMENT for fewer points than the smallest rule has (how many), CAPACITY,
+ * invariant under the group are exact for polynomials of degree about sqrt(2 most order) - 1; the order
+ * counts elements that map the z axis to itself or to -z. `capacity` counts doubles of xyz; weights has a
+ * third as many elements. Errors: ARGUMENT for fewer points than the smallest rule (which number), CAPACITY,
  * MEMORY. */
 AUR_API aur_result aur_symmetric_rule(const aur_point_group *group, size_t most, size_t capacity, double *xyz,
                                       double *weights, size_t *count, aur_error *error)

@@ -1,5 +1,5 @@
-/* The version of these headers, for the preprocessor. CMake reads the three numbers from here: this is their
- * one source. aur_version() says which library is in use. */
+/* The version of these headers, for the preprocessor. CMake reads the three numbers from here, their only
+ * source. aur_version() returns the version of the library in use. */
 #ifndef AUREOLE_VERSION_H
 #define AUREOLE_VERSION_H
 

@@ -21,7 +21,7 @@ bool aur_array_grow(void *array, size_t *capacity, size_t wanted, size_t size) {
     size_t bytes;
     if (!aur_size_product(larger, size, &bytes))
         return false;
-    /* The pointer is of the caller's type, so it is read and written by its bytes. */
+    /* The pointer has the caller's type, so its bytes are copied. */
     void *elements;
     memcpy(&elements, array, sizeof elements);
     elements = realloc(elements, bytes);

@@ -1,4 +1,4 @@
-/* The build IDs that the linker puts into programs and libraries: other code has another one. */
+/* A hash of the build IDs that the linker writes into programs and libraries; it changes with the code. */
 #if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* dl_iterate_phdr */
 #endif
@@ -45,17 +45,17 @@ static bool is_module(const char *path) {
     return strncmp(name, "aureole-", 8) == 0 && strcmp(name + length - 3, ".so") == 0;
 }
 
-/* Summed, so that the order in which libraries were loaded does not matter. They come in that order, and what
- * follows one of our modules was loaded for it: modules carry results and make none, so that what is kept is
- * the same for one process and several ranks, with a server and without. TBB loads its allocator late, which
- * makes none either. */
+/* A sum is independent of the order in which libraries were loaded. Objects are listed in that order; those
+ * after one of our modules were loaded for it. Modules transport results but compute none, so they are left
+ * out: cached data is then shared by one process and several ranks, with and without a server. TBB loads its
+ * allocator late, which computes no results either. */
 static int add_object(struct dl_phdr_info *object, size_t size, void *context) {
     identity *const all = context;
     all->of_module = all->of_module || is_module(object->dlpi_name);
     if (all->of_module || strstr(object->dlpi_name, "/libtbbmalloc") != NULL)
         return 0;
     uint64_t hash = 0;
-    bool found = strncmp(object->dlpi_name, "linux-vdso", 10) == 0; /* the kernel's: no file */
+    bool found = strncmp(object->dlpi_name, "linux-vdso", 10) == 0; /* of the kernel: not a file */
     (void)size;
     for (size_t i = 0; i < object->dlpi_phnum && !found; ++i) {
         const ElfW(Phdr) *const segment = &object->dlpi_phdr[i];

@@ -1,4 +1,4 @@
-/* Bytes that are put together piece by piece, and taken apart again. */
+/* Serialisation of values into a byte buffer, and back. */
 #pragma once
 
 #include <stdbool.h>
@@ -10,7 +10,7 @@
 typedef struct aur_bytes {
     unsigned char *data;
     size_t size, capacity;
-    bool failed; /* there was no memory */
+    bool failed; /* out of memory */
 } aur_bytes;
 
 static inline void aur_bytes_put(aur_bytes *bytes, size_t size, const void *data) {
@@ -28,7 +28,7 @@ static inline void aur_bytes_release(aur_bytes *bytes) {
     *bytes = (aur_bytes){0};
 }
 
-/* Reading: a call beyond the end gets zeros, and `failed` stays. */
+/* Reading: a call beyond the end returns zeros and sets `failed`. */
 typedef struct aur_bytes_reader {
     const unsigned char *at, *end;
     bool failed;

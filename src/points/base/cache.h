@@ -12,23 +12,23 @@ typedef struct aur_cache aur_cache;
 AUR_INTERNAL aur_cache *aur_cache_create(void);
 AUR_INTERNAL void aur_cache_destroy(aur_cache *cache);
 
-/* The thing stored under `key`, or NULL. It lives as long as the cache. */
+/* The object stored under `key`, or NULL. It lives as long as the cache. */
 AUR_INTERNAL void *aur_cache_find(aur_cache *cache, const char *key);
-/* Takes ownership of `thing`, which took so many rays to make, in every case; `destroy` ends it. Fails with
- * AUR_ERROR_MEMORY only. */
+/* Takes ownership of `thing`, also on failure; it took `rays` to compute, and `destroy` frees it. Fails only
+ * with AUR_ERROR_MEMORY. */
 AUR_INTERNAL aur_result aur_cache_store(aur_cache *cache, const char *key, void *thing, uint64_t rays,
                                         void (*destroy)(void *));
 
-/* Which things were used, and the rays that these took to make, now or earlier: what renders are prepared
- * with costs the same whichever was the first to ask for it. Zero at first. */
+/* Counts the objects used and the rays that computed them, now or earlier: the reported cost of preparing a
+ * render does not depend on which render computed an object. Zero-initialised. */
 typedef struct aur_cache_uses {
-    struct aur_cache_uses *outer; /* that counts them, too; NULL: none does */
+    struct aur_cache_uses *outer; /* counts them, too; NULL: none */
     uint64_t rays;
     size_t count, capacity;
     const void **things;
 } aur_cache_uses;
 
-/* From here on things that are found and stored are counted in `uses` (NULL: nowhere). Returns where they
- * were before. */
+/* From here on objects found and stored are counted in `uses` (NULL: not counted). Returns the previous one.
+ */
 AUR_INTERNAL aur_cache_uses *aur_cache_count(aur_cache *cache, aur_cache_uses *uses);
 AUR_INTERNAL void aur_cache_uses_release(aur_cache_uses *uses);

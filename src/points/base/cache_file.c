@@ -20,9 +20,9 @@ enum { PATH_CAPACITY = 4096, WORDS = 3, DEFAULT_MEBIBYTES = 1024 };
 
 static const uint64_t mark = UINT64_C(0x6175726b65707431);
 static const char suffix[] = ".aureole",
-                  unfinished[] = ".aureole-"; /* the latter as points/base/file.c names them */
+                  unfinished[] = ".aureole-"; /* the latter: names of points/base/file.c */
 
-/* False when there is none. */
+/* False if there is no such folder. */
 static bool find_folder(char folder[PATH_CAPACITY]) {
     const char *const own = getenv("AUREOLE_CACHE");
     const char *const shared = getenv("XDG_CACHE_HOME");
@@ -76,12 +76,12 @@ static char *read_here(const char *kind, const char *key, size_t *size) {
         free(data);
         return NULL;
     }
-    (void)utimensat(AT_FDCWD, path, NULL, 0); /* it was used */
+    (void)utimensat(AT_FDCWD, path, NULL, 0); /* mark as used */
     data[*size] = '\0';
     return data;
 }
 
-/* One of several processes looks for all. */
+/* One of several processes reads for all. */
 char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
     const bool looks = aur_io_leads();
     const aur_io *const io = aur_io_use(NULL);
@@ -107,7 +107,7 @@ static void make_folders(const char *folder) {
             continue;
         memcpy(part, folder, i);
         part[i] = '\0';
-        /* What exists already or cannot be made shows when the file is opened. */
+        /* Errors here show again when the file is opened. */
         (void)mkdir(part, 0700);
     }
 }
@@ -127,7 +127,7 @@ static int by_use(const void *a, const void *b) {
     return strcmp(x->name, y->name);
 }
 
-/* Files of others in the folder are left alone; what a killed process has not finished counts. */
+/* Other files in the folder are not touched; unfinished files of killed processes count. */
 static bool is_ours(const char *name) {
     const size_t length = strlen(name), end = sizeof suffix - 1;
     return (length > end && strcmp(name + length - end, suffix) == 0) ||
@@ -153,7 +153,7 @@ static void remove_oldest(const char *path, uint64_t limit) {
     if (files != NULL && sum > limit)
         qsort(files, count, sizeof *files, by_use);
     for (size_t i = 0; i < count && sum > limit; ++i) {
-        /* Another process may have removed it already. */
+        /* Another process may have removed it. */
         (void)unlinkat(dirfd(folder), files[i].name, 0);
         sum -= files[i].size;
     }
@@ -169,14 +169,14 @@ void aur_cache_file_write(const char *kind, const char *key, size_t size, const 
         return;
     struct stat status;
     if (stat(path, &status) == 0 &&
-        !S_ISREG(status.st_mode)) /* it would be written as it is: a pipe blocks */
+        !S_ISREG(status.st_mode)) /* it would be written in place: a pipe blocks */
         return;
     const uint64_t words[WORDS] = {strlen(key), hash_of(size, data, key), mark};
     make_folders(folder);
     aur_file_writer writer;
     if (aur_file_open(path, &writer, NULL) != AUR_OK)
         return;
-    writer.unsynced = true; /* the hash tells what a loss of power has damaged */
+    writer.unsynced = true; /* the hash detects damage by a loss of power */
     fwrite(data, 1, size, writer.stream);
     fwrite(key, 1, strlen(key), writer.stream);
     fwrite(words, sizeof words, 1, writer.stream);

@@ -42,7 +42,7 @@ const char *aur_result_string(aur_result result) {
     return "unknown result";
 }
 
-/* "FILE:LINE:COLUMN: " as far as it is known. */
+/* "FILE:LINE:COLUMN: ", or the parts that are set. */
 static size_t format_location(size_t capacity, char *text, const char *file, size_t line, size_t column) {
     if (file == NULL || file[0] == '\0') {
         if (capacity > 0)
@@ -66,7 +66,7 @@ size_t aur_error_format(const aur_error *error, size_t capacity, char *text) {
     return used + (length < 0 ? 0 : (size_t)length);
 }
 
-/* A path that does not fit keeps its end, which names the file. */
+/* A path that does not fit is cut at its beginning: its end names the file. */
 static void set_file(aur_error *error, const char *file) {
     const size_t length = strlen(file);
     const size_t room = sizeof error->file - 1;
@@ -79,7 +79,7 @@ static void fill(aur_error *error, aur_location location, aur_result result, con
     error->result = result;
     error->line = location.line;
     error->column = location.column;
-    /* The caller may pass the file or the message of this very error. */
+    /* The arguments may point into this error. */
     char message[AUR_ERROR_MESSAGE_CAPACITY];
     aur_format_list(message, sizeof message, format, arguments);
     set_file(error, location.file != NULL ? location.file : "");

@@ -20,15 +20,15 @@ static aur_result fail_write(aur_error *error, const char *path, int code) {
                        strerror(code));
 }
 
-/* The folder of `path` with the slash after it; the length alone. */
+/* The length of the folder of `path` with the slash. */
 static size_t folder_length(const char *path) {
     const char *const slash = strrchr(path, '/');
     return slash != NULL ? (size_t)(slash - path) + 1 : 0;
 }
 
-/* Gives the file a name of its own in the folder of its destination, by `link` where it has none yet, by
- * open(2) otherwise. The name does not contain the destination's, which may be as long as names can be.
- * Returns what `link` or open returned, or -1 with errno. */
+/* Gives the file a unique name in the folder of its destination: by `link` if it has none, otherwise by
+ * open(2). The name does not contain the destination's, which may have the maximal length. Returns the result
+ * of `link` or open, or -1 with errno. */
 static int take_name(aur_file_writer *writer, int nameless) {
     const size_t folder = folder_length(writer->path);
     const size_t capacity = folder + sizeof ".aureole-12345678-123.tmp";
@@ -58,7 +58,7 @@ static int take_name(aur_file_writer *writer, int nameless) {
     return -1;
 }
 
-/* Opens the folder that `path` is in; -1 with errno when that fails. */
+/* Opens the folder of `path`; -1 with errno on failure. */
 static int open_folder(const char *path, int flags) {
     const size_t length = folder_length(path);
     char *const folder = length > 0 ? strndup(path, length) : strdup(".");
@@ -67,8 +67,8 @@ static int open_folder(const char *path, int flags) {
     return descriptor;
 }
 
-/* A file that has no name until it is complete, so that nothing is left behind when the process is killed; -1
- * where the system has no such files. */
+/* Opens a file without a name (O_TMPFILE), so that nothing is left behind when the process is killed; -1 if
+ * the system does not support it. */
 static int open_nameless(const char *path) {
 #if defined(O_TMPFILE)
     return access("/proc/self/fd", X_OK) == 0 ? open_folder(path, O_TMPFILE | O_WRONLY) : -1;
@@ -78,8 +78,8 @@ static int open_nameless(const char *path) {
 #endif
 }
 
-/* The new file gets the owner, the group and the mode of the one that it replaces, as far as this is allowed.
- * Where the group cannot be kept, the new group may do what everybody may. */
+/* The new file gets the owner, the group and the mode of the replaced one, as far as permitted. If the group
+ * cannot be set, the new group gets the permissions of others. */
 static void keep_status(int descriptor, const struct stat *old) {
     mode_t mode = old->st_mode & 07777;
     if (fchown(descriptor, old->st_uid, old->st_gid) != 0 && fchown(descriptor, (uid_t)-1, old->st_gid) != 0)
@@ -87,10 +87,10 @@ static void keep_status(int descriptor, const struct stat *old) {
     (void)fchmod(descriptor, mode);
 }
 
-/* The path without links at its end, also where the last one points to a file that does not exist yet; NULL:
- * no memory. */
+/* Resolves links at the end of the path, also if the last one points to a missing file; NULL: out of memory.
+ */
 static char *end_of_links(const char *path) {
-    enum { MOST_LINKS = 40 }; /* as Linux has it */
+    enum { MOST_LINKS = 40 }; /* as in Linux */
     char target[PATH_MAX];
     char *at = strdup(path);
     for (size_t i = 0; i < MOST_LINKS && at != NULL; ++i) {
@@ -130,7 +130,7 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
     const aur_result refused = exists ? aur_file_refuse_input(path, &status, error) : AUR_OK;
     if (refused != AUR_OK)
         return refused;
-    /* What a link points to is replaced, and the link stays. */
+    /* The target of a link is replaced, and the link remains. */
     writer->path = end_of_links(path);
     if (writer->path == NULL)
         return aur_fail_memory(error);
@@ -145,7 +145,7 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
         if (writer->stream == NULL && descriptor >= 0)
             close(descriptor);
     } else {
-        /* A pipe or a device cannot be replaced by a rename: it is written as it is. A folder fails here. */
+        /* A pipe or a device cannot be replaced by a rename: it is written in place. A folder fails here. */
         writer->stream = fopen(path, "wb");
     }
     if (writer->stream != NULL)
@@ -155,7 +155,7 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
     return fail_write(error, path, code);
 }
 
-/* The reason why an earlier write failed: errno is gone by now, so the same is tried once more. */
+/* The reason for an earlier failed write: errno is lost by now, so the write is repeated. */
 static int reason_of_failure(FILE *stream) {
     clearerr(stream);
     errno = 0;
@@ -164,8 +164,8 @@ static int reason_of_failure(FILE *stream) {
     return EIO;
 }
 
-/* Makes the rename last beyond a loss of power. Some file systems cannot do this for folders; the file is
- * complete even so. */
+/* Makes the rename durable. Some file systems do not support this for folders; the file is complete anyway.
+ */
 static void sync_folder(const char *path) {
     const int descriptor = open_folder(path, O_RDONLY | O_DIRECTORY);
     if (descriptor >= 0) {
@@ -210,7 +210,7 @@ aur_result aur_file_write(const char *path, size_t size, const void *data, aur_e
     if (result != AUR_OK)
         return result;
     if (size > 0)
-        fwrite(data, 1, size, writer.stream); /* the stream remembers a failure until the commit */
+        fwrite(data, 1, size, writer.stream); /* the stream stores a failure until the commit */
     return aur_file_commit(&writer, error);
 }
 
@@ -228,7 +228,7 @@ static aur_result fail_read(aur_error *error, const char *path, const char *why)
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN, "cannot read: %s", why);
 }
 
-/* Why something is no input, or NULL. What a shell hands over by its number is open already. */
+/* Why a file is not accepted as input, or NULL. /dev/fd/N of a shell is open already. */
 static const char *refusal_of(const char *path, mode_t mode) {
     static const char *const handed[] = {"/dev/fd/", "/proc/self/fd/", "/dev/stdin"};
     for (size_t i = 0; i < sizeof handed / sizeof *handed; ++i)
@@ -240,7 +240,7 @@ static const char *refusal_of(const char *path, mode_t mode) {
                             : "it is a device, and a file is expected";
 }
 
-/* NULL where it cannot be read or is refused. Opening never waits for the other end of a pipe. */
+/* NULL if it cannot be read or is not accepted. Opening never blocks on a pipe. */
 static FILE *open_input(const char *path, aur_error *error) {
     const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     struct stat status;
@@ -275,8 +275,7 @@ static aur_result read_here(const char *path, size_t limit, bool input, char **d
         return error->result;
     char *buffer = NULL;
     size_t capacity = 0, used = 0;
-    /* A file whose size is known is read into a buffer of that size, and of one byte that tells that it has
-     * ended. */
+    /* A regular file is read into a buffer of its size and one byte, which detects the end. */
     struct stat status;
     const bool regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
     const bool sized = regular && status.st_size > 0;

@@ -9,13 +9,13 @@
 
 #include "points/base/array.h"
 
-/* An existing file by its inode, also through links; one that does not exist yet by its folder and name. */
+/* Identifies an existing file by its inode, also through links; a missing one by its folder and name. */
 typedef struct file_identity {
     bool exists;
     dev_t device; /* of the file or its folder */
     ino_t inode;
-    struct timespec changed; /* of an input: an inode may be used again after the file is gone */
-    char name[NAME_MAX + 1]; /* where it does not exist */
+    struct timespec changed; /* of an input: an inode may be reused after the file is deleted */
+    char name[NAME_MAX + 1]; /* if it does not exist */
 } file_identity;
 
 typedef struct file_set {
@@ -31,7 +31,7 @@ static file_identity of_status(const struct stat *status) {
         .exists = true, .device = status->st_dev, .inode = status->st_ino, .changed = status->st_mtim};
 }
 
-/* False for what is no file that could be replaced: a pipe, a device, or no such folder. */
+/* False for a path that cannot be replaced: a pipe, a device, or a missing folder. */
 static bool identify(const char *path, file_identity *identity) {
     struct stat status;
     char folder[PATH_MAX], name[PATH_MAX];

@@ -1,10 +1,11 @@
-/* Fourier transforms by Stockham's passes, which need no reversal of bits: `many` transforms of `radix *
- * length` numbers become radix times as many of `length`. */
+/* Fourier transforms by Stockham's passes, which need no bit reversal: each turns `many` transforms of `radix
+ * * length` numbers into `radix` times as many of `length`. */
 #include <string.h>
 
 #include "points/base/fourier.h"
 
-/* From radix * length numbers of `many` transforms each; place 1 of the turns is one step of the whole. */
+/* One pass over `many` transforms of radix * length numbers; entry 1 of `turns` is one step of the whole
+ * circle. */
 typedef struct pass {
     size_t length, many;
     const double *turns;

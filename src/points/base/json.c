@@ -27,8 +27,7 @@ static void start_line(aur_json *json) {
         fputs("  ", json->stream);
 }
 
-/* What stands before a member: nothing after its own name, else a comma and the end of the line where they
- * are due. */
+/* Writes the separator before a member: nothing after its name, else a comma and a line break as needed. */
 static void begin_member(aur_json *json) {
     if (json->named || json->depth == 0) {
         json->named = false;

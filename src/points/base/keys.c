@@ -28,7 +28,7 @@ const aur_key *aur_row_find_key(const aur_row *row, const char *name) {
     return find_key(row->key_count, row->keys, name);
 }
 
-/* Integers without an exponent, other numbers as %g has them. */
+/* Integers without an exponent, other numbers as %g. */
 static void print_number(const aur_key *key, double value, char text[32]) {
     aur_format(text, 32, key->type == AUR_KEY_INTEGER ? "%.0f" : "%g", value);
 }
@@ -96,7 +96,7 @@ static void put_integer(const aur_key *key, uint64_t value, void *field) {
         *(uint64_t *)field = value;
 }
 
-/* What a text is to a key. */
+/* The result of parsing a text for a key. */
 typedef enum reading { READ, OUT_OF_RANGE, OF_OTHER_TYPE, TOO_LONG } reading;
 
 static reading parse_integer(const aur_key *key, const char *text, void *field) {
@@ -188,7 +188,7 @@ static reading parse(const aur_key *key, const char *text, void *field) {
     return OF_OTHER_TYPE;
 }
 
-/* What a value of the type is called before its range is looked at. */
+/* The expected kind of value, in error messages about the type. */
 static void say_type(const aur_key *key, size_t capacity, char *expected) {
     static const char *const types[] = {"true or false",
                                         "an integer",
@@ -232,7 +232,7 @@ static bool kind_fits(aur_parameter_kind kind, aur_key_type type) {
     return kind == AUR_PARAMETER_TEXT ? type != AUR_KEY_TRANSFORM : (kinds[type] >> kind & 1u) != 0;
 }
 
-/* A colour that is one number, as a number: a spectrum of Mitsuba 3 may be one. */
+/* A colour given as one number: a spectrum of Mitsuba 3 may be one. */
 static bool is_grey(const char *text, char number[32]) {
     double value[3];
     const size_t count = aur_parse_doubles(text, value, 3);
@@ -277,7 +277,7 @@ static aur_result read_given(const aur_key *key, const aur_parameters *parameter
     return read_text(key, parameters, item, item->text, fields, error);
 }
 
-/* Whether the words that a listing has for the default are no value of the key: "auto", "by the size". */
+/* Whether the default text is a description and not a value of the key: "auto", "by the size". */
 static bool default_is_words(const aur_key *key) {
     union {
         double numbers[4];

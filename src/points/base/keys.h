@@ -1,5 +1,5 @@
-/* Tables of keys: a thing with parameters says in one table what keys it takes, and one loop reads them into
- * its struct. A row of keys is written with the macros below:
+/* Tables of keys: one table declares the keys of an object, and one loop reads them into its struct. Rows are
+ * written with the macros below:
  *
  *     static const aur_key keys[] = {
  *         {AUR_KEY_OF_INTEGER(options, "samples", samples, 1, 65536, "64", "directions per point")},
@@ -9,7 +9,7 @@
  * "equal")},
  *     };
  *
- * A choice's words stand in the order of the enum that the field has. */
+ * The words of a choice are in the order of the field's enum. */
 #pragma once
 
 #include <aureole/tables.h>
@@ -46,13 +46,13 @@
 /* The field is double[16], row major. */
 #define AUR_KEY_OF_TRANSFORM(struct_, name_, field_, help_)                                                  \
     AUR_KEY_FIELD(AUR_KEY_TRANSFORM, struct_, name_, field_, "identity", help_)
-/* The field is a `const aur_parameter *`, for the thing itself to read; NULL when it is not given. */
+/* The field is a `const aur_parameter *`, read by the object itself; NULL if not given. */
 #define AUR_KEY_OF_ITEM(struct_, name_, field_, default_, help_, ...)                                        \
     AUR_KEY_FIELD(AUR_KEY_ITEM, struct_, name_, field_, default_, help_), .words = (const char *const[]) {   \
         __VA_ARGS__, NULL                                                                                    \
     }
 
-/* A key that the thing itself finds and reads: for listings, and so that its name is known. */
+/* A key that the object itself finds and reads: for listings, and so that its name is accepted. */
 #define AUR_KEY_READ_APART(type_, name_, default_, help_)                                                    \
     .name = (name_), .type = (type_), .help = (help_), .default_text = (default_),                           \
     .computed = (default_) != NULL
@@ -68,10 +68,9 @@ typedef struct aur_color {
     const struct aur_texture *texture; /* NULL: constant */
 } aur_color;
 
-/* Reads every key of the table into the struct `fields`: the value that is given, else the key's default, if
- * it has one. The field of a key that is absent and has none stays as it is. Errors: FORMAT with the value's
- * place for what does not parse or is out of range. What nobody asked for is refused by
- * aur_parameters_finish. */
+/* Reads every key of the table into the struct `fields`: the given value, else the key's default. Without
+ * either the field is unchanged. Errors: FORMAT with the value's location if it does not parse or is out of
+ * range. aur_parameters_finish reports unused values. */
 AUR_INTERNAL aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *parameters,
                                       void *fields, aur_error *error);
 /* The same for a row, and then aur_parameters_finish. */

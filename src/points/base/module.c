@@ -9,14 +9,14 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The folder of the library that this code is in, with the slash after it; empty where it is unknown. */
+/* The folder of the library that contains this code, with the slash; empty if unknown. */
 static void find_folder(char folder[PATH_MAX]) {
     static const char here = 0;
     Dl_info info;
     folder[0] = '\0';
     if (dladdr(&here, &info) != 0 && info.dli_fname != NULL)
         snprintf(folder, PATH_MAX, "%s", info.dli_fname);
-    if (strchr(folder, '/') == NULL) { /* this code is in a program that was found in PATH */
+    if (strchr(folder, '/') == NULL) { /* this code is in a program found in PATH */
         const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
         folder[length > 0 ? length : 0] = '\0';
     }
@@ -33,7 +33,7 @@ static void *open_module(const char *file, int mode) {
 }
 
 bool aur_module_find_program(const char *file, size_t capacity, char *path) {
-    /* In the build folder and in a wheel; installed; installed beside a static program. */
+    /* In the build folder and in a wheel; installed; installed next to a static program. */
     static const char *const places[] = {"", "aureole/", "../lib/aureole/"};
     char folder[PATH_MAX];
     find_folder(folder);

@@ -7,7 +7,7 @@
 
 enum { LONGEST_NAME = 63 };
 
-/* Capitals, and '_' for '-', are no difference between names. */
+/* Names are compared without case, and '_' equals '-'. */
 static char fold(char c) {
     if (c >= 'A' && c <= 'Z')
         return (char)(c - 'A' + 'a');
@@ -52,8 +52,8 @@ size_t aur_names_find(aur_names names, const char *wanted) {
     return i;
 }
 
-/* The words of names, between which '_' or '-' stands, are of as many letters as they are: one of one or two
- * is no slip of another, as sigma_a is none of sigma_t. */
+/* Whether words of one or two letters, separated by '_' or '-', agree: a different short word is another
+ * name, not a misspelling, as sigma_a and sigma_t. */
 static bool short_words_agree(const char *a, const char *b) {
     for (;;) {
         const size_t length_a = strcspn(a, "_-"), length_b = strcspn(b, "_-");
@@ -137,7 +137,7 @@ const char *aur_names_suggest(aur_names names, const char *wanted, const char *o
                               char text[AUR_ERROR_MESSAGE_CAPACITY]) {
     if (aur_names_hint(names, wanted, "''", text)[0] == '\0') {
         const size_t used = (size_t)snprintf(text, AUR_ERROR_MESSAGE_CAPACITY, "; %s: ", others);
-        /* What does not fit here does not fit the message either. */
+        /* A list that does not fit here does not fit the message either. */
         aur_names_list(names, AUR_ERROR_MESSAGE_CAPACITY - used, text + used);
     }
     return text;

@@ -1,22 +1,22 @@
-/* Tables whose rows have names: finding one, suggesting the nearest, listing them all in an error's text. */
+/* Tables with named rows: finding a row, suggesting the nearest name, listing all in an error message. */
 #pragma once
 
 #include "points/base/error.h"
 
-/* The names of a table. `at` gives the name of row `index` < count; `table` is what it is given. */
+/* The names of a table. `at` returns the name of row `index` < count; `table` is its first argument. */
 typedef struct aur_names {
     size_t count;
     const char *(*at)(const void *table, size_t index);
     const void *table;
 } aur_names;
 
-/* The names of an array of strings, which must outlive them. */
+/* The names of an array of strings, which must outlive the result. */
 AUR_INTERNAL aur_names aur_names_of(size_t count, const char *const *strings);
 
 /* The index of the row called `wanted`, or names.count. */
 AUR_INTERNAL size_t aur_names_find(aur_names names, const char *wanted);
 
-/* The nearest name by edit distance, or NULL when none is near enough to suggest. */
+/* The nearest name by edit distance, or NULL when none is near enough. */
 const char *aur_names_nearest(aur_names names, const char *wanted);
 
 enum { AUR_HINT_CAPACITY = 96 };
@@ -38,8 +38,8 @@ typedef struct aur_sorted_names {
     size_t order[AUR_SORTED_NAMES];
 } aur_sorted_names;
 
-/* The names by their edit distance from `wanted`, and then in the order of the table; those of a table of
- * more than AUR_SORTED_NAMES stay as they are. `sorted` must outlive the result. */
+/* The names by their edit distance from `wanted`, and then in the order of the table; tables of more than
+ * AUR_SORTED_NAMES are not sorted. `sorted` must outlive the result. */
 aur_names aur_names_by_distance(aur_names names, const char *wanted, aur_sorted_names *sorted);
 
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf

@@ -20,7 +20,7 @@
 
 enum { MOST_THREADS = 1024, THREADS_A_PROCESSOR = 4, FEWEST_ALLOWED = 16 };
 
-/* --- denormal numbers: the processor's state, and back to what the host had */
+/* --- denormal numbers: set the processor's state, and restore the host's */
 
 #if defined(__x86_64__)
 static uint64_t flush_denormals(void) {
@@ -71,7 +71,7 @@ size_t aur_parallel_threads(size_t threads) {
     size_t most = processors * THREADS_A_PROCESSOR;
     most = most < FEWEST_ALLOWED ? FEWEST_ALLOWED : most > MOST_THREADS ? MOST_THREADS : most;
     if (threads == 0) {
-        /* Batch systems and test harnesses say by this variable how many processors are ours. */
+        /* Batch systems and test harnesses set this variable to the number of processors for this process. */
         const char *const wish = getenv("OMP_NUM_THREADS");
         uint64_t wished;
         threads = wish != NULL && aur_read_integer(wish, MOST_THREADS, &wished) != NULL && wished > 0
@@ -91,11 +91,11 @@ struct shared_work {
     aur_parallel_function function;
     void *context;
     const aur_loop_functions *loops;
-    aur_shared_loop *loop; /* items are shared with other processes; NULL: they are not */
-    shared_work *outer;    /* the work of whose items this is a part; NULL: of none */
-    atomic_size_t next;    /* the first item that nobody has taken */
+    aur_shared_loop *loop; /* items are shared with other processes; NULL: not shared */
+    shared_work *outer;    /* the enclosing work; NULL: none */
+    atomic_size_t next;    /* the first item not taken */
     atomic_bool stop;
-    pthread_mutex_t lock; /* guards what follows, and makes one progress report at a time */
+    pthread_mutex_t lock; /* guards the fields below, and serialises progress reports */
     size_t failed_index;  /* `count` while nothing has failed */
     aur_result result;
     uint64_t done;
@@ -104,16 +104,14 @@ struct shared_work {
 
 _Thread_local uint64_t aur_rays_traced;
 
-/* The work that this thread is inside an item of. Parallel work within an item runs on the item's thread
- * alone.
- */
+/* The work whose item this thread runs. Parallel work within an item runs on the item's thread only. */
 static _Thread_local shared_work *inside;
-/* How the host's thread treats denormal numbers, while it is inside an item that treats them otherwise. */
+/* The host thread's saved denormal mode, while it runs an item with another mode. */
 static _Thread_local uint64_t host_denormals;
 static _Thread_local bool flushes;
 
-/* The callback runs as if the host had called it outside of any item: what it calls in the library is work of
- * its own, with its own threads, which neither asks the interrupted work to stop nor waits for its lock. */
+/* The callback runs as if the host had called it outside of any item: library calls in it are separate work
+ * with separate threads, which neither stop the interrupted work nor wait for its lock. */
 bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t done, uint64_t total) {
     if (progress->function == NULL)
         return false;
@@ -169,7 +167,7 @@ static void record(shared_work *work, size_t index, aur_result result) {
     if (result == AUR_OK) {
         report(work);
     } else if (index < work->failed_index) {
-        /* An item that was stopped hides none that failed. */
+        /* A failed item takes precedence over a cancelled one. */
         if (result != AUR_ERROR_CANCELLED)
             work->failed_index = index;
         if (result != AUR_ERROR_CANCELLED || work->result == AUR_OK)
@@ -186,7 +184,7 @@ static bool take_item(shared_work *work, size_t *index) {
     return *index < work->count;
 }
 
-/* False where no item is left. */
+/* False if no item is left. */
 static bool do_item(void *shared) {
     shared_work *const work = shared;
     size_t index;
@@ -264,8 +262,8 @@ static void begin_sharing(const aur_io *io, shared_work *work, size_t threads) {
     work->loop = io->loops->create(io->user, &options);
 }
 
-/* Starts up to `wanted` threads, which leave the host's signals to the host's threads. Returns how many there
- * are: results do not depend on it, so fewer are no error. */
+/* Starts up to `wanted` threads with signals blocked, so that the host's threads receive them. Returns the
+ * number started: results do not depend on it, so fewer are not an error. */
 static size_t start_threads(shared_work *work, size_t wanted, pthread_t *threads) {
     sigset_t all, before;
     sigfillset(&all);
@@ -315,7 +313,7 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     if (work.loop != NULL)
         aur_rays_traced += work.loops->end(work.loop);
     pthread_mutex_destroy(&work.lock);
-    /* A stop is reported as a stop, also where a process has been lost: what there is can be kept. */
+    /* A cancellation is reported as such even if a process was lost: partial results can then be stored. */
     const bool fails = io != NULL && work.result != AUR_ERROR_CANCELLED;
     const aur_result failure = fails ? io->loops->failure(io->user, error) : AUR_OK;
     if (failure != AUR_OK || work.result == AUR_OK)

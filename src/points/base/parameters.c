@@ -101,7 +101,7 @@ static char *end_of_piece(char *text) {
     return NULL;
 }
 
-/* "(...)" is what stands between; anything else is itself. */
+/* Removes the parentheses of "(...)"; other texts are unchanged. */
 static char *without_parentheses(char *value) {
     const size_t length = strlen(value);
     if (length < 2 || value[0] != '(' || value[length - 1] != ')')

@@ -59,6 +59,6 @@ size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plan
         before = height;
         previous = corners[i];
     }
-    /* What rises above the plane by no more than heights are rounded lies in it. */
+    /* Points above the plane by no more than the rounding error of heights are in it. */
     return kept >= 3 && highest > 2e-15 * largest ? kept : 0;
 }

@@ -1,4 +1,5 @@
-/* Counter-based random numbers: every number is a hash of what it is for, so nothing is consumed in an order.
+/* Counter-based random numbers: every number is a hash of its purpose and index, so there is no state and no
+ * order.
  *
  * The mixer is the 64-bit finalizer of SplitMix (Steele, Lea, Flood 2014, with Stafford's "Mix13" constants).
  */
@@ -39,7 +40,7 @@ static inline float aur_unit_float(uint32_t bits) {
     return (float)(bits >> 8) * 0x1p-24f;
 }
 
-/* The next number in [0, 1) of a sequence of hashes, which it steps on. */
+/* The next number in [0, 1) of a sequence of hashes; advances the sequence. */
 static inline float aur_draw_unit(uint64_t *hash) {
     *hash = aur_mix64(*hash + 1);
     return aur_unit_float((uint32_t)(*hash >> 32));

@@ -21,14 +21,14 @@ static aur_isa processor_isa(void) {
     return AUR_ISA_PORTABLE;
 }
 
-/* A limit of an unknown name is none. */
+/* An unknown name is no limit. */
 static aur_isa limited(aur_isa processor, const char *limit) {
     const size_t found = limit == NULL ? SET_COUNT : aur_names_find(aur_names_of(SET_COUNT, names), limit);
     return found < SET_COUNT && sets[found] < processor ? sets[found] : processor;
 }
 
-/* The answer, or -1 while nobody has asked: the environment is read once, since kernels are chosen often. Two
- * threads that ask first at once find out the same. */
+/* The cached result, or -1 before the first call: the environment is read once, since kernels are chosen
+ * often. Threads that call it first at the same time compute the same value. */
 static atomic_int known = -1;
 
 void aur_isa_ask_again(void) {

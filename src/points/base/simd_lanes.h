@@ -1,7 +1,6 @@
 /* Vectors of doubles and of 64-bit words as wide as the instruction set that the including file is compiled
- * for: the compiler's own vector types, whose operators work lane by lane on every processor, and what they
- * lack. Sums, products and roots are rounded as those of single numbers are, so that all widths give the same
- * bits. */
+ * for: the compiler's vector types, whose operators work lane by lane on every processor, and additional
+ * operations. Sums, products and roots are rounded like scalar ones, so that all widths are bit-identical. */
 #pragma once
 
 #include <math.h>
@@ -23,7 +22,7 @@ enum { AUR_LANES = 2 };
 
 typedef double aur_reals __attribute__((vector_size(8 * AUR_LANES)));
 typedef uint64_t aur_words __attribute__((vector_size(8 * AUR_LANES)));
-typedef uint32_t aur_halves __attribute__((vector_size(8 * AUR_LANES))); /* two a word */
+typedef uint32_t aur_halves __attribute__((vector_size(8 * AUR_LANES))); /* two per word */
 
 /* 0, 1, 2, ... */
 static inline aur_words aur_lanes_count(void) {
@@ -48,7 +47,7 @@ static inline aur_reals aur_lanes_sqrt(aur_reals x) {
 #elif defined(__AVX2__)
     return (aur_reals)_mm256_sqrt_pd((__m256d)x);
 #else
-    double roots[AUR_LANES]; /* gcc makes one instruction of a loop over an array only */
+    double roots[AUR_LANES]; /* gcc vectorises only a loop over an array */
     memcpy(roots, &x, sizeof roots);
     for (unsigned l = 0; l < AUR_LANES; ++l)
         roots[l] = sqrt(roots[l]);
@@ -69,12 +68,12 @@ static inline aur_reals aur_lanes_floor(aur_reals x) {
 #endif
 }
 
-/* Words of whole numbers from 0 to 2^52: the mantissa of 2^52 + x is x. */
+/* Integers from 0 to 2^52 as words: the mantissa of 2^52 + x is x. */
 static inline aur_words aur_lanes_from_whole(aur_reals x) {
     return (aur_words)(x + 0x1p52) ^ UINT64_C(0x4330000000000000);
 }
 
-/* Signed 64-bit integers to doubles, rounded once. Without an instruction for it the halves become the
+/* Signed 64-bit integers to doubles, rounded once. Without such an instruction the halves become the
  * mantissas of 2^84 and 2^52. */
 static inline aur_reals aur_lanes_from_signed(aur_words x) {
 #if defined(__AVX512DQ__)
@@ -91,7 +90,7 @@ static inline aur_reals aur_lanes_from_signed(aur_words x) {
     return y;
 #endif
 }
-/* Writes the lanes; `stream` goes past the caches, where the processor can and `to` is a multiple of the
+/* Writes the lanes; `stream` bypasses the caches, if the processor supports it and `to` is aligned to the
  * vector. */
 static inline void aur_lanes_put(double *to, aur_reals values, bool stream) {
 #if defined(__AVX512F__)
@@ -155,7 +154,7 @@ static inline void aur_lanes_store3(double *to, aur_reals x, aur_reals y, aur_re
     }
 #endif
 }
-/* Reads what aur_lanes_store3 wrote. */
+/* The inverse of aur_lanes_store3. */
 static inline void aur_lanes_load3(const double *from, aur_reals *x, aur_reals *y, aur_reals *z) {
 #if defined(__AVX2__)
     aur_reals a, b, c;
@@ -212,15 +211,15 @@ static inline void aur_lanes_store2(double *to, aur_reals x, aur_reals y, bool s
 }
 
 #if defined(__AVX2__)
-/* Writes the lanes whose mask is set one after another, and whatever up to AUR_LANES numbers on; returns how
- * many it kept. */
+/* Writes the lanes whose mask is set contiguously, and arbitrary values up to AUR_LANES numbers; returns the
+ * number of lanes set. */
 static inline size_t aur_lanes_keep(double *to, aur_words mask, aur_reals values) {
 #if defined(__AVX512F__)
     const __mmask8 kept = _mm512_movepi64_mask((__m512i)mask);
     _mm512_storeu_pd(to, _mm512_maskz_compress_pd(kept, (__m512d)values));
     return (size_t)__builtin_popcount(kept);
 #else
-    /* For each mask the halves of the lanes that it keeps. */
+    /* For each mask the halves of its set lanes. */
     static const uint8_t halves[16][8] = {{0},
                                           {0, 1},
                                           {2, 3},
@@ -253,11 +252,11 @@ static inline aur_words aur_lanes_multiply_low(aur_words a, aur_words b) {
 #endif
 }
 
-/* Whole numbers below b, 0 < b <= 2^48, divided by b, whose rounded inverse is `inverse`: rounded as a
- * division is. The first quotient q is off by 2^-52 of itself at most, so the remainder a - q b is a whole
- * number of units of q's last place, fewer than 2^53 of them, and exact; what it adds is off by 2^-52 of a
- * last place, whereas a quotient of such numbers is at least 2^-49 of one away from where rounding turns
- * (after Markstein 1990). */
+/* Integers below b, 0 < b <= 2^48, divided by b, whose rounded inverse is `inverse`: rounded as a division
+ * is. The relative error of the first quotient q is at most 2^-52, so the remainder a - q b is an integer
+ * multiple, below 2^53, of q's last place, and exact. The error of its correction is 2^-52 of a last place,
+ * whereas a quotient of such numbers is at least 2^-49 of one away from a rounding boundary (after Markstein
+ * 1990). */
 static inline aur_reals aur_lanes_quotient(aur_reals a, aur_reals b, aur_reals inverse) {
 #if defined(__AVX512F__)
     const __m512d q = (__m512d)(a * inverse);
@@ -282,7 +281,7 @@ static inline aur_words aur_lanes_of_pair(const uint64_t pair[2]) {
 #endif
 }
 
-/* The upper 53 bits as numbers in [0,1). Without an instruction for it 21 and 32 of them become the mantissas
+/* The upper 53 bits as numbers in [0,1). Without such an instruction 21 and 32 of them become the mantissas
  * of 2^31 and 1/2, whose difference and sum are exact. */
 static inline aur_reals aur_lanes_unit(aur_words x) {
 #if defined(__AVX512DQ__)
@@ -356,8 +355,7 @@ static inline aur_halves aur_lanes_reverse_bits(aur_halves x) {
 #endif
 }
 
-/* Ends a run of streamed stores, of a file for any instruction set: other threads see them in order from here
- * on. */
+/* Ends a run of streaming stores (any instruction set): other threads then see them in order. */
 static inline void aur_lanes_end_stream(void) {
 #if defined(__x86_64__)
     _mm_sfence();

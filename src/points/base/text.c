@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The thread's locale is the language's own from enter_c_locale to leave_c_locale. The locale "C" is a
- * constant of the C library: making it allocates nothing and cannot fail. Where the decimal point is one
- * already nothing changes, which takes a third of the time of writing a number less; 0 says so. */
+/* The thread's locale is "C" from enter_c_locale to leave_c_locale. This locale is a constant of the C
+ * library: creating it allocates nothing and cannot fail. If the decimal separator is a point already, the
+ * locale is not changed and 0 is returned, which saves a third of the time of writing a number. */
 static locale_t enter_c_locale(void) {
     if (strcmp(nl_langinfo(RADIXCHAR), ".") == 0)
         return (locale_t)0;
@@ -29,9 +29,9 @@ static double slow_double(const char *text) {
     return value;
 }
 
-/* digits * 10^exponent, rounded once, or NaN where that cannot be said. Both factors are exact as sums of
- * doubles, the product or quotient is a double and a correction, and a correction whose last bits might tip
- * the rounding is left to the slow way. */
+/* digits * 10^exponent, rounded once, or NaN if the rounding is uncertain. Both factors are exact as sums of
+ * doubles, and the product or quotient is a double with a correction. If the last bits of the correction
+ * might change the rounding, the slow path decides. */
 static double quick_double(uint64_t digits, int exponent) {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -82,7 +82,7 @@ static inline const char *take_digits(const char *text, uint64_t *digits) {
     return text;
 }
 
-/* Digits of a text with one point at most, but for zeros before them. */
+/* The digits of a text with at most one point, without leading zeros. */
 static ptrdiff_t count_significant(const char *text, const char *end) {
     ptrdiff_t count = 0;
     for (; text < end; ++text)
@@ -132,7 +132,7 @@ const char *aur_read_double(const char *text, aur_number_class allowed, double *
 }
 
 const char *aur_read_integer(const char *text, uint64_t maximum, uint64_t *value) {
-    enum { SAFE_DIGITS = 19 }; /* so many fit 64 bits, whatever they are */
+    enum { SAFE_DIGITS = 19 }; /* any number of so many digits fits 64 bits */
     uint64_t parsed = 0;
     const char *c = text;
     for (; aur_is_digit(*c) && c - text < SAFE_DIGITS; ++c)

@@ -67,7 +67,7 @@ static inline uint32_t aur_vector_facing(aur_vector a) {
     return a.z < 0.0f ? 5 : 4;
 }
 
-/* The zero vector stays as it is. */
+/* The zero vector is unchanged. */
 static inline aur_vector aur_vector_normalize(aur_vector a) {
     const float length = aur_vector_length(a);
     return length > 0.0f ? aur_vector_scale(a, 1.0f / length) : a;

@@ -23,7 +23,7 @@ static inline double aur_length3(const double a[3]) {
     return sqrt(aur_dot3(a, a));
 }
 
-/* Divides `a` by its length and returns the length; a zero vector stays as it is. */
+/* Divides `a` by its length and returns the length; a zero vector is unchanged. */
 static inline double aur_normalize3(double a[3]) {
     const double length = aur_length3(a);
     for (int d = 0; d < 3 && length > 0.0; ++d)
@@ -49,7 +49,7 @@ static inline void aur_frame3(const double z[3], double x[3], double y[3]) {
     y[2] = -z[1];
 }
 
-/* On which side of a line a point of the plane lies, exactly. */
+/* Exact orientation of a point of the plane and a line. */
 
 /* Twice the signed area of the triangle a, b, c: positive when it turns to the left. The sign is exact
  * (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates"), and
@@ -73,7 +73,7 @@ static inline double aur_plane_height(const aur_plane *plane, const double point
  * area. */
 AUR_INTERNAL double aur_polygon_plane(size_t count, const double (*corners)[3], aur_plane *plane);
 
-/* Twice the area by the length of the outline: half to all of the width of what is long and narrow. */
+/* Twice the area divided by the perimeter: half to all of the width of a long and narrow polygon. */
 AUR_INTERNAL double aur_polygon_width(size_t count, const double (*corners)[3]);
 
 /* The part in front of the plane: cut[count + 1], which must not overlap `corners`. Returns its number of

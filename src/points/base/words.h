@@ -1,4 +1,4 @@
-/* Numbers in files: words of 8 bytes, the lowest byte first, with a hash of all of them. */
+/* Numbers in files: little-endian words of 8 bytes, followed by a hash. */
 #pragma once
 
 #include <stdbool.h>
@@ -13,7 +13,7 @@ typedef struct aur_word_writer {
     uint64_t hash;
 } aur_word_writer;
 
-/* A failed write leaves its mark on the stream, which aur_file_commit looks at. */
+/* A failed write sets the error flag of the stream, which aur_file_commit checks. */
 static inline void aur_word_put(aur_word_writer *writer, uint64_t word) {
     unsigned char bytes[8];
     for (size_t i = 0; i < sizeof bytes; ++i)
@@ -28,7 +28,7 @@ static inline uint64_t aur_hash_bytes(size_t size, const void *bytes) {
     uint64_t hash = aur_mix64(size);
     for (size_t i = 0; i < size; i += 8) {
         uint64_t word = 0;
-        if (size - i >= 8) /* compilers know this loop for a load */
+        if (size - i >= 8) /* compilers turn this loop into a load */
             for (size_t k = 0; k < 8; ++k)
                 word |= (uint64_t)at[i + k] << 8 * k;
         else
@@ -54,7 +54,7 @@ static inline double aur_double_of_word(uint64_t word) {
 typedef struct aur_word_reader {
     const unsigned char *at, *end;
     uint64_t hash;
-    /* The data have ended before a word that was asked for. */
+    /* The data ended before a requested word. */
     bool failed;
 } aur_word_reader;
 
@@ -76,13 +76,13 @@ static inline double aur_word_get_double(aur_word_reader *reader) {
     return aur_double_of_word(aur_word_get(reader));
 }
 
-/* Whether the last word is the hash of all before it, and nothing was missing. */
+/* Whether the last word is the hash of all before it, and no word was missing. */
 static inline bool aur_word_check(aur_word_reader *reader) {
     const uint64_t hash = reader->hash;
     return aur_word_get(reader) == hash && !reader->failed;
 }
 
-/* Whole words that are left. */
+/* Remaining whole words. */
 static inline size_t aur_words_left(const aur_word_reader *reader) {
     return (size_t)(reader->end - reader->at) / 8;
 }

@@ -1,5 +1,5 @@
-/* The measures in the order of listings: one line for each aur_measure_<name>, which the file that computes
- * it defines. */
+/* The measures in the order of listings: one line for each aur_measure_<name>, defined in the file that
+ * computes it. */
 #pragma once
 
 #include "points/quality/measure.h"

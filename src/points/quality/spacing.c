@@ -1,4 +1,4 @@
-/* How near the nearest two points are. */
+/* The smallest distance between two points. */
 #include "points/quality/measure.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ aur_result aur_smallest_distance(const aur_measure_request *request, double *dis
     return AUR_OK;
 }
 
-/* Radians. Quaternions are half as far apart as the rotations. */
+/* Radians. The angle between quaternions is half that of the rotations. */
 static aur_result smallest_angle(const aur_measure_request *request, double *angle, aur_error *error) {
     double chord = 0.0;
     const aur_result result = aur_smallest_distance(request, &chord, error);

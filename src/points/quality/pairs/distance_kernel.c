@@ -1,5 +1,5 @@
-/* The compensated kernel: eight running sums, each with its own error
- * term, so that the bits do not depend on how wide the registers are. */
+/* The compensated kernel: eight running sums, each with an error term, so that results are bit-identical for
+ * all register widths. */
 #include "points/base/simd_lanes.h"
 #include "points/quality/pairs/pair_sum.h"
 
@@ -42,8 +42,8 @@ static aur_twofold distance_tile(const aur_axes *axes, aur_pair_tile tile, doubl
 
 #if AUR_KERNEL_WIDE
 
-/* Sums of estimated distances: an estimate of a reciprocal root takes half the time of a root, or runs beside
- * it. */
+/* Sums of estimated distances: estimating a reciprocal root takes half the time of a root, or runs in
+ * parallel to it. */
 
 enum { ROWS = 4 };
 
@@ -63,8 +63,8 @@ static inline aur_reals fused(aur_reals a, aur_reals b, aur_reals c) {
 /* With an estimate y of 1/sqrt(d2) and e = 1 - d2 y^2, sqrt(d2) is d2 y times
  *     1 + e/2 + 3/8 e^2 + 5/16 e^3 + 35/128 e^4 + O(e^5).
  * AVX-512 estimates within |e| <= 2^-13, where the last term is below 1e-16. Estimates of AVX2 have single
- * precision, |e| <= 7.4e-4, and distances below 1e-19 come out shorter; every second row takes the unit for
- * roots, which computes meanwhile. */
+ * precision, |e| <= 7.4e-4, and distances below 1e-19 are underestimated; every second row uses the unit for
+ * roots, which works in parallel. */
 static inline estimate root_of(size_t row, aur_reals square) {
     const aur_reals none = {0};
 #if defined(__AVX512F__)
@@ -92,7 +92,7 @@ typedef struct row_sums {
 /* Four rows against the columns j, j+1, ... that are `within`. */
 static inline __attribute__((always_inline)) void add_columns(const aur_axes *axes, size_t row, size_t j,
                                                               aur_words within, row_sums *rows) {
-    const aur_reals none = {0}, tiny = none + 0x1p-1000; /* coincident points must not make infinities */
+    const aur_reals none = {0}, tiny = none + 0x1p-1000; /* coincident points must not give infinities */
     const aur_reals xs = load(axes->x + j), ys = load(axes->y + j), zs = load(axes->z + j);
     for (size_t r = 0; r < ROWS; ++r) {
         const aur_reals x = axes->x[row + r] - xs, y = axes->y[row + r] - ys, z = axes->z[row + r] - zs;

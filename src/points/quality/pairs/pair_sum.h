@@ -1,5 +1,5 @@
-/* Sums over all pairs of points on the sphere: each unordered pair once, in tiles, in an order that the data
- * alone fixes. */
+/* Sums over all pairs of points on the sphere: each unordered pair once, in tiles, in an order that depends
+ * only on the data. */
 #pragma once
 
 #include "points/base/simd.h"
@@ -8,7 +8,8 @@
 
 enum { AUR_TILE_POINTS = 1024 }; /* a tile's coordinates stay in the first-level cache */
 
-/* Coordinates one array an axis, each padded to a multiple of 8 and 64-byte aligned. One allocation, at x. */
+/* Coordinates in one array per axis, each padded to a multiple of 8 and 64-byte aligned. One allocation, at
+ * x. */
 typedef struct aur_axes {
     size_t count;
     double *x, *y, *z;
@@ -35,7 +36,7 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
 aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
                             aur_error *error);
 
-/* The sum over a tile: `exact` compensated, the same bits on every processor; `fast` to 2e-14, for equal
+/* The sum over a tile: `exact` compensated, bit-identical on every processor; `fast` to 2e-14, for equal
  * weights only. */
 typedef struct aur_distance_kernels {
     aur_pair_tile_function exact, fast;

@@ -1,7 +1,7 @@
-/* The largest hole between rotations, exactly: each quaternion's Voronoi cell on the three-sphere, seen from
- * it through the gnomonic projection, is a convex polyhedron, cut by one plane for each neighbour, as the
- * cells on the sphere are polygons (sphere/voronoi.c). A polyhedron is kept as its corners, each the meeting
- * of three planes in turning order (the dual triangles of Ray, Sokolov, Lefebvre and Levy 2018). */
+/* The covering radius of rotations, exactly. In the gnomonic projection about a quaternion its Voronoi cell
+ * on the three-sphere is a convex polyhedron, cut by one plane for each neighbour, as cells on the sphere are
+ * polygons (sphere/voronoi.c). A polyhedron is stored as its corners, each the intersection of three planes
+ * in cyclic order (the dual triangles of Ray, Sokolov, Lefebvre and Levy 2018). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,15 +13,15 @@
 #include "points/sphere/map.h"
 #include "points/sphere/nearest/inverse.h"
 
-/* The first polyhedron's half side, as a tangent: almost 90 degrees. */
+/* Half the side of the initial polyhedron, as a tangent: almost 90 degrees. */
 static const double horizon = 1e6;
 
-/* A corner that lies beyond a plane by less than this share of its distance is on it: where more than three
- * planes meet in a place all of its corners then are cut or kept alike. */
+/* A corner beyond a plane by less than this fraction of its distance is on it: where more than three planes
+ * meet in a point, all its corners are then treated equally. */
 static const double on_plane = 1e-11;
 
 typedef struct plane {
-    double normal[3], offset; /* keeps normal . p <= offset */
+    double normal[3], offset; /* the cell has normal . p <= offset */
 } plane;
 
 typedef struct corner {
@@ -35,7 +35,7 @@ typedef struct polyhedron {
     size_t corner_count, corner_capacity;
     corner *corners;
     size_t cut_capacity;
-    size_t *cut; /* of the corners that a plane takes away, three planes each */
+    size_t *cut; /* corners removed by a plane, three planes each */
 } polyhedron;
 
 static void release(polyhedron *p) {
@@ -44,7 +44,7 @@ static void release(polyhedron *p) {
     free(p->cut);
 }
 
-/* Where three planes meet (Cramer). */
+/* The intersection of three planes (Cramer). */
 static void meet(const polyhedron *p, corner *c) {
     const plane *const a = &p->planes[c->planes[0]], *const b = &p->planes[c->planes[1]];
     const plane *const d = &p->planes[c->planes[2]];
@@ -137,7 +137,7 @@ static double greatest_tangent(const polyhedron *p) {
 typedef struct cells {
     const aur_points_view *points;
     const aur_tree *tree;
-    double *radii; /* on the three-sphere, one an item */
+    double *radii; /* on the three-sphere, one per item */
 } cells;
 
 enum { CELLS_PER_ITEM = 16, FIRST_NEIGHBOURS = 48 };
@@ -152,7 +152,7 @@ static bool cut_by(polyhedron *p, const double *q, const double *y, double squar
     return cut(p, by);
 }
 
-/* The radius of a cell, from as many neighbours as can cut it: those within twice the radius. */
+/* The radius of a cell, from the neighbours that can cut it: those within twice the radius. */
 static aur_result cell_radius(const cells *work, size_t index, polyhedron *p, double *radius) {
     const size_t count = work->points->count;
     const double *const q = aur_point_at(work->points, index);
@@ -161,7 +161,7 @@ static aur_result cell_radius(const cells *work, size_t index, polyhedron *p, do
         bool made = found != NULL && start(p);
         const size_t near = made ? aur_tree_find(work->tree, q, wanted, found) : 0;
         for (size_t n = 0; n < near && made; ++n) {
-            /* The opposite cuts nothing off; a rotation in the same place shares the cell. */
+            /* The opposite cuts nothing off; a coincident rotation shares the cell. */
             if (found[n].square > 1e-28 && found[n].square < 4.0 - 1e-12)
                 made = cut_by(p, q, aur_point_at(work->points, found[n].index), found[n].square);
         }
@@ -210,7 +210,7 @@ aur_result aur_rotation_covering(const aur_measure_request *request, double *ang
     double greatest = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         greatest = fmax(greatest, work.radii[i]);
-    /* Quaternions that all lie in a plane leave its normal 90 degrees away, which is half a turn. */
+    /* If all quaternions lie in a hyperplane, its normal is 90 degrees away, a rotation by half a turn. */
     *angle = tan(greatest) > 0.5 * horizon ? AUR_PI : 2.0 * greatest;
     return result;
 }

@@ -1,4 +1,4 @@
-/* Sums over pairs of rotations, and the energy that measures how well their means stand for integrals. */
+/* Sums over pairs of rotations, and the energy that measures the error of their means as integrals. */
 #include <math.h>
 
 #include "points/base/error.h"
@@ -12,7 +12,7 @@ typedef struct pair_rows {
     size_t count; /* of rotations */
     double (*pair)(double, double);
     double parameter;
-    double *sums; /* one an item */
+    double *sums; /* one per item */
 } pair_rows;
 
 static double near_square(const double *a, const double *b) {
@@ -77,8 +77,8 @@ static double both_distances(double square, double parameter) {
     return sqrt(square) + sqrt(4.0 - square);
 }
 
-/* The mean over ordered pairs of ends: each pair of rotations has four, and a rotation has its own opposite
- * at the distance 2. */
+/* The mean over ordered pairs of quaternions: each pair of rotations has four, and a rotation and its
+ * opposite have the distance 2. */
 aur_result aur_rotation_energy(const aur_measure_request *request, double *square, aur_error *error) {
     double sum = 0.0;
     const aur_result result = aur_rotation_pair_sum(request, both_distances, 0.0, &sum, error);

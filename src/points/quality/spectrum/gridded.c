@@ -13,18 +13,18 @@ bool aur_gridded_allowed(const aur_measure_request *request) {
     double absolute = 0.0;
     for (size_t i = 0; i < points->count; ++i)
         absolute += fabs(aur_weight_at(points, i));
-    /* A sum s of a random set's size 1 errs by this, its square by no more than 2 s e + e^2. */
+    /* The error e of a sum s in units of a random set; the error of its square is at most 2 s e + e^2. */
     const double error = AUR_WINDOW_ERROR * absolute / sqrt(aur_sum_of_squares(points));
     return points->count >= FEWEST && error * (2.0 + error) <= request->options.accuracy;
 }
 
-/* A grid of side * side cells, of which one band of rows is there at a time. */
+/* A grid of side * side cells; only one band of rows is stored at a time. */
 typedef struct gridded {
     const aur_points_view *points;
     aur_window window;
     size_t limit;    /* F */
     size_t *order;   /* points by the first rows of their windows */
-    size_t *first;   /* side + 1: where each row's points begin */
+    size_t *first;   /* side + 1: the first point of each row */
     double *turns;   /* of Fourier transforms */
     double *factor;  /* limit + 1: of frequencies */
     double *re, *im; /* (limit + 1) * side: the rows' transforms, frequency after frequency */
@@ -45,7 +45,7 @@ static size_t row_of(const gridded *g, size_t index) {
     return around(g, ceil(cell_of(g, index, 1) - 0.5 * WIDTH));
 }
 
-/* Counts two places on, so that filling leaves the starts behind it. */
+/* Counts are shifted by two entries, so that filling leaves the start of each row in place. */
 static void sort(gridded *g) {
     for (size_t i = 0; i < g->points->count; ++i)
         ++g->first[row_of(g, i) + 2];
@@ -55,7 +55,7 @@ static void sort(gridded *g) {
         g->order[g->first[row_of(g, i) + 1]++] = i;
 }
 
-/* A point to the rows of a band that begins at `from`. */
+/* Adds a point to the rows of the band that begins at `from`. */
 static void spread(const gridded *g, size_t index, size_t from, double *band) {
     const size_t side = g->window.side;
     double rows[WIDTH], columns[WIDTH];
@@ -72,7 +72,7 @@ static void spread(const gridded *g, size_t index, size_t from, double *band) {
     }
 }
 
-/* Two rows, as real and imaginary parts, to the frequencies from 0 to F of both. */
+/* Transforms two rows, as real and imaginary parts, and separates their frequencies 0 to F. */
 static void transform_rows(const gridded *g, size_t row, double *re, double *im, double *work) {
     const size_t side = g->window.side;
     aur_fourier(side, g->turns, re, im, work);

@@ -3,8 +3,8 @@
 
 #include "points/quality/measure.h"
 
-/* Whether options.accuracy allows a grid: powers are then good to it, relative to the larger of 1 and the
- * power in units of a random set. */
+/* Whether options.accuracy allows a grid: the error of powers is then at most that, relative to the larger of
+ * 1 and the power in units of a random set. */
 bool aur_gridded_allowed(const aur_measure_request *request);
 
 /* |sum_i w_i e^{2 pi i (kx x_i + ky y_i)}|^2 at power[kx * (2F + 1) + F + ky], 0 <= kx <= F, -F <= ky <= F.

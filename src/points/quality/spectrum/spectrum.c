@@ -1,5 +1,5 @@
-/* Power spectra: how a set of points looks to waves of each frequency. A random set has the power 1
- * everywhere on average. The angular spectrum is in spectrum_sphere.c. */
+/* Power spectra of point sets. A random set has the mean power 1 at all frequencies. The angular spectrum is
+ * in spectrum_sphere.c. */
 
 #include <math.h>
 #include <stdlib.h>

@@ -128,7 +128,7 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
                      : sum_directly(request, limit, powers, error);
     if (result == AUR_OK)
         result = aur_series_create(series, limit, 2, columns, error);
-    /* Two opposite ends are one axis: they add up where l is even, and cancel where it is odd. */
+    /* The two ends of an axis add up for even l and cancel for odd l. */
     const double ends = request->points->domain == AUR_DOMAIN_AXES ? 2.0 : 1.0;
     const double scale = (by_grid ? 1.0 : 4.0 * AUR_PI) / (ends * aur_sum_of_squares(request->points));
     for (size_t l = 1; l <= limit && result == AUR_OK; ++l) {

@@ -7,7 +7,7 @@
  * centre, h cos t is the height of the boundary (h = u.x_i), and a point x is inside while (u.x - h) cos t +
  * (v.x) sin t >= 0, which is half a turn. Of three points two have indices of the same parity, so that such
  * pairs are enough. The entrances and exits are counted in bins of t, which bounds from above what any event
- * in a bin can give; only caps that could beat the best one so far are looked at point by point. */
+ * in a bin can give; only caps that could exceed the best one so far are evaluated point by point. */
 #include "points/quality/sphere/voronoi.h"
 
 #include <math.h>
@@ -17,10 +17,10 @@
 #include "points/base/error.h"
 #include "points/base/vector3d.h"
 
-/* What counts as on the boundary. A cap that is greater by this much holds those points, and its area differs
- * by half of it: the value of every cap looked at is attained to this. */
+/* The tolerance of points on the boundary. A cap larger by this much contains those points, and its area
+ * differs by half of it: the value of every evaluated cap is attained to this accuracy. */
 static const double boundary_tolerance = 1e-13;
-/* Two entrances nearer than this, as diamond angles, are counted as if they came together. */
+/* Two entrances nearer than this, as diamond angles, are counted as simultaneous. */
 static const double angle_tolerance = 1e-9;
 /* Points with a smaller half-circle vector lie near the pair's line: no angle is reliable. */
 static const double nearby = 1e-3;
@@ -30,7 +30,7 @@ typedef struct pencils {
     size_t bin_count;      /* even */
     const double *cosines; /* the greatest cos t in each bin */
     _Atomic double *best;
-    double *seen; /* by each item: the best so far, for other processes */
+    double *seen; /* per item: the best so far, for other processes */
 } pencils;
 
 typedef struct scratch {
@@ -92,7 +92,7 @@ static void point_at(const aur_axes *axes, size_t i, double x[3]) {
     x[2] = axes->z[i];
 }
 
-/* False for two points in one place: the other pairs cover it. For opposite points any middle will do. */
+/* False for coincident points: the other pairs cover them. For opposite points any middle is valid. */
 static int make_frame(const aur_axes *axes, size_t i, size_t j, frame *f) {
     f->i = i;
     f->j = j;
@@ -138,8 +138,8 @@ static void refine(const aur_axes *axes, const frame *f, size_t k, scratch *s) {
     s->angle[k] = diamond(s->across[k], -s->along[k]);
 }
 
-/* Enters all points into the bins; returns the mass that is inside at t = 0 or too near to the pair's line to
- * tell, with those that enter or leave at the seam inside. */
+/* Enters all points into the bins. Returns the mass inside at t = 0 or too near to the pair's line to decide;
+ * points that enter or leave at the seam count as inside. */
 static double fill_bins(const pencils *work, const frame *f, scratch *s) {
     const aur_axes *const axes = work->axes;
     const size_t count = axes->count;
@@ -161,11 +161,11 @@ static double fill_bins(const pencils *work, const frame *f, scratch *s) {
             refine(axes, f, k, s);
             continue;
         }
-        /* Early in, late out: no cap of a bin holds more than its bins say. */
+        /* Enter early, leave late: the counts of the bins are upper bounds. */
         const double first = s->angle[k] - angle_tolerance;
         double last = s->angle[k] + 2.0 + angle_tolerance;
         last -= last >= 4.0 ? 4.0 : 0.0;
-        /* Inside at the seam: the stay contains the angle 0. */
+        /* Inside at the seam: the interval contains the angle 0. */
         inside += first < 0.0 || last <= first ? weight : 0.0;
         const size_t in = first < 0.0 ? work->bin_count - 1 : (size_t)(first * per_angle);
         const size_t out = (size_t)(last * per_angle);
@@ -175,7 +175,7 @@ static double fill_bins(const pencils *work, const frame *f, scratch *s) {
     return inside;
 }
 
-/* Looks at every entrance or exit in one bin. */
+/* Evaluates every entrance or exit in one bin. */
 static void search_bin(const pencils *work, const frame *f, const scratch *s, size_t bin) {
     const size_t bins = work->bin_count;
     for (size_t k = 0; k < work->axes->count; ++k) {

@@ -12,8 +12,8 @@ static int highest_first(const void *a, const void *b) {
     return (p->height < q->height) - (p->height > q->height);
 }
 
-/* Points whose heights differ by rounding only lie on one boundary: then the lowest of them is the boundary,
- * so that every value is that of a cap. */
+/* Points whose heights differ only by rounding are on one boundary, which is at the lowest of them, so that
+ * every value is that of a cap. */
 double aur_cap_best_about(const aur_axes *axes, const double centre[3], aur_height *room) {
     for (size_t i = 0; i < axes->count; ++i) {
         const double height = axes->x[i] * centre[0] + axes->y[i] * centre[1] + axes->z[i] * centre[2];
@@ -31,13 +31,13 @@ double aur_cap_best_about(const aur_axes *axes, const double centre[3], aur_heig
 typedef struct centres {
     const aur_axes *axes;
     size_t centre_count;
-    double *best; /* one an item */
+    double *best; /* one per item */
 } centres;
 
 enum { CENTRES_PER_ITEM = 16 };
 
-/* Spherical Fibonacci centres (Marques 2013 eq. 4); a cap about c and its complement about -c are both looked
- * at. */
+/* Spherical Fibonacci centres (Marques 2013 eq. 4); a cap about c and its complement about -c are both
+ * evaluated. */
 static aur_result try_centres(void *context, size_t index) {
     const centres *const work = context;
     aur_height *const room = malloc(work->axes->count * sizeof *room);

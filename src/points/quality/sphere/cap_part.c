@@ -1,5 +1,5 @@
-/* A fan of triangles about the pole, one for each side of the polygon, with signs: of each the part within
- * the rim is a triangle where the side is within it, else a sector of the cap. */
+/* The area is a sum of signed triangles about the pole, one for each side of the polygon. Parts of a side
+ * within the rim give triangles, parts outside give sectors of the cap. */
 #include "points/quality/sphere/voronoi.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ typedef struct part_work {
     const aur_rim *rim;
     const double *point;
     aur_cap_part part;
-    size_t exits; /* where the boundary leaves the cap */
+    size_t exits; /* crossings where the boundary leaves the cap */
     double turn;  /* of the azimuth, along all sides */
 } part_work;
 
@@ -42,8 +42,8 @@ static void reach(part_work *work, const double place[3]) {
     work->part.radius = fmax(work->part.radius, atan2(aur_length3(normal), aur_dot3(work->point, place)));
 }
 
-/* The bilinear form that is 0 for a = b on the double cone of the rim, and negative within it; no digits
- * cancel in small caps. */
+/* The bilinear form that is 0 for a = b on the double cone of the rim, and negative within it; without
+ * cancellation in small caps. */
 static double cone(const aur_rim *rim, const double a[3], const double b[3]) {
     return rim->cosine * rim->cosine * (a[0] * b[0] + a[1] * b[1]) - rim->sine * rim->sine * a[2] * b[2];
 }
@@ -53,7 +53,8 @@ static bool within(const aur_rim *rim, const double x[3]) {
     return rim->cosine > 0.0 ? x[2] > 0.0 && in_cone : x[2] > 0.0 || !in_cone;
 }
 
-/* Where 0 < t < 1 the chord from a to b crosses the cone of the rim, ascending; how many there are. */
+/* The parameters 0 < t < 1 where the chord from a to b crosses the cone of the rim, ascending; returns their
+ * number. */
 static size_t crossings(const aur_rim *rim, const double a[3], const double b[3], double t[2]) {
     double step[3];
     for (size_t d = 0; d < 3; ++d)
@@ -66,7 +67,7 @@ static size_t crossings(const aur_rim *rim, const double a[3], const double b[3]
     const double roots[2] = {k2 != 0.0 ? sum / k2 : -1.0, k0 / sum};
     size_t count = 0;
     for (size_t i = 0; i < 2; ++i)
-        /* The other half of the double cone is no rim. */
+        /* The other half of the double cone is not the rim. */
         if (roots[i] > 0.0 && roots[i] < 1.0 && (a[2] + roots[i] * step[2]) * rim->cosine >= 0.0)
             t[count++] = roots[i];
     if (count == 2 && t[0] > t[1]) {
@@ -103,7 +104,7 @@ static void add_side(part_work *work, const double a[3], const double b[3]) {
     work->turn += azimuth_between(a, b);
 }
 
-/* Whether a polygon that is convex holds the direction. */
+/* Whether a convex polygon contains the direction. */
 static bool holds(size_t count, const double (*corners)[3], const double direction[3]) {
     for (size_t i = 0; i < count; ++i) {
         double normal[3];
@@ -114,7 +115,7 @@ static bool holds(size_t count, const double (*corners)[3], const double directi
     return true;
 }
 
-/* The places of the rim that count: the farthest one from the point, and arcs without ends. */
+/* The relevant points of the rim: the farthest from the point, and arcs without ends. */
 static void add_rim(part_work *work, size_t count, const double (*corners)[3]) {
     const double *const x = work->point;
     const double off_axis = hypot(x[0], x[1]), sine = work->rim->sine;
@@ -131,7 +132,7 @@ aur_cap_part aur_cap_part_of(const aur_rim *rim, const double point[3], size_t c
     part_work work = {.rim = rim, .point = point};
     for (size_t i = 0; i < count; ++i)
         add_side(&work, corners[i], corners[i + 1 < count ? i + 1 : 0]);
-    /* About the opposite pole the azimuth turns backwards, and the fan has the rest of the cap, negative. */
+    /* About the opposite pole the azimuth turns backwards, and the sum is minus the rest of the cap. */
     work.part.area -= rim->height * fmin(work.turn, 0.0);
     add_rim(&work, count, corners);
     return work.part;

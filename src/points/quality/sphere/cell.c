@@ -31,10 +31,9 @@ void aur_cell_release(aur_cell *cell) {
     *cell = (aur_cell){0};
 }
 
-/* The end of a side, where `next` begins. Normals are differences of unit vectors, whose coordinates are
- * rounded, but for their third coordinate, which is known to as many digits as the difference is long: a
- * great circle is off by a rounding of its distance from (0, 0, 1), and a corner by that of both of its
- * sides. */
+/* The end of a side, where `next` begins. Normals are differences of unit vectors with rounded coordinates,
+ * except for the third coordinate, whose relative error is small: a great circle is off by a rounding of its
+ * distance from (0, 0, 1), and a corner by that of both of its sides. */
 static void join(aur_cell_side *side, const aur_cell_side *next) {
     double cross[3];
     aur_cross3(side->normal, next->normal, cross);
@@ -46,14 +45,13 @@ static void join(aur_cell_side *side, const aur_cell_side *next) {
         ((side->reach + side->length) * next->length + (side->reach + next->length) * side->length) / length;
 }
 
-/* How far from 0 the product of a corner and a normal may be where the great circle goes through the corner.
- */
+/* The rounding error of the product of a corner and a normal, for a great circle through the corner. */
 static double slack_of(const aur_cell_side *corner, double length) {
     return 4.0 * DBL_EPSILON * (corner->reach + length + length * corner->slack);
 }
 
-/* The product of each corner and the cut's normal, 0 where rounding decides on its sign; the lowest of them.
- */
+/* Computes the product of each corner and the cut's normal, 0 if rounding decides the sign; returns the
+ * lowest. */
 static double find_heights(aur_cell *cell, const aur_cell_side *cut) {
     double lowest = INFINITY;
     for (size_t k = 0; k < cell->count; ++k) {
@@ -71,7 +69,7 @@ static double find_heights(aur_cell *cell, const aur_cell_side *cut) {
     return lowest;
 }
 
-/* Two neighbours in one place cut alike: there is no lune between them. */
+/* Coincident neighbours cut identically: there is no lune between them. */
 static bool is_same_circle(const aur_cell_side *side, const aur_cell_side *cut) {
     double cross[3];
     aur_cross3(side->normal, cut->normal, cross);
@@ -92,9 +90,8 @@ static void cut_lune(aur_cell *cell, const aur_cell_side *cut) {
     join(&cell->sides[1], &cell->sides[0]);
 }
 
-/* The corners that a cut takes away, first to last, around the end of the array; false where it takes all, by
- * rounding. Those on the great circle go with their neighbours, so that no side without length is
- * left. */
+/* The corners that a cut removes, first to last, cyclically; false if it removes all, by rounding. Corners on
+ * the great circle are removed with their neighbours, so that no side of length 0 remains. */
 static bool find_removed(const aur_cell *cell, size_t *first, size_t *last) {
     const size_t count = cell->count;
     size_t lowest = 0;
@@ -139,7 +136,8 @@ void aur_cell_cut(aur_cell *cell, const double normal[3]) {
     size_t first, last;
     if (!(lowest < 0.0) || !find_removed(cell, &first, &last))
         return;
-    /* Side `first` ends at the cut, which ends at the side after `last`; the sides between them go. */
+    /* Side `first` ends at the cut, which ends at the side after `last`; the sides between them are removed.
+     */
     const size_t after = (last + 1) % count;
     join(&sides[first], &cut);
     join(&cut, &sides[after]);
@@ -191,15 +189,14 @@ double aur_cell_area(const aur_cell *cell) {
             sum += triangle(begin, side->corner);
             continue;
         }
-        double middle[3]; /* of half a great circle the ends alone tell no side */
+        double middle[3]; /* the ends of half a great circle do not determine it */
         along(side, begin, 0.5 * angle_of(side, begin), middle);
         sum += triangle(begin, middle) + triangle(middle, side->corner);
     }
     return sum;
 }
 
-/* Where a side's great circle is farthest from (0, 0, 1): as an angle, and whether the side has that place.
- */
+/* The point of a side's great circle farthest from (0, 0, 1): as an angle, and whether it is on the side. */
 static double farthest_of(const aur_cell_side *side, const double begin[3], size_t count) {
     const double distance = asin(fmin(side->normal[2] / side->length, 1.0));
     double start[3], place[3];

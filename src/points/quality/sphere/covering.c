@@ -1,4 +1,4 @@
-/* Figures of the Voronoi cells: how far from the points one can be, and how equal the cells are. */
+/* Measures of the Voronoi cells: the covering radius, and the variation of areas. */
 #include <math.h>
 
 #include "points/base/vector.h"
@@ -35,7 +35,7 @@ static aur_result mesh_ratio(const aur_measure_request *request, double *value, 
     return AUR_OK;
 }
 
-/* The mean area of a cell is 1 in all figures of areas. */
+/* Areas are in units of the mean area. */
 static double mean_area(const aur_measure_request *request) {
     const double cap = request->options.cap_degrees;
     const double height = cap > 0.0                                          ? aur_rim_at(cap).height
@@ -64,7 +64,7 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
     return AUR_OK;
 }
 
-/* The points as they were given: of an axis the first end. */
+/* The given points: of an axis the first end. */
 static size_t given_count(const aur_points_view *points) {
     return points->domain == AUR_DOMAIN_AXES ? points->count / 2 : points->count;
 }

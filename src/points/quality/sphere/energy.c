@@ -1,4 +1,4 @@
-/* The distance energy and the names under which it is published. */
+/* The distance energy and its published normalisations. */
 #include <aureole/statistics.h>
 #include <float.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "points/quality/sphere/fibonacci_sum.h"
 #include "points/quality/split/split.h"
 
-/* From here on the sum by lags is faster than that over pairs. */
+/* From this count on the sum by lags is faster than the sum over pairs. */
 enum { STRUCTURED_COUNT = 2048 };
 
 static aur_twofold mass_of(const aur_axes *axes) {
@@ -35,9 +35,8 @@ static aur_twofold hemisphere_means(const aur_axes *axes, aur_twofold mass) {
     return aur_twofold_add(first, second);
 }
 
-/* An E^2 that the points will hardly be below, from the mean distances of some of them. No set of N equal
- * weights is known to have a lower E^2 N^(3/2) than .79 (Brauchart, Hardin and Saff 2012), .6 on the
- * hemisphere. */
+/* A practical lower bound of E^2, from the mean distances of some points. No set of N equal weights is known
+ * to have a lower E^2 N^(3/2) than .79 (Brauchart, Hardin and Saff 2012), .6 on the hemisphere. */
 static double foreseen_square(const aur_axes *axes, aur_domain domain) {
     enum { SAMPLES = 64 };
     const double least = 0.5 * pow((double)axes->count, -1.5);

@@ -1,5 +1,5 @@
 /* All pairs of points j, j + k have the azimuth difference 2 pi k / Phi. Their distances are a smooth
- * function of j but for square roots at the poles, and are added up as samples of it: one by one near the
+ * function of j except for square roots at the poles, and are summed as its samples: one by one near the
  * poles, else by the Euler-Maclaurin formula with Gauss-Legendre panels that double their length away from
  * the poles.
  *
@@ -160,7 +160,7 @@ aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur
         work.gauss.nodes[i] = 0.5 * (1.0 + work.gauss.nodes[i]);
         work.gauss.weights[i] *= 0.5;
     }
-    /* The rounding of the weights would be an error of the whole sum. */
+    /* Rounding of the weights would affect the whole sum. */
     aur_twofold sum_of_weights = {-1.0, 0.0};
     for (int i = 0; i < NODES; ++i)
         sum_of_weights = aur_twofold_add(sum_of_weights, (aur_twofold){work.gauss.weights[i], 0.0});
@@ -183,7 +183,7 @@ int aur_is_spherical_fibonacci(const aur_points_view *points) {
         return 0;
     const size_t count = points->count;
     const double size = (points->domain == AUR_DOMAIN_SPHERE ? 1.0 : 2.0) * (double)count;
-    /* The rotation, from the point that is the farthest from the axis. */
+    /* The rotation, from the point farthest from the axis. */
     const size_t widest = points->domain == AUR_DOMAIN_SPHERE ? count / 2 : count - 1;
     const double *const wide = points->coordinates + 3 * widest;
     const double shift =
@@ -197,7 +197,7 @@ int aur_is_spherical_fibonacci(const aur_points_view *points) {
         const double radius = sqrt(below * (2.0 - below));
         const double phi = 2.0 * AUR_PI * 0x1p-64 * (double)((uint64_t)j * AUR_GOLDEN_PHASE);
         const double along = radius * cos(phi), across = radius * sin(phi);
-        /* A radius made from a rounded z is off by as much as that, over the radius. */
+        /* The error of a radius from a rounded z is that of z divided by the radius. */
         const double slack = tolerance + 0x1p-52 / radius;
         if (!(fabs(x[0] - (cosine * along - sine * across)) <= slack &&
               fabs(x[1] - (sine * along + cosine * across)) <= slack))

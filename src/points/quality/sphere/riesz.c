@@ -6,7 +6,7 @@
 #include "points/quality/rotations/rotations.h"
 #include "points/quality/split/split.h"
 
-/* In distances by the widest vectors. */
+/* In units of a distance computed with the widest vectors. */
 enum { PAIR_COST = 8 };
 
 static aur_twofold riesz_tile(const aur_axes *axes, aur_pair_tile tile, double exponent) {
@@ -28,15 +28,15 @@ static aur_twofold riesz_tile(const aur_axes *axes, aur_pair_tile tile, double e
     return total;
 }
 
-/* The sum over unordered pairs to options.accuracy, with a bound of its error; `found` is false where the sum
- * over all pairs is to be taken. */
+/* The sum over unordered pairs to options.accuracy, with a bound of its error; `found` is false if the sum
+ * over all pairs is required. */
 static aur_result fast_sum(const aur_measure_request *request, double exponent, bool *found, aur_twofold *sum,
                            aur_error *error) {
     const double accuracy = request->options.accuracy, count = (double)request->points->count;
     *found = accuracy > 0.0 && request->points->count >= AUR_SPLIT_COUNT && aur_split_has(exponent);
     if (!*found)
         return AUR_OK;
-    /* About the mean that is to come: that of the sphere, or for S >= 2 what near points have. */
+    /* An estimate of the mean: that of the sphere, or for S >= 2 that of near points. */
     const double about = exponent == 0.0  ? 0.2
                          : exponent < 2.0 ? pow(2.0, 1.0 - exponent) / (2.0 - exponent)
                                           : pow(0.25 * count, 0.5 * exponent - 1.0);
@@ -55,8 +55,8 @@ static aur_result fast_sum(const aur_measure_request *request, double exponent, 
     return AUR_OK;
 }
 
-/* The sum over unordered pairs of points, the unit of their masses, and what an axis does to its other end.
- */
+/* The sum over unordered pairs of points, the unit of their masses, and the interaction of the ends of an
+ * axis. */
 static aur_result sum_of_directions(const aur_measure_request *request, double exponent, double *value,
                                     aur_error *error) {
     aur_axes axes;
@@ -77,7 +77,7 @@ static aur_result sum_of_directions(const aur_measure_request *request, double e
             const double unit = (double)axes.count / mass; /* the same for axes: twice over twice */
             scale *= unit * unit;
         }
-        /* Of axes each pair of ends once, and no axis against itself. */
+        /* For axes each pair of ends once, without pairs of one axis. */
         if (request->points->domain == AUR_DOMAIN_AXES) {
             double squares = 0.0;
             for (size_t i = 0; i < axes.count; ++i)
@@ -92,8 +92,7 @@ static aur_result sum_of_directions(const aur_measure_request *request, double e
     return result;
 }
 
-/* Of two rotations whose nearer quaternions have this squared distance: the farther ones have the rest of 4.
- */
+/* Two rotations whose nearer quaternions have this squared distance d^2; the farther ones have 4 - d^2. */
 static double both_quaternions(double square, double exponent) {
     if (square == 0.0 && exponent >= 0.0)
         return INFINITY;

@@ -21,7 +21,7 @@ static size_t cells_in(const aur_sphere_grid *grid, size_t band) {
     return grid->band_cells[band + 1] - grid->band_cells[band];
 }
 
-/* The cell of a band's azimuth, which may be out of [0, 2 pi). */
+/* The cell of an azimuth in a band; the azimuth may be outside [0, 2 pi). */
 static size_t cell_of(const aur_sphere_grid *grid, size_t band, double phi) {
     const size_t cells = cells_in(grid, band);
     double turn = phi / (2.0 * AUR_PI);
@@ -54,7 +54,7 @@ aur_result aur_sphere_grid_create(const aur_points_view *points, double widest, 
     grid->cell_start = aur_arena_allocate(arena, (cells + 2) * sizeof *grid->cell_start);
     if (grid->cell_start == NULL)
         return aur_fail_memory(error);
-    /* Counts two places on, so that filling leaves the starts behind it. */
+    /* Counts are shifted by two entries, so that filling leaves the start of each cell in place. */
     for (size_t i = 0; i < points->count; ++i)
         ++grid->cell_start[cell_of_point(grid, i) + 2];
     for (size_t c = 2; c < cells + 2; ++c)

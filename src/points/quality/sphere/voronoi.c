@@ -1,5 +1,5 @@
-/* Each cell by itself: the sphere, cut by one great circle for each neighbour. Neighbours farther than twice
- * the cell's radius cannot cut it. */
+/* Each cell is computed separately: the sphere, cut by one great circle for each neighbour. Neighbours
+ * farther than twice the cell's radius cannot cut it. */
 #include "points/quality/sphere/voronoi.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
 
-/* A point and two directions across it: the frame of its cell. */
+/* A point and two perpendicular directions: the frame of its cell. */
 typedef struct cell_frame {
     const double *point;
     double first[3], second[3];
@@ -21,7 +21,7 @@ static cell_frame frame_at(const double *point) {
     return frame;
 }
 
-/* Keeps what lies on the positive side of `normal`, whose product with the frame's point is `along`. */
+/* Cuts to the positive side of `normal`, whose product with the frame's point is `along`. */
 static void cut(aur_cell *cell, const cell_frame *frame, const double normal[3], double along) {
     const double local[3] = {aur_dot3(normal, frame->first), aur_dot3(normal, frame->second), along};
     aur_cell_cut(cell, local);
@@ -35,9 +35,9 @@ static void direction_of(const cell_frame *frame, const double local[3], double 
 
 enum { TANGENTS = 16 };
 
-/* Cuts a cell by great circles just outside of the rim of a cap of at most 90 degrees, the first of them
- * where it is nearest to the cell's point, so that the cell has an end there; of a wider cap it has one by
- * its neighbours. */
+/* Cuts a cell by great circles just outside of the rim of a cap of at most 90 degrees, the first where the
+ * rim is nearest to the cell's point, so that the cell is bounded there; in a wider cap the neighbours bound
+ * it. */
 static void cut_by_rim(aur_cell *cell, const cell_frame *frame, double widest) {
     if (widest > 0.5 * AUR_PI)
         return;
@@ -50,10 +50,10 @@ static void cut_by_rim(aur_cell *cell, const cell_frame *frame, double widest) {
     }
 }
 
-/* What is computed of the cells of the first `count` points: figures, or corners where `rows` is set. */
+/* Computes the cells of the first `count` points: areas and radii, or corners if `rows` is set. */
 typedef struct cells {
     const aur_sphere_grid *grid;
-    const aur_rim *rim; /* of the cap that ends the cells, or NULL */
+    const aur_rim *rim; /* of the cap that bounds the cells, or NULL */
     size_t count;
     aur_voronoi_cell *result;
     const size_t *first_row; /* of each cell */
@@ -70,7 +70,7 @@ typedef struct cell_work {
     double (*corners)[3];
 } cell_work;
 
-/* Cuts the cell of a point by its neighbours `near`; *coincident is the number of points in its place. */
+/* Cuts the cell of a point by its neighbours `near`; *coincident is the number of coincident points. */
 static bool cut_cell(const cells *work, const cell_frame *frame, cell_work *own, size_t *coincident) {
     const aur_points_view *const points = work->grid->points;
     aur_cell *const cell = &own->cell;
@@ -105,7 +105,7 @@ static void keep_corners(const cells *work, size_t index, const cell_frame *fram
     }
 }
 
-/* The area is NAN where a cell of a cap is no polygon. */
+/* The area is NAN if a cell of a cap is not a polygon. */
 static bool find_figures(const cells *work, const cell_frame *frame, cell_work *own, size_t coincident,
                          aur_voronoi_cell *found) {
     const aur_cell *const cell = &own->cell;
@@ -157,7 +157,7 @@ static aur_result find_cells(void *context, size_t item) {
     return result;
 }
 
-/* Fills in the grid, which `work` has none of yet. */
+/* Builds the grid of `work`. */
 static aur_result cut_cells(const aur_measure_request *request, cells work, aur_error *error) {
     aur_sphere_grid grid;
     const double cap = request->options.cap_degrees;

@@ -10,20 +10,20 @@
 #include "points/quality/pairs/pair_sum.h"
 
 typedef struct aur_voronoi_cell {
-    double area;   /* steradians; points in one place share their cell */
-    double radius; /* the angle to the farthest place of the cell */
-    size_t sides; /* along the rim of a cap an arc is one; a cell may be a lune, a hemisphere or the sphere */
+    double area;   /* steradians; coincident points share their cell */
+    double radius; /* the angle to the farthest point of the cell */
+    size_t sides;  /* an arc of a cap's rim counts as one; a cell may be a lune, a hemisphere or the sphere */
 } aur_voronoi_cell;
 
-/* The cells of all points in the request's memory; no bit depends on the number of threads. Errors: MEMORY;
- * UNSUPPORTED where a cap wider than 90 degrees has a cell of fewer than three sides. */
+/* The cells of all points in the request's memory; bit-identical for any number of threads. Errors: MEMORY;
+ * UNSUPPORTED if a cap wider than 90 degrees has a cell of fewer than three sides. */
 aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell **cells, aur_error *error);
 
 enum { AUR_CORNER_COLUMNS = 4 };
 
 /* The corners of the cells of the first `count` points, which have three sides or more, counter-clockwise as
- * seen from outside: a row each of the point's number from 1 and a unit vector, cell after cell, as many as
- * the sum of their sides. Not on caps. */
+ * seen from outside: one row per corner with the point's number from 1 and a unit vector, cell after cell.
+ * Not on caps. */
 aur_result aur_voronoi_corners(const aur_measure_request *request, size_t count,
                                const aur_voronoi_cell *cells, double *rows, aur_error *error);
 
@@ -49,7 +49,7 @@ aur_rim aur_rim_at(double degrees);
 
 typedef struct aur_cap_part {
     double area;   /* steradians */
-    double radius; /* the largest angle from the point to a place of the part */
+    double radius; /* the largest angle from the point to a point of the part */
     size_t sides;  /* of great circles and arcs of the rim */
 } aur_cap_part;
 
@@ -58,12 +58,12 @@ typedef struct aur_cap_part {
 aur_cap_part aur_cap_part_of(const aur_rim *rim, const double point[3], size_t count,
                              const double (*corners)[3]);
 
-/* Convex polygons on the sphere, cut by one great circle after the other: cells of points, of any size up to
- * the whole sphere. Coordinates are those of a frame whose third axis is the cell's point. */
+/* Convex polygons on the sphere, cut by great circles: cells of points, of any size up to the whole sphere.
+ * Coordinates are those of a frame whose third axis is the cell's point. */
 
-/* A side and its end. Each corner is computed from its two sides alone, so that no error adds up. */
+/* A side and its end. Each corner is computed only from its two sides, so that errors do not accumulate. */
 typedef struct aur_cell_side {
-    double normal[3]; /* of any length; the cell lies where its product with a direction is positive */
+    double normal[3]; /* of any length; its product with directions of the cell is positive */
     double length;    /* of the normal */
     double corner[3]; /* unit: between this side and the next one, counter-clockwise as seen from outside */
     double reach;     /* of the corner: the sine of its angle from (0, 0, 1) */
@@ -77,11 +77,11 @@ typedef struct aur_cell {
     double *heights; /* room of `capacity` values */
 } aur_cell;
 
-/* A cell without sides that takes `cuts` cuts without an allocation; false: no memory. To be released. */
+/* A cell without sides that takes `cuts` cuts without an allocation; false: out of memory. Release it. */
 bool aur_cell_begin(aur_cell *cell, size_t cuts);
 void aur_cell_release(aur_cell *cell);
-/* Keeps what lies on the positive side of the great circle of `normal`, which holds (0, 0, 1). Corners that
- * rounding cannot tell apart become one. */
+/* Cuts to the positive side of the great circle of `normal`, which contains (0, 0, 1). Corners that rounding
+ * cannot distinguish are merged. */
 void aur_cell_cut(aur_cell *cell, const double normal[3]);
 /* Steradians. */
 double aur_cell_area(const aur_cell *cell);
@@ -100,7 +100,7 @@ typedef struct aur_sphere_grid {
     size_t *order;      /* indices of the points, cell by cell */
 } aur_sphere_grid;
 
-/* Of points that are no farther from +z than `widest`: pi for the whole sphere. The arena holds the grid. */
+/* A grid of points no farther from +z than `widest`: pi for the whole sphere. The arena owns the grid. */
 aur_result aur_sphere_grid_create(const aur_points_view *points, double widest, aur_arena *arena,
                                   aur_sphere_grid *grid, aur_error *error);
 
@@ -114,6 +114,6 @@ typedef struct aur_neighbours {
     aur_neighbour *items;
 } aur_neighbours;
 
-/* All points within `angle` of point `index` but itself, nearest first, ties by index. */
+/* All other points within `angle` of point `index`, nearest first, ties by index. */
 aur_result aur_sphere_grid_near(const aur_sphere_grid *grid, size_t index, double angle,
                                 aur_neighbours *neighbours);

@@ -1,4 +1,4 @@
-/* The worst-case error of the points as a quadrature rule; the quadrature room computes it. */
+/* The worst-case error of the points as a quadrature rule; points/quadrature computes it. */
 #include <aureole/quadrature.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static aur_result parse(const char *text, double *smoothness, aur_lobe *lobe, au
     return text[length] == ':' ? aur_lobe_parse(text + length + 1, lobe, error) : AUR_OK;
 }
 
-/* Weights as they are given: those of a rule for the density normalised to integral 1. */
+/* Unchanged weights: those of a rule for the density normalised to integral 1. */
 static aur_result wce(const aur_measure_request *request, double *value, aur_error *error) {
     const aur_points_view *const points = request->points;
     double smoothness;

@@ -17,7 +17,7 @@ double aur_split_whole(double exponent, double square) {
     return pow(square, -0.5 * exponent);
 }
 
-/* Beyond, the rest is below the rounding of the whole. */
+/* Beyond this the remainder is below the rounding of the kernel. */
 static const double far_away = 48.0;
 
 /* g(s, q) = e^-q sum_k q^k / Gamma(s + k + 1), and for the logarithm Euler's Ein(q) = e^-q sum_k H_k q^k / k!

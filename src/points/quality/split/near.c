@@ -8,7 +8,7 @@
 
 enum { BANDS_WITHIN = 3, POINTS_PER_ITEM = 512 };
 
-/* Where a point lies, for sorting. */
+/* The position of a point, for sorting. */
 typedef struct place {
     double phi, theta;
     size_t band, index;
@@ -85,8 +85,8 @@ static size_t lower_bound(const aur_near_points *near, size_t band, double phi) 
     return low;
 }
 
-/* How far azimuths within the reach of a chord are apart at most, between an angle and those of a band:
- * (d/2)^2 = sin^2(difference / 2) + sin theta sin theta' sin^2(half of what is asked). */
+/* The largest difference of azimuths within the reach of a chord, between a polar angle and those of a band:
+ * (d/2)^2 = sin^2(difference / 2) + sin theta sin theta' sin^2(result / 2). */
 static double half_width(const aur_near_points *near, double theta, size_t band, double reach) {
     static const double slack = 1e-9; /* azimuths and edges are rounded */
     const double low = (double)band * near->width, high = low + near->width;
@@ -126,8 +126,8 @@ static double across(const near_work *work, size_t i, size_t band) {
     return sum;
 }
 
-/* With the points of its own band that follow eastward. One width serves the band, so that each pair has one
- * that follows. */
+/* Pairs with the points of the same band that follow eastward. One width serves the whole band, so that each
+ * pair is found once. */
 static double along(const near_work *work, size_t i, size_t band) {
     const aur_near_points *const near = work->near;
     const double low = (double)band * near->width;

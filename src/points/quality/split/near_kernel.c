@@ -1,5 +1,5 @@
-/* The rest of the kernel at a row of points: eight running sums, so
- * that the bits do not depend on how wide the registers are. */
+/* The rest of the kernel at a row of points: eight running sums, so that results are bit-identical for all
+ * register widths. */
 #include "points/base/simd_lanes.h"
 #include "points/quality/split/split.h"
 

@@ -44,14 +44,14 @@ aur_result aur_powers_find(const aur_points_view *points, size_t degree, size_t 
 static const size_t degrees[] = {20, 42, 84, 120, 170, 240, 340, 480, 682, 960, 1364};
 enum {
     DEGREES = sizeof degrees / sizeof degrees[0],
-    SAMPLES = 64, /* points whose near ones are counted to foresee the cost */
+    SAMPLES = 64, /* points whose neighbours are counted to estimate the cost */
     PAIR = 16,    /* the cost of a near pair, where the transform's is the cube of the degree */
-    POINT = 2000, /* that of a point in the transform */
+    POINT = 2000, /* the cost of a point in the transform */
     NODES = 256,  /* of integrals over the rest of the kernel */
     STEEPEST = 8  /* the power that smooths them at 0 */
 };
 
-/* What is known beforehand, and the choice that follows. */
+/* The parameters of a split, and the choice that follows from them. */
 typedef struct plan {
     double exponent;
     aur_split_kernel kernel;
@@ -86,8 +86,8 @@ static double whole_coefficient(double exponent, size_t degree, double before) {
     return before * (2.0 * l + 1.0) / (2.0 * l - 1.0) * (l - 1.0 + s) / (l + 1.0 - s);
 }
 
-/* For S <= 1 the coefficients of F are those of k less those of the rest, which is small: the difference is
- * good to the rounding of the former. In d = reach u^8 with dt = -d dd the integrand is smooth at 0. */
+/* For S <= 1 the coefficients of F are those of k less those of the rest, which is small: the error of the
+ * difference is the rounding of the former. In d = reach u^8 with dt = -d dd the integrand is smooth at 0. */
 static void coefficients_of_difference(plan *p, size_t count) {
     double nodes[NODES], weights[NODES];
     aur_gauss_legendre(NODES, nodes, weights);
@@ -105,7 +105,7 @@ static void coefficients_of_difference(plan *p, size_t count) {
     }
 }
 
-/* For greater S from F itself. */
+/* For larger S from F itself. */
 static bool coefficients_of_smooth(plan *p, size_t count) {
     const size_t nodes = p->degree + p->degree / 2 + 32;
     double *const t = malloc(2 * nodes * sizeof *t), *const weights = t + nodes;
@@ -122,7 +122,7 @@ static bool coefficients_of_smooth(plan *p, size_t count) {
     return true;
 }
 
-/* Beyond 3/2 of L coefficients are squares of what they are at L, and left out. */
+/* Beyond 3/2 L coefficients are squares of those at L, and are neglected. */
 static bool fill_coefficients(plan *p) {
     const size_t count = p->degree + p->degree / 2 + 1;
     for (size_t l = 0; l < count; ++l)
@@ -175,8 +175,8 @@ static bool choose_degree(const aur_points_view *points, double pair_cost, doubl
     return found;
 }
 
-/* The split whose two ends are below the tolerance. With a reach of 2 range / L the smooth part's harmonics
- * fall as the rest does, e^-range. */
+/* The split whose two truncation errors are below the tolerance. With a reach of 2 range / L the smooth
+ * part's harmonics fall like the remainder, e^-range. */
 static aur_result make_plan(const aur_measure_request *request, double exponent, double pair_cost,
                             double tolerance, plan *p, bool *found, aur_error *error) {
     static const double widest = 44.0;
@@ -244,7 +244,7 @@ aur_result aur_split_pairs(const aur_measure_request *request, double exponent, 
     rest *= 2.0 / (m.sum * m.sum);
     *mean = (aur_split_mean){.mean = exponent < 2.0 ? whole_coefficient(exponent, 0, 0.0) : 0.0};
     mean->excess = smooth - own + rest - p.mean_of_rest + (exponent < 2.0 ? 0.0 : p.coefficients[0]);
-    /* What is left out, the transform by Cauchy's inequality, and rounding. */
+    /* The error bound: truncation, the transform by Cauchy's inequality, and rounding. */
     const double error_of_sums = AUR_WINDOW_ERROR * sqrt(spread);
     mean->bound = spread * (p.beyond + p.kernel.rest) +
                   error_of_sums * (2.0 * sqrt(fabs(smooth) * largest) + error_of_sums * largest) +

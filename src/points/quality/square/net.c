@@ -7,10 +7,10 @@
 #include "points/base/parallel.h"
 #include "points/quality/measure.h"
 
-/* Coordinates in base b are rounded to doubles: a point this near below an edge belongs above it. */
+/* Coordinates in base b are rounded to doubles: a point so little below an edge belongs above it. */
 static const double edge_tolerance = 1e-6;
 
-/* The shapes of elementary intervals cannot be tried when there are more than this many, times points. */
+/* The limit of the number of shapes of elementary intervals times points. */
 static const double work_limit = 1e12;
 
 typedef struct net {
@@ -23,7 +23,7 @@ typedef struct net {
     size_t *shape;       /* digits of each coordinate */
 } net;
 
-/* Whether all intervals of the shape hold equally many points. */
+/* Whether all intervals of the shape contain equally many points. */
 static int is_even(const net *n, size_t strength) {
     const size_t dimension = n->points->dimension;
     const uint64_t intervals = n->powers[strength];

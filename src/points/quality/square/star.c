@@ -2,9 +2,9 @@
  *
  * Points enter in order of x. With M points entered and y_1 <= ... <= y_M their heights, the candidates for a
  * box of width x are k/N - x y_k (closed) and x y_k - (k-1)/N, x - M/N (open). Their maxima over k are
- * tangents to the convex hulls of the points (y_k, k); the heights are kept in about sqrt N blocks with a
- * hull each, which entering a point rebuilds in one block only and shifts in the blocks above: O(N^1.5) in
- * all. */
+ * tangents to the convex hulls of the points (y_k, k); the heights are stored in about sqrt N blocks with a
+ * hull each. Entering a point rebuilds the hull of one block and shifts those of the blocks above: O(N^1.5)
+ * in all. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -16,21 +16,21 @@ typedef struct planar_point {
     double x, y, weight;
 } planar_point;
 
-/* The heights of one block: slots in order of y, of which some have entered. */
+/* The heights of one block: slots in order of y, some of which have entered. */
 typedef struct block {
     size_t first, count; /* slots */
     double below;        /* the mass that has entered in lower blocks */
     size_t closed_first, closed_count, open_first, open_count;
 } block;
 
-/* A corner of a hull: height, and the mass up to it, with or without its own. */
+/* A corner of a hull: height, and the mass up to it, including or excluding that of its point. */
 typedef struct corner {
     double y, mass;
 } corner;
 
 typedef struct heights {
     size_t slot_count, block_size, block_count;
-    double *y, *weight; /* one a slot; weight 0 before the point has entered */
+    double *y, *weight; /* one per slot; weight 0 before the point has entered */
     unsigned char *entered;
     block *blocks;
     corner *closed, *open; /* the hulls of block b begin at slot b * block_size */
@@ -40,7 +40,7 @@ static double cross(corner a, corner b, corner c) {
     return (b.y - a.y) * (c.mass - a.mass) - (b.mass - a.mass) * (c.y - a.y);
 }
 
-/* Closed boxes want much mass below small heights: the chain above; open boxes the chain below. */
+/* Closed boxes use the upper hull (much mass below small heights), open boxes the lower hull. */
 static void rebuild(heights *h, block *b) {
     corner *const closed = h->closed + b->first;
     corner *const open = h->open + b->first;

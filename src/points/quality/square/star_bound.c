@@ -1,6 +1,6 @@
 /* A lower bound of the star discrepancy in any dimension by threshold accepting (Winker and Fang 1997, with
- * the snapping to critical boxes of Gnewuch, Wahlstroem and Winzen 2012): every value that it sees is that of
- * a box, so that the best one is a bound. Each trial is a pure function of the seed and its number. */
+ * the snapping to critical boxes of Gnewuch, Wahlstroem and Winzen 2012): every value is that of a box, so
+ * that the best one is a bound. Each trial is a pure function of the seed and its index. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,12 +16,12 @@ typedef struct walk {
     const double *sorted; /* dimension * (count + 1): the coordinates in order, and 1 */
     size_t steps;
     uint64_t seed;
-    double *best; /* one a trial */
+    double *best; /* one per trial */
 } walk;
 
 typedef struct box {
     double *upper; /* dimension */
-    double *low;   /* the box shrunk to the points that it holds */
+    double *low;   /* the box shrunk to the points inside */
     double *high;  /* the box grown until it meets the next points */
 } box;
 

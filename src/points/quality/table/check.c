@@ -1,4 +1,4 @@
-/* What is checked before a measure is computed. */
+/* Checks before a measure is computed. */
 #include "points/quality/table/check.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static bool lists(const char *list, const char *name) {
     return false;
 }
 
-/* Where in its file a point stands, as far as it is known; the caller knows the file. */
+/* The location of a point in its file, if known; the caller adds the file. */
 static aur_location line_of(const aur_points_view *points, size_t index) {
     return (aur_location){.line = points->lines != NULL ? points->lines[index] : 0};
 }
@@ -58,7 +58,8 @@ static aur_result check_point(const aur_points_view *points, size_t index, aur_e
     return AUR_OK;
 }
 
-/* Whether the measure and the domain know caps; the options of a cap that is all of the domain lose it. */
+/* Checks that the measure and the domain support caps; a cap that is the whole domain is removed from the
+ * options. */
 static aur_result check_cap(const aur_measure_row *row, aur_points_view *points, aur_measure_options *options,
                             aur_error *error) {
     const double cap = options->cap_degrees;

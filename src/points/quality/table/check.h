@@ -1,4 +1,4 @@
-/* Whether a measure, its points and its options go together. */
+/* Checks whether a measure, its points and its options are compatible. */
 #pragma once
 
 #include "points/quality/measure.h"
@@ -6,7 +6,7 @@
 /* Coordinates of a point of the domain; 0: any. */
 size_t aur_domain_dimension(aur_domain domain);
 
-/* A cap that is all of a domain becomes that domain, without cap_degrees. */
+/* A cap that is the whole domain becomes that domain, without cap_degrees. */
 aur_result aur_measure_check(const aur_measure_row *row, aur_points_view *points,
                              aur_measure_options *options, aur_error *error);
 

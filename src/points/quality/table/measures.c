@@ -62,13 +62,13 @@ aur_result aur_measure_find(const char *metric, const aur_measure_description **
     return result;
 }
 
-/* A vector that is unit to rounding stays as it is. */
+/* A vector of unit length to rounding is unchanged. */
 static double unit_scale(size_t dimension, const double *x) {
     const double square = aur_square_length(dimension, x);
     return fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
 }
 
-/* Whether directions can be measured where they are: one after another, of unit length to the last bit. */
+/* Whether directions can be measured in place: contiguous, of unit length to the last bit. */
 static bool are_unit(const aur_points_view *points) {
     bool unit = points->stride == points->dimension;
     for (size_t i = 0; i < points->count && unit; ++i)
@@ -76,7 +76,7 @@ static bool are_unit(const aur_points_view *points) {
     return unit;
 }
 
-/* A copy that is so, so that seven-digit files are measured as meant. */
+/* A normalised, contiguous copy, so that files of seven digits are measured as intended. */
 static double *unit_copy(const aur_points_view *points, aur_arena *arena) {
     const size_t dimension = points->dimension;
     double *const copy = aur_arena_allocate(arena, points->count * dimension * sizeof *copy);
@@ -89,8 +89,8 @@ static double *unit_copy(const aur_points_view *points, aur_arena *arena) {
     return copy;
 }
 
-/* Each axis by both of its ends, each rotation by both of its quaternions: all of them as they are given,
- * then their opposites. */
+/* Each axis with both ends, each rotation with both quaternions: first the given ones, then their opposites.
+ */
 static bool add_opposites(aur_points_view *points, aur_arena *arena) {
     const size_t count = points->count, size = points->dimension * count;
     double *const both = aur_arena_allocate(arena, 2 * size * sizeof *both);
@@ -121,8 +121,7 @@ static double *masses_of(const aur_points_view *points, aur_arena *arena) {
     return masses;
 }
 
-/* The row and a checked request, with what that points to. The arena is to be released even after an error.
- */
+/* The row and a checked request with its data. Release the arena even after an error. */
 typedef struct prepared {
     const aur_measure_row *row;
     aur_measure_request request;

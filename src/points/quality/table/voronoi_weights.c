@@ -18,8 +18,8 @@ static double value_at(const aur_lobe *lobe, aur_domain domain, const double dir
     return aur_ggx_value(&density, direction);
 }
 
-/* weights[i] becomes the area of the cell of xyz[3 * i] times the density there, for `count` points above the
- * surface; *sum that of all. */
+/* Sets weights[i] to the area of the cell of xyz[3 * i] times the density at the point, for `count` points
+ * above the surface, and *sum to their sum. */
 static aur_result weigh(size_t count, const double *xyz, aur_domain domain, const aur_lobe *lobe,
                         const aur_measure_options *options, double *weights, double *sum, aur_error *error) {
     const aur_points_view view = aur_points_view_of(domain, count, 3, xyz);
