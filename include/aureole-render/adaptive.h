@@ -11,19 +11,20 @@
 extern "C" {
 #endif
 
-/* `size` is the caller's. Rendering stops after the first round of samples that meets one of the targets that
- * are not zero; with none, after the round that brings the error below 1 %. */
+/* `size` is set by the caller. Rendering stops after the first round of samples that reaches one of the
+ * targets that are not zero; without any, after the round that brings the error below 1 %. */
 typedef struct aur_adaptive_options {
     size_t size;
     /* Target of the error by `measure`: rendering stops when the upper confidence bound is below this. In
      * (0, 1]. */
     double error;
-    double seconds; /* wall clock, with preparation: the only target whose image depends on the machine */
+    double seconds; /* wall clock, including preparation: the only target that makes the image depend on the
+                       machine */
     uint64_t rays;
     uint64_t rounds;
     /* Systematic error to allow for the named integrator, relative as `error` and below it if that is not
-     * zero: the target of the noise leaves room for it, and the reported error includes it. 0 where the
-     * integrator is chosen: its bias is measured then. */
+     * zero. The target of the noise is reduced by it, and the reported error includes it. 0 if the integrator
+     * is chosen automatically: then its bias is measured. */
     double bias;
     double confidence;         /* of the interval, in [.5, .9999]; 0: .95 */
     size_t replicas;           /* independent renderings, 3 to 16; 0: 4 */
@@ -35,27 +36,26 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_options_init(aur_adaptive_options *opti
 
 typedef struct aur_adaptive aur_adaptive;
 
-/* `render` as for aur_render_create: its `samples_per_pixel` is without meaning, its `sampler` NULL stands
- * for Owen-scrambled Sobol points, and `integrator` NULL for the scene's own where that is one that looks at
- * a scene in its own way (`ao`, `direct`, `radiosity`, `depth`, `aov`), else for `path` or `finalgather` with
- * the scene's max_depth, whichever is found to need less for an error, a time or a number of rays. Both
- * options may be NULL. The renderer must outlive it. Errors: those of aur_render_create, ARGUMENT for
- * a target out of range. */
+/* `render` as for aur_render_create, but without `samples_per_pixel`. `sampler` NULL means Owen-scrambled
+ * Sobol points. `integrator` NULL means the scene's if it renders another quantity or in a specific way
+ * (`ao`, `direct`, `radiosity`, `depth`, `aov`). Otherwise it means `path` or `finalgather` with the scene's
+ * max_depth, whichever is measured to need less work for the target. Both options may be NULL. The renderer
+ * must outlive it. Errors: those of aur_render_create, ARGUMENT for a target out of range. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_create(aur_renderer *renderer, const aur_render_options *render,
                                                 const aur_adaptive_options *options, aur_adaptive **adaptive,
                                                 aur_error *error) AUR_NONNULL(1, 4);
 AUR_EXPERIMENTAL void aur_adaptive_destroy(aur_adaptive *adaptive); /* NULL is allowed */
 
-/* Renders rounds until the target is met. Errors: CANCELLED by aur_adaptive_cancel or the progress callback:
- * the image keeps the samples of tiles that were finished, the report is that of the last whole round, and
- * another call goes on to the same image as if nothing had been; MEMORY and others, after which it
- * can only be destroyed. */
+/* Renders rounds until the target is met. Errors: CANCELLED by aur_adaptive_cancel or the progress callback;
+ * MEMORY and others, after which it can only be destroyed. After CANCELLED the image has the samples of
+ * finished tiles, the report is that of the last complete round, and another call continues to the same image
+ * as without interruption. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_run(aur_adaptive *adaptive, aur_error *error) AUR_NONNULL(1);
 /* Stops aur_adaptive_run in another thread; may be called from a signal handler. */
 AUR_EXPERIMENTAL void aur_adaptive_cancel(aur_adaptive *adaptive) AUR_NONNULL(1);
 
-/* As aur_render_save and aur_render_resume, where the render options say `resumable`: the rounds
- * continue as if there had been no interruption. */
+/* As aur_render_save and aur_render_resume, if the render options have `resumable`: the rounds continue as
+ * without interruption. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path,
                                               aur_error *error) AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error)
@@ -73,22 +73,22 @@ typedef struct aur_adaptive_report {
      * round, and for an image that is black. */
     double error, error_low, error_high;
     double mean; /* over all pixels and channels R, G, B */
-    /* Independent values that the error consists of: about one a pixel and channel for noise, few where all
-     * pixels share an error, such as a photon map's. */
+    /* Independent values that the error consists of: about one per pixel and channel for noise, few if all
+     * pixels share an error, such as that of one photon map. */
     double degrees;
     uint64_t rounds;
     double samples_per_pixel; /* mean over the image, of all replicas and finished rounds: the error's */
     size_t replicas;
     aur_render_statistics
         statistics; /* of all replicas together, and of what was tried; its size is set here */
-    /* Rays of rejected candidates and of their preparation, counted also where the preparation was found in
-     * the renderer or in a file of the cache. */
+    /* Rays of rejected candidates and of their preparation, counted even if its result came from the renderer
+     * or the file cache. */
     uint64_t candidate_rays;
-    double
-        bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
-    /* The error by every measure; of the bias only the part that `error` includes is known. */
+    double bias_high; /* of the error: an upper bound of the systematic error; 0 for an unbiased integrator */
+    /* The error by every measure; each includes the bias only as far as `error` does. */
     aur_error_figures errors[AUR_ERROR_MEASURE_COUNT];
-    double bias_room;  /* the bias that the target error leaves room for: the same image by its integrator */
+    double bias_room;  /* the part of the target error reserved for bias: it gives the same image with a named
+                          integrator */
     size_t race_count; /* candidates of the race; 0: the integrator was named, or its image was resumed */
 } aur_adaptive_report;
 
@@ -115,11 +115,11 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_get_candidate(const aur_adaptive *adapt
 /* The integrator with its keys, as aur_render_options take it. `adaptive` owns the text. */
 AUR_EXPERIMENTAL const char *aur_adaptive_integrator(const aur_adaptive *adaptive) AUR_NONNULL(1);
 
-/* The image, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
- * error of each value as the replicas tell it, in the image's units. With aur_render_options' `clamp` also
- * clamped.R, .G, .B; other channels that an integrator adds are left out, which aur_adaptive_create warns of.
- * It and aur_adaptive_get_report may also be called from the progress callback. Errors: UNSUPPORTED while
- * there is no image yet, MEMORY. */
+/* The image, a new one with channels R, G, B. With `errors` also error.R, error.G, error.B: the standard
+ * error of each value, estimated from the replicas, in the image's units. With aur_render_options' `clamp`
+ * also clamped.R, .G, .B. Other channels that an integrator adds are left out, which aur_adaptive_create
+ * warns of. This function and aur_adaptive_get_report may also be called from the progress callback. Errors:
+ * UNSUPPORTED while there is no image yet, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, bool errors, aur_image **image,
                                                  aur_error *error) AUR_NONNULL(1, 3);
 
@@ -128,10 +128,10 @@ AUR_EXPERIMENTAL aur_result aur_adaptive_develop(const aur_adaptive *adaptive, b
  * UNSUPPORTED while there is no image yet, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_develop_half(const aur_adaptive *adaptive, size_t half,
                                                       aur_image **image, aur_error *error) AUR_NONNULL(1, 3);
-/* The error of what a denoiser made of each half alone, by the measure of the options: `made[h]` has R, G and
- * B of half h as its first channels. Each is compared with the other half, whose independent noise averages
- * out, so the estimate needs no reference. Noise of the estimate is in the interval, taken over blocks of 8 x
- * 8 pixels. A denoised image of all replicas has about half of the halves' variance. Errors: ARGUMENT for
+/* The error of a denoiser, by the measure of the options: `made[h]` is the denoised image of half h; its
+ * first channels are R, G and B. Each is compared with the other half, whose independent noise averages out,
+ * so the estimate needs no reference. The interval includes the noise of the estimate, over blocks of 8 x 8
+ * pixels. A denoised image of all replicas has about half of the halves' variance. Errors: ARGUMENT for
  * images of another size, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_adaptive_compare_halves(const aur_adaptive *adaptive,
                                                         const aur_image *const made[2],

@@ -1,6 +1,6 @@
-/* Integrators of the caller's that gather light as `finalgather` does, with more keys. `finalgather` has the
- * keys that images need; what reproduces papers on gathering (Marques 2013, 2018, 2019) is an integrator of
- * the caller's, whose further keys are fields of the struct below:
+/* Integrators supplied by the caller that gather light like `finalgather`, with more keys. `finalgather` has
+ * the keys that images need. What reproduces papers on gathering (Marques 2013, 2018, 2019) is an integrator
+ * supplied by the caller, whose further keys are fields of the struct below:
  *
  *     static const aur_key keys[] = {
  *         {.name = "rotations", .type = AUR_KEY_INTEGER, .help = "randomisations made beforehand",
@@ -24,7 +24,7 @@
 extern "C" {
 #endif
 
-/* The words of a CHOICE key stand in the order of the enum that its field has. */
+/* The words of a CHOICE key are listed in the order of its field's enum. */
 
 /* Which lobes are gathered. */
 typedef enum aur_gather_component {
@@ -32,11 +32,11 @@ typedef enum aur_gather_component {
     AUR_COMPONENT_DIFFUSE,
     AUR_COMPONENT_GLOSSY
 } aur_gather_component;
-/* Light straight from lights: by points drawn on them, by gather rays that meet them, or left out. */
+/* Direct light: by light samples, by gather rays that hit lights, or left out. */
 typedef enum aur_gather_direct { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE } aur_gather_direct;
-/* What gather rays bring: light by photons and from emitters, or from emitters only. */
+/* Incident light of gather rays: from photons and emitters, or from emitters only. */
 typedef enum aur_gather_incident { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS } aur_gather_incident;
-/* Whether paths correct what the photon map is wrong by; or the image has that correction alone. */
+/* Whether paths correct the bias of the photon map; or the image has the correction alone. */
 typedef enum aur_gather_debias {
     AUR_DEBIAS_NONE,
     AUR_DEBIAS_ALL,
@@ -49,8 +49,8 @@ typedef enum aur_gather_decorrelation {
     AUR_DECORRELATION_RANDOM,
     AUR_DECORRELATION_NONE
 } aur_gather_decorrelation;
-/* Of samples: p/q or 1; optimal for one lobe; and for two lobes merged: optimal (OSWA), by the balance
- * heuristic, optimal as published with a system solved at every shading point. */
+/* Weights of samples: p/q or 1; optimal for one lobe; and for two lobes merged: optimal (OSWA), by the
+ * balance heuristic, optimal as published with a system solved at every shading point. */
 typedef enum aur_gather_weights {
     AUR_WEIGHTS_RATIO,
     AUR_WEIGHTS_EQUAL,
@@ -66,14 +66,14 @@ typedef enum aur_gather_density {
     AUR_GATHER_DENSITY_OPTIMAL,
     AUR_GATHER_DENSITY_DEFAULT
 } aur_gather_density;
-/* Diffuse light that pixels have in common with their neighbours: none; one pattern is split among the pixels
- * of 4 x 4, which pool what they find; patterns complete each other, and pixels pool with the nearest. */
+/* Diffuse light shared with neighbouring pixels: none; one pattern is split among the pixels of 4 x 4, which
+ * pool their results; or patterns complement each other, and pixels pool with the nearest. */
 typedef enum aur_gather_share { AUR_SHARE_NONE, AUR_SHARE_BLOCKS, AUR_SHARE_NEAR } aur_gather_share;
 /* Camera rays over the pixel, or through its centre. */
 typedef enum aur_gather_pixel { AUR_PIXEL_FILTER, AUR_PIXEL_CENTRE } aur_gather_pixel;
 
-/* What gathering can be asked for. The library makes the struct, with the defaults in brackets; then keys
- * fill it. Texts are read only while the integrator is made. */
+/* Settings of gathering. The library creates the struct with the defaults in brackets; then keys set its
+ * fields. Strings are read only while the integrator is created. */
 typedef struct aur_gather_settings {
     /* Directions and their weights. */
     size_t diffuse_samples, glossy_samples; /* directions per pixel of each lobe [64] */
@@ -81,7 +81,7 @@ typedef struct aur_gather_settings {
     const char *pattern;                    /* SET of the directions [spherical-fibonacci] */
     const char *map;                        /* of a square set to the hemisphere [lambert] */
     const char *scramble;                   /* of the pattern [NULL: digit for nets, else rotate] */
-    size_t rotations;                       /* randomisations made beforehand; 0: one per pixel [16] */
+    size_t rotations;                       /* randomisations prepared in advance; 0: one per pixel [16] */
     uint64_t pattern_seed;                  /* another randomisation under the same seed [0] */
     aur_gather_decorrelation decorrelation; /* [BLUE] */
     aur_gather_share share;                 /* [NONE] */
@@ -92,28 +92,28 @@ typedef struct aur_gather_settings {
     double regularization;
     bool clip; /* glossy lobes end at the surface's horizon [true] */
     /* Light. */
-    size_t photons, caustic_photons; /* of the map [500000], and of one of caustics alone [0: none] */
+    size_t photons, caustic_photons; /* of the map [500000], and of a separate map of caustics [0: none] */
     uint64_t photon_seed;            /* the same photons under all seeds; 0: by the image's seed [0] */
     const char *photon_pattern;      /* SET of the photons' numbers [sobol] */
     double photons_per_texel;        /* that a texel of irradiance is the mean of [16] */
     aur_gather_debias debias;        /* [NONE] */
-    double continued;                /* share of the gather rays that go on as paths, of debias [0.25] */
-    double short_rays;            /* gather rays shorter than so many widths of a texel go on as paths [2] */
-    uint32_t light_samples;       /* points on lights that each sample's shadow rays aim at [1] */
-    size_t bright_samples;        /* rays per pixel to brightly lit texels, drawn as lights are [0] */
-    aur_gather_direct direct;     /* [NEE] */
-    aur_gather_incident incident; /* [PHOTONS] */
+    double continued;         /* fraction of the gather rays that continue as paths, for debias [0.25] */
+    double short_rays;        /* gather rays shorter than this many widths of a texel continue as paths [2] */
+    uint32_t light_samples;   /* points on lights that each sample's shadow rays aim at [1] */
+    size_t bright_samples;    /* rays per pixel to brightly lit texels, drawn as lights are [0] */
+    aur_gather_direct direct; /* [NEE] */
+    aur_gather_incident incident;   /* [PHOTONS] */
     aur_gather_component component; /* [ALL] */
     uint32_t max_depth;             /* edges of a light path; UINT32_MAX: no limit [that] */
     /* Camera rays. */
     aur_gather_pixel pixel; /* [FILTER] */
     uint32_t edge_samples;  /* extra camera rays at edges of objects [128] */
-    bool packets;           /* sixteen rays at a time, else one: the same image to rounding [true] */
+    bool packets;           /* sixteen rays at a time, else one: the same image up to rounding [true] */
 } aur_gather_settings;
 
-/* --- a caller's own way to gather a lobe: which directions, and what each counts */
+/* --- a gathering method supplied by the caller: the directions of a lobe, and their weights */
 
-/* Shading points whose light is gathered together, one in each lane; a mask has a bit for each. */
+/* Shading points that are gathered together, one per lane; a mask has one bit per lane. */
 enum { AUR_GATHER_LANES = 16 };
 
 /* The directions that gather a lobe cos^exponent about +z: the mean over all of weight * f estimates the
@@ -127,20 +127,20 @@ typedef struct aur_gather_directions {
 /* One lobe at the shading points of some lanes. */
 typedef struct aur_gather_sweep aur_gather_sweep;
 
-/* Traces direction `index`, below the count, in `lanes`, which are among those of the call of `gather`:
- * values[c][lane] becomes the light that the lobe makes of it, channel by channel, without the direction's
- * weight and the lobe's colour; 0 in other lanes. Returns the lanes above whose surface the direction is. */
+/* Traces direction `index`, below the count, in `lanes`, a subset of the lanes passed to `gather`.
+ * values[c][lane] becomes the light reflected by the lobe, per channel, without the direction's weight and
+ * the lobe's colour; 0 in other lanes. Returns the lanes whose surface the direction is above. */
 AUR_EXPERIMENTAL uint32_t aur_gather_trace(aur_gather_sweep *sweep, uint32_t lanes, size_t index,
                                            float values[3][AUR_GATHER_LANES]) AUR_NONNULL(1, 4);
-/* Ends a lane with the integral that was found, by so many directions, at that level of statistics.levels. */
+/* Completes a lane with its integral, the number of directions used, and its level in statistics.levels. */
 AUR_EXPERIMENTAL void aur_gather_finish(aur_gather_sweep *sweep, size_t lane, const float integral[3],
                                         size_t directions, size_t level) AUR_NONNULL(1, 3);
 
-/* `options` are those of the render, and of the integrator's own struct where they are part of one. Several
- * threads call `gather` at once. */
+/* `options` are the settings of the render; if the integrator's struct begins with them, they are part of it.
+ * Several threads call `gather` at once. */
 typedef struct aur_gather_method {
-    /* *asked becomes whether the options ask for it; else the integrator gathers as finalgather does. Errors:
-     * options that do not go together. */
+    /* *asked becomes whether the options select this method; else the integrator gathers like finalgather.
+     * Errors: options that exclude each other. */
     aur_result (*begin)(const aur_gather_settings *options, aur_warnings warnings, bool *asked,
                         aur_error *error);
     /* The SET and number of the directions for `base` of diffuse_samples or glossy_samples; `set` holds
@@ -157,13 +157,14 @@ typedef struct aur_gather_method {
 
 /* --- the integrator */
 
-/* An integrator of the caller's, beside those of the library. Its keys are fields of aur_gather_settings, or
- * of a struct that begins with it; it takes those of `finalgather` too. It must outlive the render. */
+/* An integrator supplied by the caller, in addition to those of the library. Its keys are fields of
+ * aur_gather_settings, or of a struct that begins with it; the keys of `finalgather` are also accepted. It
+ * must outlive the render. */
 typedef struct aur_gather_integrator {
     size_t size; /* of this struct; else ARGUMENT */
-    aur_row row; /* its name is none of the library's integrators */
-    /* Of the struct that the keys are fields of; 0: aur_gather_settings alone. What stands behind these
-     * begins as in `initial`, a whole struct, or with zeros where that is NULL. */
+    aur_row row; /* its name must differ from those of the library's integrators */
+    /* Size of the struct that the keys are fields of; 0: aur_gather_settings alone. Fields after these start
+     * as in `initial`, a whole struct, or as zeros if that is NULL. */
     size_t settings_size;
     const void *initial;
     const aur_gather_method *method; /* NULL: none */

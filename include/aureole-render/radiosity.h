@@ -2,8 +2,8 @@
  * triangles and mirrors, all triangles at once, by the points of one (2M + 4)-dimensional set. The result is
  * a mean radiance for every triangle.
  *
- * A solution is a function of the scene and the options, whatever the threads and however its paths are
- * divided into calls: sums are kept in fixed point, so their order has no meaning.
+ * A solution is a function of the scene and the options. It does not depend on threads or on the division of
+ * its paths into calls: sums are in fixed point, so their order does not matter.
  *
  * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_RADIOSITY_H
@@ -17,8 +17,8 @@
 extern "C" {
 #endif
 
-/* How two coordinates u, u' become a direction. COSINE: sin^2 theta = u, so every flight keeps its power.
- * UNIFORM_ANGLE: theta = pi/2 u, as the paper has it (eq. 15); the power of a flight is then multiplied by
+/* The map from two coordinates u, u' to a direction. COSINE: sin^2 theta = u, so flights do not change the
+ * power. UNIFORM_ANGLE: theta = pi/2 u, as in the paper (eq. 15); each flight then multiplies the power by
  * (pi/2) sin(pi u). In both phi = 2 pi u'. */
 typedef enum aur_radiosity_directions {
     AUR_RADIOSITY_COSINE,
@@ -41,8 +41,8 @@ typedef struct aur_radiosity_options {
     /* Independent randomisations of the set, 1 .. 1024; path i is taken from number i modulo this. From 2 on
      * there are standard errors. */
     size_t randomizations;
-    /* 0 leaves the scene as it is; any other number makes a random order of the lights and turns the local
-     * frame of every triangle at random about its normal. */
+    /* 0: no change. Any other number randomises the order of the lights and rotates the local frame of every
+     * triangle at random about its normal. */
     uint64_t variant;
     size_t threads; /* 0: all */
     aur_progress progress;
@@ -56,7 +56,7 @@ AUR_EXPERIMENTAL aur_result aur_radiosity_options_init(aur_radiosity_options *op
 typedef struct aur_radiosity aur_radiosity;
 
 /* A solution without paths. The scene must outlive it; `options` may be NULL. Errors: UNSUPPORTED for scenes
- * that are not made of triangle meshes, without lights, or with lights of no area (each with its place);
+ * with shapes other than triangle meshes, without lights, or with lights of no area (each with its position);
  * ARGUMENT, NAME for options; MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
                                                  aur_radiosity **radiosity, aur_error *error)
@@ -78,17 +78,17 @@ AUR_EXPERIMENTAL aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64
 typedef struct aur_radiosity_termination {
     size_t size;       /* of the caller's struct, so that it can grow */
     double epsilon;    /* > 0 */
-    uint64_t interval; /* >= 1; 0 stands for 1000 */
-    uint64_t window;   /* >= 1; 0 stands for 2 */
-    uint64_t limit;    /* end after so many paths in any case; 0: 2^32 */
+    uint64_t interval; /* >= 1; 0 means 1000 */
+    uint64_t window;   /* >= 1; 0 means 2 */
+    uint64_t limit;    /* the most paths; 0: 2^32 */
 } aur_radiosity_termination;
 
 AUR_EXPERIMENTAL aur_result aur_radiosity_termination_init(double epsilon, aur_radiosity_termination *rule,
                                                            aur_error *error) AUR_NONNULL(2);
 
-/* Goes on from the paths that are there, which must be a multiple of the interval. *converged (may be NULL)
- * becomes true when the changes fell below epsilon, and false when the limit of paths came first. Errors:
- * ARGUMENT for an epsilon, interval or limit out of range, and those of aur_radiosity_trace. */
+/* Continues from the current number of paths, which must be a multiple of the interval. *converged (may be
+ * NULL) becomes true if the changes fell below epsilon, and false if the limit of paths was reached first.
+ * Errors: ARGUMENT for an epsilon, interval or limit out of range, and those of aur_radiosity_trace. */
 AUR_EXPERIMENTAL aur_result aur_radiosity_terminate(aur_radiosity *radiosity,
                                                     const aur_radiosity_termination *rule, bool *converged,
                                                     aur_error *error) AUR_NONNULL(1, 2);
@@ -97,7 +97,7 @@ AUR_EXPERIMENTAL aur_result aur_radiosity_terminate(aur_radiosity *radiosity,
 typedef struct aur_radiosity_description {
     size_t size;
     size_t triangles;
-    size_t patches;   /* what can receive light: fronts of triangles, and backs of two-sided ones */
+    size_t patches;   /* surfaces that can receive light: fronts of triangles, and backs of two-sided ones */
     size_t lights;    /* triangles that emit */
     size_t dimension; /* 2 bounces + 4 */
     double area;      /* of all triangles, square units of the scene */
@@ -105,13 +105,13 @@ typedef struct aur_radiosity_description {
     uint64_t lost;       /* paths that left the scene: it is open, or surfaces coincide */
     uint64_t behind;     /* paths that ended on the back of a one-sided triangle */
     uint64_t trapped;    /* paths that ended between mirrors */
-    uint64_t coincident; /* pairs of triangles that lie in one plane and overlap; counted up to about 2^20 */
+    uint64_t coincident; /* pairs of triangles that are coplanar and overlap; counted up to about 2^20 */
     double change;       /* of the last interval of aur_radiosity_terminate; NaN without one */
     double emitted;      /* watts, the three channels summed */
     /* An estimate of what the cut after M bounces leaves out: the power that triangles would still receive,
      * as a part of all that they receive and would receive. 1 when the last bounces do not lose power. */
     double tail;
-    /* The standard error in the unit of epsilon: the root of the mean square, by area, of the triangles'
+    /* The standard error in the unit of epsilon: the root mean square, weighted by area, of the triangles'
      * standard errors of power over independent randomisations. NaN with one randomisation. */
     double error;
     double largest_albedo;

@@ -46,9 +46,8 @@ static aur_result check_target(aur_adaptive_options *target, aur_error *error) {
 
 /* --- progress */
 
-/* The rays that are left, where these are known to a factor of two: of a budget, and of a round that is
- * planned to be the last. How many rounds follow others nobody knows, nor what a bias takes that is not yet
- * bounded; INFINITY then. `part` of a replica's step is done. */
+/* The remaining rays, if known to a factor of two: of a budget, or of a round that is planned to be the last.
+ * INFINITY if more rounds may follow or a bias is not yet bounded. `part` of a replica's step is done. */
 static double rays_left(const aur_adaptive *adaptive, const aur_spent *spent, double part) {
     const aur_adaptive_options *const target = &adaptive->target;
     const aur_candidate *const candidate = &adaptive->candidate;
@@ -81,7 +80,7 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     if (adaptive->progress.function == NULL)
         return 0;
     const bool prepares = adaptive->candidate.replicas.pixel_count == 0;
-    if (prepares && adaptive->share.share == 0.0) /* nothing is known yet */
+    if (prepares && adaptive->share.share == 0.0) /* no estimate yet */
         return adaptive->progress.function(adaptive->progress.user, what, 0, 0);
     const double part = prepares || total == 0 ? 0.0 : (double)done / (double)total;
     const aur_spent spent = aur_adaptive_spent(adaptive);
@@ -213,9 +212,10 @@ void aur_adaptive_destroy(aur_adaptive *adaptive) {
 
 /* --- rounds */
 
-/* How far the upper end moves towards that by the variances of all rounds, half of the way in squares: where
- * rounds go on until the error looks small, the last one alone sees too little more often than too much.
- * Lamps that may not have been met make rounds go on, and are no part of what was seen. */
+/* The factor for the interval's upper end that moves it half of the way, in squares, to the bound by the
+ * variances of all rounds. Rounds continue until the error looks small, so the last round alone
+ * underestimates it more often than not. Emitters that may have been missed require more rounds, but do not
+ * enter the reported interval. */
 static double bound_part(const aur_adaptive *adaptive) {
     return adaptive->target.error > 0.0 ? sqrt(0.5 + 0.5 * fmax(adaptive->candidate.pooled, 1.0)) : 1.0;
 }
@@ -243,7 +243,7 @@ static bool is_met(const aur_adaptive *adaptive) {
            (target->rounds > 0 && candidate->rounds >= target->rounds) || aur_candidate_is_black(candidate);
 }
 
-/* Rounds until the target of the noise is met, or another candidate has taken this one's place. */
+/* Renders rounds until the noise target is met, or another candidate replaces this one. */
 static aur_result render_rounds(aur_adaptive *adaptive, bool *again, aur_error *error) {
     aur_candidate *const candidate = &adaptive->candidate;
     aur_result result = AUR_OK;

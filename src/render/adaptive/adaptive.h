@@ -16,8 +16,8 @@ struct aur_adaptive {
     char *sampler, *filter;
     aur_progress progress;
     aur_progress_share share;
-    char *identity;          /* where the image is resumable; else NULL */
-    aur_candidate candidate; /* what the image is made of */
+    char *identity;          /* if the image is resumable; else NULL */
+    aur_candidate candidate; /* that renders the image */
     aur_spent others;        /* what the race, rejected candidates and their corrections cost */
     aur_cache_uses uses;     /* of all of them */
     atomic_bool cancelled;
@@ -33,8 +33,8 @@ struct aur_adaptive {
     aur_bias bias[AUR_ERROR_MEASURE_COUNT]; /* of the candidate, by each measure */
 };
 
-/* The integrator as aur_render_options take it; NULL keeps the scene's own. A new text. `open`: nobody has
- * named one, so that the race may. Errors: MEMORY. */
+/* The integrator as aur_render_options take it; NULL: the scene's. A new string. `open`: no integrator is
+ * named, so the race may choose. Errors: MEMORY. */
 aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted, char **integrator,
                                       bool *open, aur_error *error);
 
@@ -44,22 +44,22 @@ double aur_adaptive_bias_room(const aur_adaptive *adaptive);
 aur_goal aur_adaptive_goal(const aur_adaptive *adaptive);
 /* Rays that count besides those of the candidate and its corrections. */
 uint64_t aur_adaptive_other_rays(const aur_adaptive *adaptive);
-/* Rays that are kept for corrections of a candidate with bias, where the target is a number of rays. */
+/* Rays reserved for corrections of a candidate with bias, if the target is a number of rays. */
 uint64_t aur_adaptive_reserve(const aur_adaptive *adaptive);
 /* All that was rendered. */
 aur_spent aur_adaptive_spent(const aur_adaptive *adaptive);
 
-/* A candidate by `integrator`, a new text, in place of the one there is, with corrections by a row of the
- * table that has a bias. Errors: those of aur_render_create. */
+/* Replaces the candidate by one with `integrator`, a new string, and creates corrections if a row of the
+ * table has a bias. Errors: those of aur_render_create. */
 aur_result aur_adaptive_begin(aur_adaptive *adaptive, char *integrator, aur_error *error);
-/* The candidate of a row, from nothing. Errors: those of aur_render_create. */
+/* Starts the candidate of a row. Errors: those of aur_render_create. */
 aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons, aur_error *error);
 /* Runs the race and takes the winner. Errors: CANCELLED, after which it begins again; MEMORY and others. */
 aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error);
 
 /* Computes `bias` from the corrections. */
 void aur_adaptive_bound_bias(aur_adaptive *adaptive);
-/* To be called after each round; `last`: the noise has come to its target. Renders corrections, bounds the
- * bias, and takes the next candidate where it is, or may be, too large: then `again` is true, and rounds
- * begin again. */
+/* Must be called after each round; `last`: the noise target is met. Renders corrections, bounds the bias, and
+ * switches to the next candidate if it is, or may be, too large: then `again` is true, and rounds start
+ * again. */
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error);

@@ -18,7 +18,7 @@ typedef struct bias_sums {
 } bias_sums;
 
 /* The mean over a block's pixels of the differences in each replica: d[replica][channel]. Differences are
- * linear in small errors, and noise is not small: it is made so. */
+ * linear only in small errors, and noise is not small: they are linearised. */
 static void differences_of(const aur_replicas *replicas, size_t first, aur_weighing weighing,
                            const double (*values)[3], size_t count, const size_t *pixels,
                            double d[AUR_REPLICAS_MAX][3]) {

@@ -1,5 +1,5 @@
-/* The bias of final gathering: what its photon map is wrong by in the mean of all maps. The noise of the maps
- * themselves is in the spread of the replicas, for each has its own. */
+/* The bias of final gathering: the error of its photon map in the mean over all maps. The noise of a single
+ * map is in the spread of the replicas, because each has a separate map. */
 #pragma once
 
 #include <stdatomic.h>
@@ -15,12 +15,11 @@ typedef struct aur_bias {
     double of_blocks, of_replicas; /* halves of the interval by what varies: blocks and replicas */
 } aur_bias;
 
-/* Replicas whose channels `first` to `first` + 2 have the bias as their mean; blocks of 4 x 4 pixels without
- * samples are left out. With D_r the mean difference of a block in the r-th replica, the mean of D_r D_s over
- * r != s has the square of the block's bias as its expectation, whatever the noise. The interval is the
- * larger of two: by Student's t over the replicas, of which each in turn is left out (jackknife: right where
- * the bias is larger than the noise, wider than needed where it is smaller), and over the blocks. `values`
- * are the image's. */
+/* Estimates the bias of replicas whose channels `first` to `first` + 2 have it as their mean; blocks of 4 x 4
+ * pixels without samples are excluded. With D_r the mean difference of a block in the r-th replica, the mean
+ * of D_r D_s over r != s has the square of the block's bias as its expectation, for any noise. The interval
+ * is the wider of two. One is Student's t over the replicas by the jackknife (right if the bias is larger
+ * than the noise, too wide if it is smaller); the other is over the blocks. `values` are the image's. */
 aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weighing weighing,
                            const double (*values)[3], double confidence);
 
@@ -28,17 +27,17 @@ aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weigh
  * independent. */
 aur_bias aur_bias_of_both(aur_bias a, aur_bias b);
 
-/* Images of corrections in some blocks of the image: what paths find over what the map has. */
+/* Images of corrections in some blocks of the image: paths' radiance less the map's. */
 typedef struct aur_corrections {
     aur_replicas replicas;
     aur_blocks blocks;
     uint32_t *targets; /* [pixels] */
     uint32_t samples;  /* of a pixel in each replica */
     size_t rendered;   /* blocks */
-    uint64_t steps;    /* how they grew: 1, then a bit for each step, 1 for more samples; 0: none yet */
+    uint64_t steps;    /* history of growth: 1, then a bit for each step, 1 for more samples; 0: none yet */
 } aur_corrections;
 
-/* To be released in every case; zero: there are none. Errors: those of aur_render_create. */
+/* Must be released in every case; zero: there are none. Errors: those of aur_render_create. */
 aur_result aur_corrections_create(aur_renderer *renderer, const aur_render_options *options,
                                   const char *integrator, size_t replica_count, aur_corrections *corrections,
                                   aur_error *error);

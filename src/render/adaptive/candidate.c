@@ -99,8 +99,8 @@ void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum) {
     sum->budget += candidate->alone;
 }
 
-/* The bound for the planning of the next round, whose variances take half the place of those of all before:
- * of what these are above the ones seen now, half is left. */
+/* The bound for planning the next round, where the weight of all earlier variances halves: half of their
+ * excess over the current ones remains. */
 static double bound_expected(const aur_candidate *candidate) {
     const double high = candidate->intervals[candidate->error_measure].high, bound = candidate->bound;
     return bound > high && high > 0.0 ? sqrt(0.5 * (high * high + bound * bound)) : bound;
@@ -117,8 +117,8 @@ static double factor_to_error(const aur_candidate *candidate, double error) {
     return pow(wanted * wanted, 1.0 / candidate->rate);
 }
 
-/* In units of the target error, where rounds lead first: variances from few samples are known too badly to
- * plan for more. */
+/* Initial target of rounds, in units of the target error: variances from few samples are too uncertain to
+ * plan further. */
 static const double FIRST_ERROR = 6.0;
 
 double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal) {
@@ -135,14 +135,14 @@ bool aur_candidate_ends(const aur_candidate *candidate, const aur_goal *goal) {
     return candidate->looked_at && candidate->bound <= FIRST_ERROR * goal->error;
 }
 
-/* The nearest number of whole patterns to a target; or the next one, where `more` is almost a pattern. */
+/* The nearest number of whole patterns to a target; or the next one, if `more` is almost a pattern. */
 static uint32_t whole_patterns(const aur_candidate *candidate, size_t i, size_t more) {
     const size_t pattern = candidate->pattern_samples;
     const size_t rounded = (candidate->targets[i] + more) / pattern * pattern;
     return (uint32_t)fmin(fmax((double)rounded, candidate->earlier[i]), AUR_SAMPLES_PER_PIXEL_MAX);
 }
 
-/* Targets become the nearest numbers of whole patterns; up, where that would leave all as they were. */
+/* Rounds targets to the nearest numbers of whole patterns; up if that would leave all unchanged. */
 static void round_to_patterns(aur_candidate *candidate) {
     size_t more = candidate->pattern_samples / 2;
     bool raised = false;
@@ -159,7 +159,7 @@ bool aur_candidate_is_black(const aur_candidate *candidate) {
     return candidate->rounds > 0 && !(candidate->bound > 0.0) && !(candidate->measure.mean > 0.0);
 }
 
-/* A bound of what lamps make of a value's variance that replicas need not have met yet. */
+/* A bound of the part of a value's variance due to emitters that replicas may not have hit yet. */
 static double visible_variance(const aur_candidate *candidate, size_t i) {
     const size_t pixel = i % candidate->replicas.pixel_count;
     const aur_visible_emitters *const visible = &candidate->visible;
@@ -197,7 +197,7 @@ bool aur_candidate_plan(aur_candidate *candidate, double factor) {
 }
 
 /* The rate at which the square error falls with samples, from the last round: 1 for random numbers, up to 2
- * where quasi-Monte Carlo points do better. Rounds that added little tell little. */
+ * for quasi-Monte Carlo points. Rounds with few samples have little weight. */
 static void learn_rate(aur_candidate *candidate, double earlier_error, double earlier_samples) {
     const double growth = log(candidate->finished / earlier_samples);
     if (!(earlier_error < INFINITY) || growth < log(1.5))
@@ -215,15 +215,15 @@ static double samples_in(const aur_candidate *candidate, const uint32_t *samples
     return sum;
 }
 
-/* Puts a pixel's variance and spread of now together with those of the rounds before, half and half. The
- * spread is that of the variance so made: the square of a sum, whose own squares are told without bias. */
+/* Averages a pixel's current variance and spread with those of the rounds before. The spread must be that of
+ * the averaged variance: the square of a sum, whose squared terms have unbiased estimates. */
 static void pool_pixel(aur_pixel_spread *pool, double before, double variance, double spread) {
     const double earlier = pool->variance * before;
     pool->spread = 0.25 * (pool->spread * before * before + 2.0 * earlier * variance + spread);
     pool->variance = 0.5 * (earlier + variance);
 }
 
-/* What all rounds say of how few pixels have the error. */
+/* Pools the estimates of all rounds of how concentrated the error is on few pixels. */
 static void pool_pixels(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
     double measured = 0.0, pooled = 0.0;
@@ -247,10 +247,10 @@ static void pool_pixels(aur_candidate *candidate) {
                         candidate->pixels);
 }
 
-/* Puts what the last round says of the variances together with what the rounds before led to expect. A
- * variance seen in a few replicas has few degrees of freedom: where they agree by chance now, they did not
- * always. The bound is the interval's end where the rounds before told of more error, or lamps may that were
- * not met. */
+/* Combines the last round's variances with the prediction from the rounds before. A variance from a few
+ * replicas has few degrees of freedom: they may agree by chance in this round but did not in earlier ones.
+ * The bound is the end of the interval if the earlier rounds showed more error, or emitters may have been
+ * missed. */
 static void pool_variances(aur_candidate *candidate) {
     double measured = 0.0, pooled = 0.0, visible = 0.0;
     for (size_t i = 0; i < candidate->value_count; ++i) {
@@ -261,7 +261,7 @@ static void pool_variances(aur_candidate *candidate) {
         pooled += candidate->variances[i];
         visible += lamps;
     }
-    const double count = (double)candidate->replicas.count; /* each replica has one part of the mean */
+    const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))
         candidate->bound = visible > 0.0 ? INFINITY : 0.0;
     else if (measured > 0.0)
@@ -298,7 +298,7 @@ void aur_candidate_look(aur_candidate *candidate) {
                      candidate->values + candidate->replicas.pixel_count);
 }
 
-/* By all measures; by the one whose error is to be small last, so that what is stored is its. */
+/* By all measures, the target's last, so that its results remain stored. */
 static void measure(aur_candidate *candidate, double confidence) {
     const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
     aur_candidate_look(candidate);
@@ -310,8 +310,8 @@ static void measure(aur_candidate *candidate, double confidence) {
     }
 }
 
-/* Variances of single samples become those of the replicas' values, averaged over what gets samples together.
- */
+/* Converts variances of single samples to those of the replicas' values, averaged over units that get samples
+ * together. */
 static void smooth(aur_candidate *candidate) {
     const aur_replicas *const replicas = &candidate->replicas;
     const bool tiles = aur_render_integrator(replicas->renders[0])->whole_tiles;

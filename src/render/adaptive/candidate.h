@@ -1,5 +1,4 @@
-/* One way to render an image, tried out or gone through with: replicas by one integrator, and what their
- * samples say so far. */
+/* A candidate for rendering an image: replicas by one integrator, and estimates from their samples so far. */
 #pragma once
 
 #include <stdatomic.h>
@@ -11,7 +10,7 @@
 #include "render/vertex/visible_emitters.h"
 
 typedef struct aur_candidate {
-    char *integrator; /* as aur_render_options take it; NULL: the scene's own */
+    char *integrator; /* as aur_render_options take it; NULL: the scene's */
     aur_replicas replicas;
     size_t value_count; /* replicas x pixels */
     uint32_t *targets;  /* [value_count] samples of each replica's pixels after the round planned last */
@@ -23,21 +22,21 @@ typedef struct aur_candidate {
     double *scratch;              /* [2 x pixel_count] */
     aur_visible_emitters visible; /* where the integrator shows them */
     double (*values)[3];          /* [2 x pixel_count] R, G, B of the mean, and these smoothed */
-    aur_error_weight *weights;    /* [pixel_count] of the measure whose error is to be small */
+    aur_error_weight *weights;    /* [pixel_count] of the target's measure */
     aur_error_measure error_measure;
     aur_replica_measure measure;
     aur_error_interval intervals[AUR_ERROR_MEASURE_COUNT];
-    double bound;           /* of the error, by the rounds before and for lamps not met yet: at least the
-                               interval's upper end */
-    double pooled;          /* the sum of variances as all rounds tell it over that of the last one */
-    double rate;            /* the error's square falls as samples^-rate */
-    double finished;        /* samples per pixel of all replicas after the last whole round */
-    double rays_before;     /* of the samples before the round that is planned or rendered */
-    double rays_planned;    /* of that round, where samples cost what the ones before did */
-    size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
+    double bound; /* of the error, from earlier rounds and emitters not hit yet: at least the interval's upper
+                     end */
+    double pooled;       /* the sum of variances pooled over all rounds, relative to that of the last one */
+    double rate;         /* the error's square falls as samples^-rate */
+    double finished;     /* samples per pixel of all replicas after the last complete round */
+    double rays_before;  /* of the samples before the round that is planned or rendered */
+    double rays_planned; /* predicted for that round at the cost per sample of earlier ones */
+    size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole patterns */
     uint64_t rounds;
     uint64_t traced; /* rays that prepared it */
-    uint64_t shared; /* what it shares with other candidates took so many, for whichever was first */
+    uint64_t shared; /* cost of data shared with other candidates, whichever created it */
     uint64_t alone;  /* and what it does not share */
     bool begun;      /* a round is planned and not all rendered */
     bool looked_at;  /* the round planned last leads to the target, and may be the last of all */
@@ -51,12 +50,12 @@ aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options
                                 aur_error *error);
 void aur_candidate_release(aur_candidate *candidate);
 
-/* Adds what a candidate has cost, which may not have been created. */
+/* Adds the cost of a candidate, which may not have been created. */
 void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
 /* Computes `values` from the films, as each round does. */
 void aur_candidate_look(aur_candidate *candidate);
-/* Sets `weights` to those of a measure, by the values of the last round. */
+/* Sets `weights` to those of a measure, from the values of the last round. */
 void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
 
 /* Stopping target; all zero: none. */
@@ -76,26 +75,26 @@ double aur_candidate_factor(const aur_candidate *candidate, const aur_goal *goal
 /* The round planned last leads to the error of the goal, and is seldom followed by another. */
 bool aur_candidate_ends(const aur_candidate *candidate, const aur_goal *goal);
 
-/* No sample has met light, and none that the camera sees is known of. */
+/* No sample has hit light, and no visible emitter is known. */
 bool aur_candidate_is_black(const aur_candidate *candidate);
 
-/* Plans the samples of a round; the first is one pattern per pixel. Where more than one is needed to the
- * factor, all grow alike, so that the last one is not a small one that sees nearly what the one before has
- * seen. False when all pixels have all that they can have. */
+/* Plans the samples of a round; the first is one pattern per pixel. If more than one round is needed for the
+ * factor, all grow equally, so that the last is not a small one that nearly repeats the one before. False if
+ * all pixels have their maximum. */
 bool aur_candidate_plan(aur_candidate *candidate, double factor);
-/* Renders what is planned. Errors: CANCELLED, after which another call goes on with the round. */
+/* Renders the planned round. Errors: CANCELLED, after which another call continues the round. */
 aur_result aur_candidate_render(aur_candidate *candidate, double confidence, const atomic_bool *cancelled,
                                 aur_error *error);
 
-/* How many samples each pixel of an image is to have next. */
+/* Allocation of the next samples to pixels. */
 
 enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
 
-/* `variances` of the pixels with `targets` samples each: what one more sample would bring falls as variance /
- * samples^2. Raises the targets to whole numbers so that the sum of the variances falls to `factor` in (0,1)
- * of what it is, at the least cost (samples in proportion to the root of a pixel's variance for one sample;
- * Lagrange), but no pixel more than AUR_MOST_GROWTH times in one round, because a variance seen in few
- * samples is only roughly known; and all of them to a quarter of the mean at least, and to half of it up to
- * 32 samples. False when no target was raised: all pixels have `most` samples or no variance. */
+/* `variances` of the pixels with `targets` samples each; one more sample reduces a variance by variance /
+ * samples^2. Raises the targets to whole numbers so that the sum of the variances falls by `factor` in (0,1)
+ * at the least cost: samples in proportion to the root of a pixel's variance of one sample (Lagrange). No
+ * pixel grows more than AUR_MOST_GROWTH times in one round, because a variance from few samples is uncertain.
+ * All pixels get at least a quarter of the mean, and half of it up to 32 samples. False if no target was
+ * raised: all pixels have `most` samples or no variance. */
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);

@@ -11,11 +11,12 @@
 
 /* Of the target error, what bias may be: its square leaves three quarters to the noise. */
 static const double BIAS_PART = 0.5;
-/* Of the candidate's rays, what corrections take while rounds go on; and of a number of rays. */
+/* The rays of corrections during the rounds, relative to the candidate's; and relative to a budget of rays.
+ */
 static const double CORRECTIONS_PART = 0.05;
 enum { COLOURS = 3 };
 
-/* Integrators whose image is not radiance of all paths: another one would make another image. */
+/* Integrators whose image is not the radiance of all paths: another integrator would give another image. */
 static bool has_its_own_image(const char *name) {
     static const char *const names[] = {"ao", "direct", "radiosity", "depth", "aov"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
@@ -118,7 +119,7 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
     memset(adaptive->bias, 0, sizeof adaptive->bias);
     if (text == NULL)
         return aur_fail_memory(error);
-    adaptive->open = true; /* nothing is saved while replicas and their maps are made */
+    adaptive->open = true; /* nothing is saved while replicas and their maps are created */
     const aur_result result = aur_adaptive_begin(adaptive, text, error);
     adaptive->open = result != AUR_OK;
     return result != AUR_ERROR_MEMORY
@@ -128,7 +129,7 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
                           adaptive->candidate.integrator, adaptive->path);
 }
 
-/* Goes on with the candidate at `place` in the race's order. */
+/* Continues with the candidate at position `place` in the race's order. */
 static aur_result take_place(aur_adaptive *adaptive, size_t place, aur_error *error) {
     const aur_race *const race = &adaptive->race;
     const size_t row = race->order[place];
@@ -161,14 +162,14 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
     const aur_result result = aur_race_run(race, error);
     adaptive->races = false;
     aur_cache_count(cache, before);
-    adaptive->others = race->spent; /* also of one that was interrupted */
+    adaptive->others = race->spent; /* including an interrupted race */
     aur_race_release(race);
     return result == AUR_OK ? take_place(adaptive, 0, error) : result;
 }
 
 /* --- bias */
 
-/* By all measures; what neighbours share adds a bias of its own. */
+/* By all measures; irradiance shared by neighbours adds a separate bias. */
 void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
     aur_candidate *const candidate = &adaptive->candidate;
     const double confidence = adaptive->target.confidence;
@@ -187,7 +188,7 @@ void aur_adaptive_bound_bias(aur_adaptive *adaptive) {
     }
 }
 
-/* More blocks where these vary most, else more samples. */
+/* Adds blocks where the differences between them dominate, else samples. */
 static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     aur_corrections *const corrections = &adaptive->corrections;
     const aur_bias *const bias = &adaptive->bias[adaptive->target.measure];
@@ -198,8 +199,8 @@ static aur_result correct(aur_adaptive *adaptive, aur_error *error) {
     return result;
 }
 
-/* The rays at which more corrections are not worth it: a part of the candidate's; and in the end, half of
- * those of path tracing, or as many as the image has where these are not known. */
+/* The most rays for which corrections are worthwhile: a fraction of the candidate's; at the end, half of
+ * those of path tracing, or as many as the image's if these are not known. */
 static double most_corrections(const aur_adaptive *adaptive, bool last) {
     const double rays = aur_replicas_rays(&adaptive->candidate.replicas);
     if (last)

@@ -19,13 +19,14 @@ enum {
 /* Of the work that the best candidate needs, what the race may take; and the first blocks of all candidates.
  */
 static const double PART = 0.05, FIRST_PART = 0.1;
-/* A candidate is dropped that is worse than the best in so many resamplings of the blocks. */
+/* A candidate is dropped if it is worse than the best in this fraction of the bootstrap resamplings of the
+ * blocks. */
 static const double CONFIDENCE = 0.95;
 /* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
 static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
 /* The shortest time in which a race is worth it: it takes tenths of a second. */
 static const double LEAST_SECONDS = 2.0;
-/* Samples of a pixel that a replica of each row renders: whole patterns. */
+/* Samples per pixel that a replica of each row renders: whole patterns. */
 static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4};
 
 static void say(aur_race_entry *entry, bool out, const char *reason) {
@@ -67,12 +68,12 @@ static aur_result copy_values(const aur_race *race, const aur_replicas *replicas
     return AUR_OK;
 }
 
-/* Films whose pixels share samples give cells alone, to all candidates alike. */
+/* Films whose pixels share samples have separate cells, for all candidates equally. */
 static bool reads_neighbours(size_t row, const aur_replicas *replicas) {
     return row == AUR_RACE_SHARED && aur_render_film(replicas->renders[0])->layout.cell == 0;
 }
 
-/* Of a block's pixels, and of those that are at most `border` away from it. */
+/* Sets targets for a block's pixels, and for those that are at most `border` away from it. */
 static void set_targets(const aur_race *race, size_t block, size_t border, uint32_t samples,
                         uint32_t *targets) {
     size_t pixels[PIXELS];
@@ -84,7 +85,7 @@ static void set_targets(const aur_race *race, size_t block, size_t border, uint3
             targets[j * race->width + i] = samples;
 }
 
-/* Renders the blocks from those that the candidate has up to `count`. */
+/* Renders the blocks from the candidate's current number up to `count`. */
 static aur_result render_blocks(aur_race *race, size_t row, size_t count, aur_error *error) {
     aur_race_entry *const entry = &race->entries[row];
     char *const text =
@@ -143,7 +144,7 @@ static void mean_of_blocks(const aur_race *race, size_t blocks, double (*means)[
     }
 }
 
-/* The root of the mean over a block's pixels of the variance of one sample. */
+/* The root of the mean variance of one sample over a block's pixels. */
 static double root_variance(const aur_race *race, size_t row, size_t block, const aur_error_weight *weight) {
     size_t pixels[PIXELS];
     const size_t pixel_count = pixels_of(race, block, pixels);
@@ -167,7 +168,7 @@ static double price(const aur_race_entry *entry, size_t row) {
     return entry->rays / entry->samples * (row == AUR_RACE_PATH ? 1.0 : GATHER_PRICE);
 }
 
-/* Of a whole pattern in each pixel and replica, and the smallest maps. */
+/* The work of a whole pattern in each pixel and replica, and of the smallest maps. */
 static double least_work(const aur_race *race, size_t row) {
     static const double patterns[AUR_RACE_ROWS] = {1.0, 1.0, 4.0, 4.0, 4.0};
     const aur_race_entry *const entry = &race->entries[row];
@@ -176,9 +177,9 @@ static double least_work(const aur_race *race, size_t row) {
     return entry->rays / entry->samples * patterns[row] * pixels + map;
 }
 
-/* The work to the target where samples are spent in proportion to roots of variances (Neyman 1934), and that
- * of the photons of gathers. Without a target the error does not matter, for candidates are compared alone.
- */
+/* The work to reach the target if samples are allocated in proportion to roots of variances (Neyman 1934),
+ * plus that of the photons of gathering. Without a target the error does not matter, because candidates are
+ * only compared. */
 static double work_of(const aur_race *race, size_t row, double mean_root) {
     const double error = race->error > 0.0 ? race->error : 1.0;
     const double work = mean_root * mean_root / (3.0 * error * error) * price(&race->entries[row], row) *
@@ -251,7 +252,7 @@ static size_t drop(aur_race *race, size_t blocks, size_t best) {
 
 /* --- the race */
 
-/* What the request takes, as far as is known: by the best candidate, or all of its budget. */
+/* The predicted work of the request: that of the best candidate, or its budget. */
 static double whole_work(const aur_race *race, size_t best) {
     const double most = race->budget > 0.0 ? race->budget : INFINITY;
     if (race->error > 0.0)
@@ -270,15 +271,16 @@ static double spent_work(const aur_race *race) {
     return work;
 }
 
-/* The first rung of a row, as that of the middle one took; a neighbour's border doubles a block. */
+/* The cost of the first rung of a row, predicted from the middle one's; a border of neighbours doubles a
+ * block. */
 static double first_rung(const aur_race *race, size_t row) {
     const aur_race_entry *const middle = &race->entries[AUR_RACE_MIDDLE];
     const double border = row == AUR_RACE_SHARED ? 2.0 : 1.0;
     return border * middle->rays * (double)samples_of[row] / (double)samples_of[AUR_RACE_MIDDLE];
 }
 
-/* Other rows render the first blocks, those that differ most first, while their work is small next to that of
- * the image. */
+/* Renders the first blocks with other rows, those most different first, while their work is small next to the
+ * image's. */
 static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
     static const size_t others[] = {AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_LONG, AUR_RACE_LIGHTS};
     const double most = FIRST_PART * whole_work(race, AUR_RACE_MIDDLE);
@@ -295,7 +297,7 @@ static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
     return result;
 }
 
-/* Rungs of twice as many blocks each, until one candidate is left or the next one costs too much. */
+/* Rungs of twice as many blocks each, until one candidate is left or the next rung costs too much. */
 static aur_result run_rungs(aur_race *race, size_t blocks, aur_error *error) {
     for (;;) {
         aur_result result = measure(race, blocks, error);
@@ -327,8 +329,8 @@ static int by_need(const aur_race_entry *a, const aur_race_entry *b) {
     return (a->out && !b->out) || (a->out == b->out && a->need > b->need);
 }
 
-/* Candidates that were measured by what they need, those that were not dropped first; path tracing in any
- * case, last where it was not measured, for it has no bias. */
+/* Sorts the measured candidates by predicted work, those not dropped first. Path tracing is always included,
+ * last if it was not measured, because it has no bias. */
 static void sort(aur_race *race) {
     race->order_count = 0;
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i) {

@@ -1,6 +1,6 @@
-/* The race: which integrator needs least work for a target error. Candidates render the same blocks of 4 x 4
- * pixels of the final image; those that are worse are dropped, and the number of blocks doubles, until one is
- * left or more blocks would cost more than they can save. */
+/* The race: which integrator needs the least work for a target error. Candidates render the same blocks of 4
+ * x 4 pixels of the final image. Worse ones are dropped, and the number of blocks doubles, until one is left
+ * or more blocks would cost more than they can save. */
 #pragma once
 
 #include <aureole-render/adaptive.h>
@@ -8,26 +8,27 @@
 #include "render/adaptive/replicas.h"
 #include "render/film/blocks.h"
 
-/* The rows of the table of candidates: path tracing first, and the one that is taken without a race. */
+/* The rows of the table of candidates: path tracing, and the one that is used without a race. */
 enum { AUR_RACE_PATH, AUR_RACE_SHARED, AUR_RACE_MIDDLE, AUR_RACE_LIGHTS, AUR_RACE_LONG, AUR_RACE_ROWS };
 
-/* How a candidate is rendered: an integrator's text, allocated with malloc; NULL: out of memory. `path` is
- * "path[:key=value...]", whose keys go on. Each replica has its own photons, or with a `seed` other than 0
- * all have one map. */
+/* A candidate's integrator with its keys, allocated with malloc; NULL: out of memory. `path` is
+ * "path[:key=value...]", whose keys are passed on. Each replica has separate photons; with a `seed` other
+ * than 0 all share one map. */
 char *aur_race_integrator(size_t row, const char *path, size_t photons, uint64_t seed);
-/* What paths find at the ends of its gather rays over what the photon map has there; not for path tracing. */
+/* The integrator of a correction: paths' radiance at the ends of gather rays less the photon map's; not for
+ * path tracing. */
 char *aur_race_correction(size_t row, const char *path, size_t photons);
 const char *aur_race_name(size_t row);
 
 /* Photons of a replica's map that cost this part of so much work. */
 #define AUR_RACE_MAP_PART 0.25
 size_t aur_race_photons(double work, size_t replica_count);
-/* The work of tracing so many photons, in rays; and of the smallest maps of all replicas. */
+/* The work of tracing `photons` photons, in rays; and of the smallest maps of all replicas. */
 double aur_photon_work(size_t photons);
 double aur_race_least_map(size_t replica_count);
 
 typedef struct aur_race_entry {
-    size_t blocks;   /* that it has rendered */
+    size_t blocks;   /* rendered so far */
     float *values;   /* [blocks][16 pixels][replicas][3] */
     double *roots;   /* [blocks] of the mean variance of a sample */
     double rays;     /* all that it took, without photons */
@@ -44,18 +45,18 @@ typedef struct aur_race {
     size_t width, height;              /* of the film */
     size_t replica_count;
     aur_error_measure measure;
-    double error;   /* target of the noise and the bias; 0: none */
+    double error;   /* target of noise and bias; 0: none */
     double budget;  /* rays of the request; 0: none */
     double seconds; /* of the request; 0: none */
     const atomic_bool *cancelled;
     aur_blocks blocks;
     aur_race_entry entries[AUR_RACE_ROWS];
-    size_t order[AUR_RACE_ROWS]; /* candidates that were measured, best first; path is always among them */
+    size_t order[AUR_RACE_ROWS]; /* measured candidates, best first; always includes path */
     size_t order_count;
     aur_spent spent;
 } aur_race;
 
-/* Fills entries, order and spent. To be released in every case, after which these are still there. Errors:
- * CANCELLED, MEMORY, and those of rendering by path tracing. */
+/* Fills entries, order and spent. Must be released in every case, which preserves these. Errors: CANCELLED,
+ * MEMORY, and those of rendering by path tracing. */
 aur_result aur_race_run(aur_race *race, aur_error *error);
 void aur_race_release(aur_race *race);

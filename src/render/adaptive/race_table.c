@@ -6,12 +6,12 @@
 
 #include "points/base/text.h"
 
-/* Tracing and sorting a photon takes the time of so many rays. */
+/* The work of tracing and sorting one photon, in rays. */
 static const double RAYS_PER_PHOTON = 2.5;
 enum { LEAST_PHOTONS = 50000, MOST_PHOTONS = 2000000 }; /* of a replica's map */
 
-/* Path tracing; final gathering by 8 directions that neighbours share; by 32, with 4 and with 16 points on
- * lights; and without short rays. A correction has `keys` alone: nothing is shared there. */
+/* Path tracing; final gathering by 8 directions shared with neighbours; by 32, with 4 and with 16 light
+ * samples; and without short rays. A correction has only `keys`: nothing is shared. */
 typedef struct race_row {
     const char *name, *keys, *more;
 } race_row;

@@ -22,7 +22,7 @@ aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options 
         const aur_result result = aur_render_create(renderer, &own, &replicas->renders[r], error);
         if (result != AUR_OK)
             return result;
-        own.warnings = (aur_warnings){0}; /* the first has said it */
+        own.warnings = (aur_warnings){0}; /* the first replica has given them */
         replicas->count = r + 1;
     }
     replicas->pixel_count = aur_film_pixel_count(aur_render_film(replicas->renders[0]));
@@ -97,9 +97,9 @@ void aur_replicas_mean(const aur_replicas *replicas, double (*values)[3]) {
             values[i][c] = deviations_at(replicas, i, c, deviations);
 }
 
-/* The replicas' deviations d[channel][replica] from `mean` become those of a pixel's differences. Where these
- * are not linear, they are the differences to the means of the other replicas (jackknife, Efron and Stein
- * 1981), scaled back: longer steps overestimate the error of skewed values. */
+/* Converts the replicas' deviations d[channel][replica] from `mean` to those of a pixel's differences.
+ * Nonlinear differences are taken to the means of the other replicas (jackknife, Efron and Stein 1981) and
+ * scaled back: longer steps overestimate the error of skewed values. */
 void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const double mean[3],
                         double d[3][AUR_REPLICAS_MAX]) {
     const double part = 1.0 / (double)(count - 1);
@@ -120,10 +120,10 @@ void aur_replicas_weigh(size_t count, aur_weighing weighing, size_t pixel, const
             d[c][r] -= sums[c] / (double)count;
 }
 
-/* Correlation between pixels is seen within blocks of so many pixels a side. */
+/* Correlation between pixels is estimated within blocks of this side. */
 enum { BLOCK = 8 };
 
-/* The pixels of a film that lie in a cell of a grid over the whole image. */
+/* The pixels of a film within a cell of a grid over the whole image. */
 typedef struct pixel_range {
     size_t x0, x1, y0, y1; /* from the film's corner on */
 } pixel_range;
@@ -136,9 +136,9 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t side, size_t co
                          .y1 = (y + side < layout->y1 ? y + side : layout->y1) - layout->y0};
 }
 
-/* Adds to each replica's variance of one sample of a pixel what a channel's deviations of the others from
- * their own mean say: their sum of squares is that about the mean of all without the replica's part, and has
- * count - 2 degrees. `shares` are one over the replicas' samples, whose sum follows them. */
+/* Adds to each replica's variance of one sample of a pixel the estimate from the other replicas' deviations
+ * of a channel from their mean. Their sum of squares is the one about the mean of all, without the replica's
+ * part, and has count - 2 degrees. `shares` are one over the replicas' samples. */
 static void add_variances(const aur_replicas *replicas, size_t pixel, const double *shares,
                           const double *deviations, double *variances) {
     const double others = (double)(replicas->count - 1);
@@ -189,8 +189,8 @@ static double product_of(const colour_covariance *a, const colour_covariance *b)
     return sum;
 }
 
-/* tr C^2 of a block's pixels as their neighbours tell it: C_i and C_j are seen independently, so the
- * product's expectation is tr C_i C_j, which in the mean is at most that of the squares. */
+/* tr C^2 of a block's pixels, estimated from their neighbours. C_i and C_j are estimated independently, so
+ * the expectation of the product is tr C_i C_j, which on average is at most that of the squares. */
 static double alike_in(size_t count, pixel_range block, const colour_covariance *covariances) {
     const size_t width = block.x1 - block.x0, height = block.y1 - block.y0;
     const double degrees = (double)(count - 1);
@@ -256,7 +256,7 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_weighing weighing, a
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 
-/* Adds to `own` `part` of the mean of `values` over the pixels at most `reach` away. */
+/* Adds `part` of the mean of `values` over the pixels at most `reach` away to `own`. */
 static void add_means_about(size_t width, size_t height, const double *values, size_t reach, double part,
                             double *rows, double *own) {
     for (size_t i = 0; i < width * height; ++i) {
@@ -276,8 +276,8 @@ static void add_means_about(size_t width, size_t height, const double *values, s
     }
 }
 
-/* A sixteenth of the weight lies on more pixels, so that none is left alone because its first samples and
- * those of its neighbours agreed by chance. */
+/* A sixteenth of the weight is spread over more pixels, so that no pixel is neglected because its first
+ * samples and those of its neighbours agreed by chance. */
 void aur_replicas_smooth(const aur_replicas *replicas, double *variances, double *scratch) {
     enum { NEAR = 1, FAR = 4 };
     const double far_part = 1.0 / 16;
@@ -335,7 +335,7 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, size_t first, size
                                 aur_image **image, aur_error *error) {
     static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"},
                              *const taken[] = {AUR_CLAMPED_CHANNEL, "clamped.G", "clamped.B"};
-    if (replicas->pixel_count == 0) /* they are being made */
+    if (replicas->pixel_count == 0) /* while they are being created */
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no image yet");
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t own = errors ? 6 : 3, channels = own + (aur_replicas_clamp(replicas) ? 3 : 0);

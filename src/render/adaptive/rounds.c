@@ -2,16 +2,16 @@
 
 #include <math.h>
 
-/* The samples of a pixel where one more would save as much as it costs, which is worth the more the less is
- * paid: in proportion to `spending`, one over the root of the price. */
+/* The number of samples of a pixel at which one more saves as much variance as it costs; `spending` is one
+ * over the root of the price. */
 static double samples_at(double spending, double variance, uint32_t samples) {
     return fmax(spending * sqrt(variance * samples), samples);
 }
 
-/* The spending at which the sum of variances becomes `factor` of what it is. Samples over those of now leave
- * the lesser of a variance and root(variance x targets) / spending, so that the sum is concave in one over
- * the spending, with a corner for each pixel: Newton's steps from 0 on stay below the solution and end there,
- * when no pixel passes its corner any more. */
+/* The spending at which the sum of variances becomes `factor` of the current one. Targets above the current
+ * samples change a variance to min(variance, root(variance x targets) / spending). So the sum is concave in
+ * one over the spending, with a corner for each pixel. Newton's steps from 0 stay below the solution and end
+ * there, when no pixel passes its corner any more. */
 static double spending_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
     double wanted = 0.0;
     for (size_t i = 0; i < count; ++i)
@@ -33,10 +33,10 @@ static double spending_to(size_t count, const double *variances, double factor, 
     return 1.0 / slack;
 }
 
-/* No pixel is left with less than a quarter of the mean of all, nor with less than half of it before it has
- * 32 samples: one whose first samples agreed by chance, as those of few directions from a dim place do, would
- * stay as it is, and so would all about it; and one in which none has met a lamp that covers a thirtieth of
- * it shows no variance at all. It costs at most that part more, where most pixels have no variance. */
+/* Every pixel gets at least a quarter of the mean, and half of it before it has 32 samples. Otherwise a pixel
+ * whose first samples agreed by chance, such as those of few directions from a dim point, would never get
+ * more, nor would its neighbours; and one whose samples have all missed an emitter covering a thirtieth of it
+ * shows no variance. The cost is at most that part more, if most pixels have no variance. */
 static bool raise_least(size_t count, uint32_t *targets) {
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
