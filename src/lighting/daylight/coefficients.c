@@ -72,7 +72,7 @@ void aur_coefficient_trace_release(aur_coefficient_trace *trace) {
     free(trace->path.classes);
 }
 
-/* Sixteen rays to the disk of the sun: uniform by solid angle. */
+/* Sixteen rays to the sun's disk, uniform by solid angle. */
 static void set_rays(aur_packet *packet, const aur_sensor_point *place, const double center[3],
                      uint64_t hash) {
     static const double RISE = 1.0816e-5; /* 1 - cosine of .2665 degrees */
@@ -93,7 +93,7 @@ static void set_rays(aur_packet *packet, const aur_sensor_point *place, const do
     }
 }
 
-/* What panes leave of a ray that something stops. */
+/* The transmittance through panes of a ray that another surface blocks. */
 static double passed(const aur_path_group *group, size_t lane, const aur_coefficients *coefficients) {
     double left[3];
     aur_vector_to_doubles(aur_path_group_passed(group, lane, INFINITY, 0), left);

@@ -1,4 +1,4 @@
-/* A year at all sensors: coefficients of each, times the radiances of the hours. */
+/* A year at all sensors: the coefficients of each sensor times the radiances of each hour. */
 #include <aureole-lighting/daylight.h>
 #include <aureole/statistics.h>
 #include <math.h>
@@ -17,8 +17,8 @@ typedef struct work {
     const aur_weather_view *weather;
     aur_coefficient_trace trace;
     aur_lit_hours lit;
-    double *overcast; /* radiance of the patches for one lux outside */
-    double *series;   /* NULL: not asked for */
+    double *overcast; /* radiance of the patches per lux outside */
+    double *series;   /* NULL: not requested */
     aur_daylight *results;
 } work;
 
@@ -92,7 +92,7 @@ aur_result aur_daylight_options_read(const aur_daylight_options *given, aur_dayl
 
 /* --- one sensor */
 
-/* What a thread needs for one sensor after the other. */
+/* Buffers of one thread, reused for each sensor. */
 typedef struct room {
     double *memory;
     aur_coefficients coefficients;
@@ -171,7 +171,7 @@ static void estimate_sensor(const work *w, aur_path_group *group, const room *r,
         keep_series(w, sensor, r->all);
 }
 
-enum { BLOCK = 4 }; /* sensors of a piece of work */
+enum { BLOCK = 4 }; /* sensors per task */
 
 static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;

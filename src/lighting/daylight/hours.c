@@ -38,9 +38,9 @@ double aur_precipitable_water(double dew_point) {
     return isnan(dew_point) ? 2.0 : exp(0.07 * dew_point - 0.075);
 }
 
-/* An hour on its way to light: irradiances of the sky and the sun. */
+/* An hour while it is converted to light: irradiances of the sky and the sun. */
 typedef struct hour_sky {
-    bool up; /* the sun */
+    bool up; /* the sun is above the horizon */
     double distance;
     double direct, diffuse; /* W/m^2, then lux */
     aur_sky_model model;
@@ -51,8 +51,8 @@ typedef struct work {
     const aur_daylight_options *options;
     const aur_sky_patches *patches;
     aur_lit_hours *lit;
-    hour_sky *skies; /* of lit hours */
-    bool *odd;       /* the model has no light */
+    hour_sky *skies; /* of the lit hours */
+    bool *odd;       /* the model gives no light */
 } work;
 
 static aur_location place_of(const aur_weather_view *weather, size_t hour) {
@@ -61,14 +61,14 @@ static aur_location place_of(const aur_weather_view *weather, size_t hour) {
 
 /* --- the sun */
 
-/* Years that the algorithm does not know, and those of days that they do not have, are like 2001 or 2004. */
+/* Years outside the algorithm's range, and years without the weather's days, are replaced by 2001 or 2004. */
 bool aur_weather_days(const aur_weather_hour *hour, double *days) {
     const unsigned month = (unsigned)hour->month, day = (unsigned)hour->day;
     return aur_days_since_2000(hour->year, month, day, days) ||
            aur_days_since_2000(month == 2 && day == 29 ? 2004 : 2001, month, day, days);
 }
 
-/* In the middle of that part of the hour in which it is up. */
+/* At the middle of the part of the hour with the sun above the horizon. */
 static bool place_sun(const aur_weather_view *weather, const aur_weather_hour *hour, hour_sky *sky,
                       double sun[3]) {
     enum { PIECES = 12 };
@@ -93,12 +93,12 @@ static bool place_sun(const aur_weather_view *weather, const aur_weather_hour *h
 
 /* --- irradiances */
 
-/* Of global, direct and diffuse irradiance two tell the third. False: the hour is not known. */
+/* Any two of global, direct and diffuse irradiance determine the third. False: the hour is missing. */
 static bool find_irradiances(const aur_weather_hour *hour, double height, hour_sky *sky) {
     const double all = hour->global_horizontal;
     sky->direct = hour->direct_normal;
     sky->diffuse = hour->diffuse_horizontal;
-    if (!sky->up) { /* what is not known of a night is dark */
+    if (!sky->up) { /* missing values at night are 0 */
         sky->direct = 0.0;
         sky->diffuse = isnan(sky->diffuse) ? 0.0 : sky->diffuse;
         return true;
@@ -110,7 +110,7 @@ static bool find_irradiances(const aur_weather_hour *hour, double height, hour_s
     return !isnan(sky->diffuse) && !isnan(sky->direct);
 }
 
-/* The model of the sky, and irradiances as illuminances. */
+/* Computes the sky model, and illuminances from irradiances. */
 static void find_sky(const work *w, const aur_weather_hour *hour, const double sun[3], hour_sky *sky) {
     const bool constant = w->options->efficacy != AUR_EFFICACY_PEREZ;
     const double lumens = w->options->efficacy == AUR_EFFICACY_NONE ? 1.0 : 179.0;
@@ -177,7 +177,7 @@ static aur_result find_hours(work *w, aur_error *error) {
     return AUR_OK;
 }
 
-/* The radiances of one block of hours. */
+/* Computes the radiances of one block of hours. */
 static aur_result fill_block(void *context, size_t index) {
     const work *const w = context;
     const size_t patches = w->patches->count;

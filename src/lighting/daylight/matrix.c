@@ -1,4 +1,5 @@
-/* Daylight coefficients of all sensors as a matrix, for programs that multiply them by skies themselves. */
+/* Writes the daylight coefficients of all sensors as a matrix, for programs that multiply them by sky
+ * vectors. */
 #include <aureole-lighting/daylight.h>
 #include <aureole/statistics.h>
 #include <aureole/text.h>
@@ -94,7 +95,7 @@ aur_result aur_daylight_coefficients(const aur_scene *scene, const aur_sensors_v
         result = aur_sensors_check(&sensors, AUR_ERROR_ARGUMENT, error);
     if (result != AUR_OK)
         return result;
-    options.ground_albedo = 1.0; /* its patch is traced whatever it reflects */
+    options.ground_albedo = 1.0; /* the ground patch is traced for any reflectance */
     work w = {.options = &options, .sensors = &sensors, .coefficients = coefficients, .errors = errors};
     result = aur_coefficient_trace_create(scene, &options, &w.trace, error);
     w.looks = calloc(sensors.count, sizeof *w.looks);
@@ -111,7 +112,7 @@ aur_result aur_daylight_coefficients(const aur_scene *scene, const aur_sensors_v
     return result;
 }
 
-/* Radiance's matrices are rows of r, g, b, as floats in the order of this machine's bytes. */
+/* Radiance matrices are rows of r, g, b as floats in native byte order. */
 static void write_radiance(size_t sensors, size_t patches, const double *coefficients, FILE *stream) {
     fprintf(stream, "#?RADIANCE\nNROWS=%zu\nNCOLS=%zu\nNCOMP=%d\nBigEndian=%d\nFORMAT=float\n\n", sensors,
             patches, CHANNELS, __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__);

@@ -8,7 +8,7 @@ enum { LANES = AUR_DAYLIGHT_LANES, MEASURES = AUR_DAYLIGHT_MEASURES };
 
 static const double SUNLIT = 1000.0; /* lux: IES LM-83-12 */
 
-/* The measures of one series. Hours without light are below everything. */
+/* The measures of one randomisation. Hours without light are below all thresholds. */
 static void measure(const aur_lit_hours *lit, const aur_daylight_options *options, const double *lux,
                     const double *sun, double overcast, double *values) {
     size_t enough = 0, useful = 0, above = 0, sunny = 0;
@@ -35,7 +35,7 @@ static void measure(const aur_lit_hours *lit, const aur_daylight_options *option
     values[AUR_DAYLIGHT_ANNUAL] = sum;
 }
 
-/* The mean of the randomisations but `left_out`, or of all. */
+/* The mean of the randomisations without `left_out`, or of all. */
 static double mean_without(const double *lanes, size_t left_out) {
     double sum = 0.0;
     for (size_t k = 0; k < LANES; ++k)
@@ -55,7 +55,7 @@ void aur_daylight_measure_year(const aur_lit_hours *lit, const aur_daylight_opti
         measure(lit, options, lux, sun, mean_without(year->overcast, r), values[r]);
     }
     for (size_t m = 0; m < MEASURES; ++m) {
-        /* From the first one, so that equal values have no spread by rounding. */
+        /* Relative to the first one, so that equal values have a spread of exactly 0. */
         double mean = values[0][m], squares = 0.0;
         for (size_t r = 1; r < LANES; ++r)
             mean += (values[r][m] - values[0][m]) / LANES;

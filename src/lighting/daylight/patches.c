@@ -6,7 +6,7 @@
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
 
-/* Directions a patch side, so that all subdivisions know the sky equally well, nearly. */
+/* Directions per patch side, so that all subdivisions sample the sky about equally well. */
 enum { FINENESS = 4 };
 
 static size_t patches_of_row(const aur_sky_patches *patches, size_t row) {
@@ -19,7 +19,7 @@ static void heights_of(const aur_sky_patches *patches, size_t row, double *low, 
     *high = row + 1 < patches->row_count ? sin((double)(row + 1) * patches->step) : 1.0;
 }
 
-/* The middles of equal pieces. */
+/* The midpoints of equal intervals. */
 static void set_middles(aur_sky_patches *patches) {
     double(*next)[3] = patches->middles;
     for (size_t row = 0; row < patches->row_count; ++row) {
@@ -102,7 +102,7 @@ double aur_sky_patch_cosine(const aur_sky_patches *patches, size_t patch) {
     return AUR_PI * (high * high - low * low) / (double)patches_of_row(patches, row);
 }
 
-/* Adds the means of the patches of one row. */
+/* Adds the means over the patches of one row. */
 static void add_row(const aur_sky_patches *patches, const aur_sky_model *sky, size_t row,
                     const double (*middles)[3], double *radiance) {
     const size_t count = patches_of_row(patches, row);

@@ -1,5 +1,5 @@
-/* Daylight coefficients times the radiances of the sky: sixteen randomisations of one sensor at once, hours
- * in blocks. The arithmetic of each hour goes patch by patch, in the same order for every instruction set. */
+/* Daylight coefficients times sky radiances: sixteen randomisations of one sensor at once, hours in blocks.
+ * Each hour sums over the patches in the same order for every instruction set. */
 #pragma once
 
 #include <stddef.h>
@@ -8,9 +8,9 @@
 
 enum { AUR_DAYLIGHT_LANES = 16, AUR_DAYLIGHT_BLOCK = 4 };
 
-/* values[hours][16] = radiance . coefficients[patches][16]. Radiances lie in blocks of AUR_DAYLIGHT_BLOCK
- * hours, patch by patch: that of hour h and patch p is at aur_daylight_place. `hours` is a multiple of the
- * block. */
+/* values[hours][16] = radiance . coefficients[patches][16]. Radiances are stored in blocks of
+ * AUR_DAYLIGHT_BLOCK hours, patch by patch: that of hour h and patch p is at aur_daylight_place. `hours` is a
+ * multiple of the block size. */
 typedef void aur_daylight_product(size_t hours, size_t patches, const double *radiance,
                                   const double *coefficients, double *values);
 

@@ -1,4 +1,4 @@
-/* Plain arithmetic without contraction, so that every instruction set gives the same bits. */
+/* No floating-point contraction, so that every instruction set gives bit-identical results. */
 #include "lighting/daylight/product.h"
 
 void AUR_KERNEL(aur_daylight_product)(size_t hours, size_t patches, const double *restrict radiance,

@@ -1,5 +1,5 @@
-/* Weather files: EnergyPlus's EPW, eight lines of header and then a record an hour; Radiance's .wea; and TMY3
- * as CSV. The first line tells which it is. */
+/* Weather files: EnergyPlus's EPW, eight header lines and then one record per hour; Radiance's .wea; and TMY3
+ * as CSV. The first line selects the format. */
 #include "lighting/daylight/hours.h"
 
 #include <math.h>
@@ -19,20 +19,20 @@ struct aur_weather {
     aur_weather_hour hours[LONGEST_YEAR];
 };
 
-/* Where a file is being read: the fields of a line, each with its zero byte. */
+/* Reader state: the fields of the current line, each terminated by a zero byte. */
 typedef struct reader reader;
 struct reader {
     const char *path;
     char *next; /* the next line, or NULL */
     size_t number, field_count;
-    char *fields[FIELDS]; /* those beyond are of no use */
-    bool blanks;          /* they split fields, and not commas */
+    char *fields[FIELDS]; /* further ones are ignored */
+    bool blanks;          /* blanks separate fields instead of commas */
     aur_result (*record)(const reader *r, aur_weather_hour *hour);
     aur_weather_view *view;
     aur_error *error;
 };
 
-/* Takes the field that begins at `at` out of its quotes and blanks (RFC 4180), and returns what is behind its
+/* Strips quotes and blanks (RFC 4180) from the field that begins at `at`, and returns the text behind its
  * comma, or NULL. */
 static char *cut_field(char *at, char **field) {
     while (*at == ' ' || *at == '\t')
@@ -60,7 +60,7 @@ static bool next_line(reader *r) {
     if (end != NULL)
         *end = '\0';
     ++r->number;
-    static const char mark[] = "\xEF\xBB\xBF"; /* which some editors put before UTF-8 */
+    static const char mark[] = "\xEF\xBB\xBF"; /* byte order mark of UTF-8 */
     if (r->number == 1 && strncmp(at, mark, 3) == 0)
         at += 3;
     /* Radiance's .wea begins with `place`. */
@@ -129,7 +129,7 @@ static aur_result read_location(reader *r, aur_weather_view *view) {
     return result;
 }
 
-/* Of the first day, -1 where none of the seven is named. */
+/* The weekday of the first day; -1 if none of the seven names matches. */
 static int weekday_of(const char *text) {
     static const char *const names[] = {"Sunday",   "Monday", "Tuesday", "Wednesday",
                                         "Thursday", "Friday", "Saturday"};
@@ -139,7 +139,7 @@ static int weekday_of(const char *text) {
     return -1;
 }
 
-/* The header's other lines, to the one before the records. */
+/* The other header lines, up to the one before the records. */
 static aur_result read_periods(reader *r, aur_weather_view *view) {
     while (r->number < HEADER_LINES && next_line(r)) {
         if (!begins(r, "DATA PERIODS"))
@@ -164,7 +164,7 @@ static void note(const reader *r, aur_weather_note *what) {
         what->line = r->number;
 }
 
-/* A number that may not be known: NaN where the field is empty. */
+/* A number that may be missing: NaN if the field is empty. */
 static aur_result read_optional(const reader *r, size_t index, const char *what, double least, double most,
                                 double *value) {
     const char *const text = field(r, index);
@@ -175,7 +175,7 @@ static aur_result read_optional(const reader *r, size_t index, const char *what,
     return AUR_OK;
 }
 
-/* One of the irradiances: 9999 stands for what was not measured, and an instrument's night may be below 0. */
+/* An irradiance: 9999 means missing; instruments may report small negative values at night. */
 static aur_result read_irradiance(const reader *r, size_t index, const char *what, double *value) {
     static const double NIGHT = -20.0;
     const aur_result result = read_optional(r, index, what, -1e6, 1e6, value);
@@ -212,12 +212,12 @@ static aur_result read_record(const reader *r, aur_weather_hour *hour) {
         result = read_irradiance(r, 14, "the direct normal irradiance", &hour->direct_normal);
     if (result == AUR_OK)
         result = read_irradiance(r, 15, "the diffuse horizontal irradiance", &hour->diffuse_horizontal);
-    if (!(hour->dew_point > -90.0 && hour->dew_point < 70.0)) /* 99.9 stands for what is not known */
+    if (!(hour->dew_point > -90.0 && hour->dew_point < 70.0)) /* 99.9 means missing */
         hour->dew_point = NAN;
     return result;
 }
 
-/* Whether `hour` is the first of a day, or the one after `before`; the year may begin with any day. */
+/* Whether `hour` is the first of a day, or follows `before`; the year may begin with any day. */
 static bool follows(const aur_weather_hour *before, const aur_weather_hour *hour) {
     if (before == NULL)
         return hour->hour == 1 && hour->day <= (int)aur_days_of_month(2004, (unsigned)hour->month);
@@ -244,7 +244,7 @@ static aur_result refuse_hour(const reader *r, const aur_weather_hour *before, c
                        hour->month, hour->day, hour->hour, before->month, before->day, before->hour);
 }
 
-/* The next hour: the mean of its records. *ended: there is none. */
+/* Reads the next hour: the mean of its records. *ended: end of file. */
 static aur_result read_hour(reader *r, aur_weather_hour *hour, bool *ended) {
     int records = 0;
     while (records < r->view->records && next_line(r)) {
@@ -305,7 +305,7 @@ static aur_result read_hours(reader *r, aur_weather *weather) {
 
 /* --- other files */
 
-/* Month, day and hour as read become those of a year that has such days. */
+/* Changes the month, day and hour just read to a year that has such days. */
 static void set_year(aur_weather_hour *hour) {
     hour->year = hour->month == 2 && hour->day == 29 ? 2004 : 2001;
 }
@@ -328,7 +328,7 @@ static aur_result read_wea_record(const reader *r, aur_weather_hour *hour) {
     return result;
 }
 
-/* The six lines of a .wea, whose longitude and time zone are degrees to the west. */
+/* The six header lines of a .wea; its longitude and time zone are in degrees west. */
 static aur_result read_wea_header(reader *r, aur_weather_view *view) {
     double west = 0.0, zone = 0.0, units = 0.0;
     const struct {
@@ -354,7 +354,7 @@ static aur_result read_wea_header(reader *r, aur_weather_view *view) {
     return AUR_OK;
 }
 
-/* "MM/DD/YYYY","HH:MM", then as Wilcox and Marion (2008) have it: the hour that ends then. */
+/* "MM/DD/YYYY","HH:MM", then the fields of Wilcox and Marion (2008); the hour ends at HH:MM. */
 static aur_result read_tmy3_record(const reader *r, aur_weather_hour *hour) {
     *hour = (aur_weather_hour){.line = r->number};
     int parts[4] = {0};
@@ -383,7 +383,7 @@ static aur_result read_tmy3_record(const reader *r, aur_weather_hour *hour) {
     return result;
 }
 
-/* code,name,state,time zone,latitude,longitude,elevation, and a line of names. */
+/* code,name,state,time zone,latitude,longitude,elevation, then a line of column names. */
 static aur_result read_tmy3_header(reader *r, aur_weather_view *view) {
     aur_result result = read_number(r, 3, "the time zone", -14.0, 14.0, &view->timezone);
     if (result == AUR_OK)
@@ -400,7 +400,7 @@ static aur_result read_tmy3_header(reader *r, aur_weather_view *view) {
     return result;
 }
 
-/* The first line says which file it is: a TMY3's has seven fields that begin with a station's number. */
+/* Detects the format by the first line: that of a TMY3 has seven fields and begins with a station number. */
 static aur_result read_header(reader *r, aur_weather_view *view) {
     double station = 0.0;
     const bool any = next_line(r);

@@ -1,5 +1,4 @@
-/* A weather file says many things twice: what it cannot mean is warned of before a year is computed from it.
- */
+/* A weather file has redundant data: warns of contradictions before a year is computed from it. */
 #include <math.h>
 
 #include "lighting/daylight/hours.h"
@@ -7,10 +6,10 @@
 #include "points/base/vector.h"
 #include "render/scene/lights/sun_position.h"
 
-/* The sun's height in an hour. */
+/* The sine of the sun's elevation during an hour. */
 typedef struct heights {
-    double mean;           /* of its sine, 0 below the horizon */
-    double least, largest; /* of its sine */
+    double mean;           /* mean, with 0 below the horizon */
+    double least, largest; /* range */
 } heights;
 
 static heights heights_of(const aur_weather_view *weather, const aur_weather_hour *hour) {
@@ -27,7 +26,7 @@ static heights heights_of(const aur_weather_view *weather, const aur_weather_hou
     return found;
 }
 
-/* Hours that something can be said of, and those of them that contradict each other. */
+/* Hours that can be checked, and the number of contradictions among them. */
 typedef struct tally {
     size_t all, odd, first;
 } tally;
@@ -38,9 +37,10 @@ static void count(tally *t, bool odd, size_t line) {
         t->first = line;
 }
 
-/* Sun and sky do not make the horizontal irradiance, by a fifth of it and 50 W/m^2. With the sun above 6
- * degrees all through the hour that is so in up to 5 % of the hours of seven public files (IWEC, TMY3, TMYx,
- * PVGIS and others), and in 7 to 27 % with a clock that is off by an hour, but for one cloudy place. */
+/* Direct and diffuse irradiance do not sum to the global one, by more than a fifth of it and 50 W/m^2. With
+ * the sun above 6 degrees during the whole hour this holds for up to 5 % of the hours of seven public files
+ * (IWEC, TMY3, TMYx, PVGIS and others), and for 7 to 27 % with a clock off by an hour, except in one cloudy
+ * place. */
 static bool is_unbalanced(const aur_weather_hour *hour, double height) {
     const double made = hour->direct_normal * height + hour->diffuse_horizontal;
     return fabs(hour->global_horizontal - made) > fmax(50.0, 0.2 * fmax(made, hour->global_horizontal));
@@ -51,7 +51,7 @@ static void check_hours(const aur_weather_view *weather, tally *balance, tally *
     for (size_t i = 0; i < weather->count; ++i) {
         const aur_weather_hour *const hour = &weather->hours[i];
         const heights sun = heights_of(weather, hour);
-        /* Direct irradiance at night, which some files have, is not used. */
+        /* Direct irradiance at night, which some files have, is ignored. */
         const double bright = fmax(hour->diffuse_horizontal, hour->global_horizontal);
         const double known = hour->direct_normal + hour->diffuse_horizontal + hour->global_horizontal;
         if (sun.least > LOW && known > 0.0) /* not NaN */

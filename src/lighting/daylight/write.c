@@ -1,4 +1,4 @@
-/* Measures of a year as files. */
+/* Writes the measures of a year to files. */
 #include <aureole-lighting/daylight.h>
 #include <aureole/text.h>
 #include <stdlib.h>

@@ -7,19 +7,20 @@
 #include "points/base/random.h"
 #include "render/vertex/shading.h"
 
-/* Of the paths that take what is known, so many go on; rays that are shorter than so many widths of the
- * texel or triangle that they meet all do, for how the light differs within it is seen from there. */
+/* The fraction of paths that continue after the cached light was added (see render/gather/continuation.h).
+ * Paths with a last segment shorter than so many widths of the texel or triangle that it meets all continue:
+ * the cache does not resolve the light's variation there. */
 static const float SHARE = 0.25f, REACH = 2.0f;
 
 enum { PHOTONS_A_TEXEL = 16, BOUNCES = 12 };
 
-/* --- what is known */
+/* --- cached light */
 
 static aur_result find_map(const aur_scene *scene, const aur_irradiance_options *o, aur_cached_light *known,
                            aur_error *error) {
     const aur_irradiance_map_options options = {
         .photons = {.count = o->particles,
-                    /* One edge more leads to the sensor. */
+                    /* One edge more, for the segment to the sensor. */
                     .max_edges = o->max_depth > 0 ? o->max_depth - 1 : SIZE_MAX,
                     .seed = o->seed,
                     .threads = o->threads,
@@ -68,9 +69,9 @@ void aur_cached_light_release(aur_cached_light *known) {
     *known = (aur_cached_light){0};
 }
 
-/* --- where a path is */
+/* --- where a path may use the cache */
 
-/* Plain triangles, by the group's own numbers of them. */
+/* Plain triangles, by index within the group. */
 static aur_texel_view plain_light(const aur_cached_light *known, const aur_path_group *g, size_t lane) {
     const struct RTCHit16 *const hits = &g->packet.query.hit;
     const bool behind = g->lanes.side[lane] < 0.0f;
@@ -94,7 +95,7 @@ static aur_texel_view plain_light(const aur_cached_light *known, const aur_path_
                             (float)scene->areas[triangle]};
 }
 
-/* Other surfaces whose lobes are all answered for. */
+/* Other surfaces whose lobes are all in the cache. */
 static aur_texel_view other_light(const aur_cached_light *known, const aur_path_group *g, size_t lane) {
     const aur_surface *const surface = &g->surfaces[lane];
     const aur_ray ray = aur_packet_ray(&g->packet, lane);

@@ -7,16 +7,17 @@
 #include "render/scene/scene_data.h"
 #include "render/vertex/vertex.h"
 
-enum { MOST_POLYGONS = 256, MOST_CORNERS = 4, PILOT = 128 /* points on all lights together */ };
+enum { MOST_POLYGONS = 256, MOST_CORNERS = 4, PILOT = 128 /* number of points on all emitters together */ };
 
 struct aur_closed_light {
     uint32_t emitter;
     double radiance[3];
-    /* Its points are drawn by the solid angle under which it is seen: none of them brings much more than
-     * another one, however near the light is. */
+    /* Points on the emitter are sampled by the solid angle under which it is seen, so their contributions are
+     * similar at any distance. */
     bool by_angle;
-    double centre[3], radius;                  /* of a sphere around it */
-    size_t first, polygon_count, corner_count; /* corners[first] ..., corner_count of each polygon */
+    double centre[3], radius;                  /* bounding sphere */
+    size_t first, polygon_count, corner_count; /* corners[first] ... of each polygon, with corner_count
+                                                * corners */
 };
 
 static bool is_closed(const aur_scene *scene, const aur_emitter *emitter) {
@@ -42,8 +43,7 @@ static void set_sphere(aur_closed_light *light, const double (*corners)[3]) {
     }
 }
 
-/* Corners of a parallelogram follow one another as those of its first triangle: the other way round where it
- * is flipped. */
+/* The corners of a parallelogram in order, from those of its first triangle; reversed if it is flipped. */
 static uint32_t vertex_of(const aur_shape *shape, size_t polygon, size_t corner) {
     const uint32_t *const indices = shape->mesh.indices;
     if (!shape->parallelogram)
@@ -108,9 +108,9 @@ void aur_closed_lights_release(aur_closed_lights *lights) {
     *lights = (aur_closed_lights){0};
 }
 
-/* The integral of the cosine over the solid angle of a polygon that the sensor sees from its front:
- * half the sum over edges of the angle under which an edge is seen times the cosine between the sensor's
- * normal and that of the plane through the edge and the sensor. */
+/* The cosine-weighted integral over the solid angle of a polygon seen from its front: half the sum over edges
+ * of the angle under which the edge is seen times the cosine between the sensor's normal and the normal of
+ * the plane through the edge and the sensor. */
 static double projected_angle(size_t count, const double (*corners)[3], const double position[3],
                               const double normal[3]) {
     double moved[MOST_CORNERS][3], cut[MOST_CORNERS + 1][3];
@@ -119,7 +119,7 @@ static double projected_angle(size_t count, const double (*corners)[3], const do
         for (size_t d = 0; d < 3; ++d)
             moved[i][d] = corners[i][d] - position[d];
     if (!(aur_polygon_plane(count, (const double(*)[3])moved, &facing) > 0.0) || !(facing.offset < 0.0))
-        return 0.0; /* the origin, which the sensor is now, is behind it or in its plane */
+        return 0.0; /* the origin, where the sensor is, is behind the polygon or in its plane */
     const aur_plane horizon = {{normal[0], normal[1], normal[2]}, 0.0};
     const size_t kept = aur_polygon_clip(count, (const double(*)[3])moved, &horizon, cut);
     double sum = 0.0;
@@ -134,7 +134,7 @@ static double projected_angle(size_t count, const double (*corners)[3], const do
     return 0.5 * fabs(sum);
 }
 
-/* Of the light's points, by what they would bring, the share that is seen. */
+/* The visible fraction of the emitter's points, weighted by their contributions. */
 static double pilot(const aur_scene *scene, const aur_closed_light *light, size_t points,
                     const double normal[3], aur_vector from, uint64_t hash) {
     const aur_emitter *const emitter = scene->emitters[light->emitter];
@@ -169,8 +169,8 @@ void aur_closed_lights_at(const aur_scene *scene, const aur_closed_lights *light
         const double way[3] = {light->centre[0] - position[0], light->centre[1] - position[1],
                                light->centre[2] - position[2]};
         const double share = pilot(scene, light, points, normal, from, aur_hash3(hash, 0x70696c6f74, i));
-        /* Of points drawn by area on a light that is near, few bring much: these must not be missed where
-         * something hides some of them. */
+        /* Points sampled by area on a near emitter have few with large contributions, so occlusion could be
+         * missed. */
         if (!light->by_angle && aur_length3(way) < 2.0 * light->radius && share < 1.0)
             continue;
         double angle = 0.0;

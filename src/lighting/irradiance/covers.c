@@ -1,5 +1,5 @@
-/* What lies on a sensor: surfaces so near before the one on which it stands that rays, which begin off that,
- * would begin beyond. Doubles know their order. */
+/* Finds surfaces so close above the sensor's surface that rays, which start at an offset from it, would start
+ * beyond them. Double precision resolves their order. */
 #include <float.h>
 
 #include "lighting/irradiance/sensor_trace.h"
@@ -8,11 +8,11 @@
 
 enum { MOST_NEAR = 32 };
 
-/* A surface that the axis meets. */
+/* A surface that the axis intersects. */
 typedef struct near_surface {
     aur_hit hit;
-    double distance, slack; /* along the axis; what may be wrong of it */
-    bool exact, edge;       /* its corners are known in doubles; it ends there */
+    double distance, slack; /* distance along the axis, and its error bound */
+    bool exact, edge;       /* corners are available in doubles; the axis passes its boundary */
 } near_surface;
 
 typedef struct near_search {
@@ -23,7 +23,7 @@ typedef struct near_search {
     near_surface found[MOST_NEAR];
 } near_search;
 
-/* The corners of a triangle from the scene's origin; false where floats alone are known. */
+/* The corners of a triangle relative to the scene's origin; false if only floats are available. */
 static bool find_corners(const aur_scene *scene, const aur_hit *hit, double corners[3][3]) {
     const aur_mesh *const mesh = &scene->shapes[hit->shape]->mesh;
     const aur_instance *const instance =
@@ -43,8 +43,8 @@ static bool find_corners(const aur_scene *scene, const aur_hit *hit, double corn
     return mesh->points != NULL;
 }
 
-/* Where the axis meets the triangle's plane, if within it: the least of the three shares of corners is at
- * least a little below 0. */
+/* Intersection of the axis with the triangle's plane; accepted if the smallest barycentric coordinate is
+ * above a small negative tolerance. */
 static bool meet_triangle(const near_search *search, const double corners[3][3], near_surface *found) {
     aur_plane plane;
     double between[3], at[3], sides[2][3], way[3], cross[3];
@@ -73,7 +73,7 @@ static bool meet_triangle(const near_search *search, const double corners[3][3],
     return least > -1e-9;
 }
 
-/* The same of a disk, whose place and axes are floats. */
+/* The same for a disk, whose position and axes are floats. */
 static bool meet_disk(const near_search *search, const aur_shape *shape, near_surface *found) {
     double center[3], normal[3], across[2][3], between[3], squared = 0.0;
     aur_vector_to_doubles(shape->center, center);
@@ -110,7 +110,7 @@ static void take(void *context, const aur_hit *place) {
     }
     if (!(fabs(found.distance) <= search->farthest))
         return;
-    /* Sixteen roundings of coordinates in the world. */
+    /* Sixteen rounding errors of world coordinates. */
     double reach = 0.0;
     for (size_t d = 0; d < 3; ++d)
         reach += fabs(search->scene->origin[d]) + fabs(search->from[d]) + fabs(corners[0][d]);
@@ -125,8 +125,8 @@ static bool hides(const aur_scene *scene, const near_surface *found) {
     return !bsdf->transmits && !bsdf->passes;
 }
 
-/* Whether what is known does not tell which of the two is before the other, or between which of them the
- * sensor stands: it lies before the one nearest to it, but between both. Neighbours share an edge. */
+/* Whether the data cannot order the two surfaces, or cannot determine between which of them the sensor lies:
+ * it is in front of the nearest one, but between both. Neighbours share an edge. */
 static bool is_doubtful(const near_surface *nearest, const near_surface *other) {
     const double slack = fmax(nearest->slack, other->slack);
     if (!(nearest->exact && other->exact) && fabs(other->distance - nearest->distance) <= slack)
@@ -146,7 +146,8 @@ void aur_sensor_find_cover(const aur_scene *scene, const double from[3], aur_vec
     for (size_t i = 1; i < search.count; ++i)
         if (fabs(search.found[i].distance) < fabs(nearest->distance))
             nearest = &search.found[i];
-    double cover = 3.0 * (double)offset; /* rays begin at 2, and meet surely what is one more before them */
+    double cover = 3.0 * (double)offset; /* rays start at an offset of 2, and certainly hit what is one offset
+                                          * further away */
     surface_point->doubtful |= search.full;
     for (size_t i = 0; i < search.count; ++i) {
         const near_surface *const found = &search.found[i];

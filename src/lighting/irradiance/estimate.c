@@ -1,5 +1,5 @@
-/* The estimate of irradiance at all sensors: how many directions each of them has, and what its
- * randomisations say together. */
+/* Estimates the irradiance of all sensors: the number of directions per sensor, and means and intervals over
+ * the randomisations. */
 #include <aureole-lighting/irradiance.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,12 +15,12 @@ enum {
     REPLICATES = AUR_IRRADIANCE_REPLICATES,
     DEFAULT_DIRECTIONS = 16384,
     DEFAULT_PARTICLES = 500000,
-    MOST_DIRECTIONS = 1 << 20, /* by default, of a sensor that is to reach an error */
+    MOST_DIRECTIONS = 1 << 20, /* default maximum for a sensor with a target error */
     LIMIT = 1 << 28,
     LEVELS = 32,
-    FIRST_LEVEL = 16, /* directions of a randomisation */
-    LEAST_DARK = 256, /* of a randomisation, before a sensor without light is believed */
-    BLOCK = 16        /* sensors of a piece of work */
+    FIRST_LEVEL = 16, /* directions per randomisation */
+    LEAST_DARK = 256, /* per randomisation, before a sensor is accepted as having no light */
+    BLOCK = 16        /* sensors per task */
 };
 
 typedef struct work {
@@ -33,7 +33,7 @@ typedef struct work {
     aur_closed_lights lights;
     aur_cached_light known;
     size_t level_count;
-    aur_sensor_rule rules[LEVELS]; /* of the levels, each with more directions than the one before */
+    aur_sensor_rule rules[LEVELS]; /* one per level, each with more directions than the previous one */
     aur_irradiance *results;
 } work;
 
@@ -79,7 +79,7 @@ static aur_result read_options(const aur_irradiance_options *given, aur_irradian
     return AUR_OK;
 }
 
-/* One level of all directions, or levels that double until there are enough. */
+/* One level with all directions, or levels that double their number. */
 static aur_result make_rules(work *w, aur_error *error) {
     const aur_irradiance_options *const o = w->options;
     const size_t most = (o->directions + REPLICATES - 1) / REPLICATES;
@@ -92,7 +92,7 @@ static aur_result make_rules(work *w, aur_error *error) {
             aur_sensor_rule_create(o->set, next, o->seed, &warnings, &w->rules[w->level_count], error);
         if (result != AUR_OK)
             return result;
-        warnings = (aur_warnings){0}; /* what is odd about a set is said once */
+        warnings = (aur_warnings){0}; /* warnings about a set are sent once */
         ++w->level_count;
         if (next == rest)
             break;
@@ -104,7 +104,7 @@ static aur_result make_rules(work *w, aur_error *error) {
 
 enum { CHANNELS = AUR_IRRADIANCE_CHANNELS, VALUES = AUR_IRRADIANCE_PARTS * CHANNELS };
 
-/* Parts and channels of each randomisation. */
+/* Components and channels of each randomisation. */
 static void find_values(const work *w, const aur_sensor_sums *sensor_sums,
                         double values[REPLICATES][VALUES]) {
     const double *const luminance = w->options->luminance;
@@ -180,7 +180,7 @@ static aur_result estimate_block(void *context, size_t index) {
     return AUR_OK;
 }
 
-/* --- what is to be said of them */
+/* --- warnings */
 
 static void warn(const work *w) {
     const size_t luminance = AUR_IRRADIANCE_CHANNELS - 1;

@@ -21,7 +21,7 @@ static aur_result fill(const char *set, const aur_directions_options *options, d
     for (size_t i = 0; i < rule->count && result == AUR_OK; ++i) {
         const double *const at = xyz + 3 * i;
         const double radius = hypot(at[0], at[1]);
-        /* Uniform directions of the hemisphere have uniform heights. */
+        /* For uniform directions in the hemisphere, the heights are uniform. */
         rule->heights[i] = fminf((float)(1.0 - at[2]), 0x1.fffffep-1f);
         rule->cosines[i] = radius > 0.0 ? (float)(at[0] / radius) : 1.0f;
         rule->sines[i] = radius > 0.0 ? (float)(at[1] / radius) : 0.0f;

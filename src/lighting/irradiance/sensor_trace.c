@@ -10,14 +10,14 @@
 
 enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_sensor_sums.sums */
 
-/* Of surfaces on which a sensor stands, the nearest: within what may be wrong of both by rounding. */
+/* Finds the nearest surface on which the sensor may lie: within the rounding errors of both. */
 typedef struct footing {
     aur_vector normal;
-    float height, offset; /* of the sensor over it, along the normal; what may be wrong */
+    float height, offset; /* height of the sensor above it along the normal; rounding error */
 } footing;
 
-/* Of a round shape: rays are exact to its place and size as floats, which are off by four roundings (its
- * centre 1, its radius 1, or the normal of a disk 2). aur_surface_rounding counts 25. */
+/* Error bound of a round shape: rays are exact for its position and size in floats, which are off by four
+ * roundings (its centre 1, its radius 1, or the normal of a disk 2). aur_surface_rounding counts 25. */
 static float shape_rounding(const aur_scene *scene, const aur_hit *hit, aur_vector normal) {
     const aur_shape *const shape = scene->shapes[hit->shape];
     if (shape->curved == NULL || hit->instance != AUR_NO_INSTANCE)
@@ -30,8 +30,8 @@ static float shape_rounding(const aur_scene *scene, const aur_hit *hit, aur_vect
     return 0.16f * aur_surface_rounding(reach, normal);
 }
 
-/* Looks from -reach to reach along an axis. What is met may be a lamp of no thickness above a ground that is
- * not exact to that. */
+/* Traces a probe ray from -reach to reach along an axis. The hit may be a flat emitter above a ground whose
+ * distance is less exact than their gap. */
 static void look_along(const aur_scene *scene, const aur_sensor_point *surface_point, aur_vector axis,
                        float reach, const footing *before, footing *found) {
     enum { MOST_HITS = 16 };
@@ -52,8 +52,8 @@ static void look_along(const aur_scene *scene, const aur_sensor_point *surface_p
     }
 }
 
-/* Moves the place off a surface on which it stands; false where there is none but that of `before`. Along one
- * of three axes every plane is near. */
+/* Moves the position off a surface on which it lies; false if there is none except that of `before`. One of
+ * three axes is always close to a plane's normal. */
 static bool move_off(const aur_scene *scene, float reach, footing *before, aur_sensor_point *surface_point) {
     const aur_frame *const frame = &surface_point->frame;
     const aur_vector axes[] = {frame->z, frame->x, frame->y};
@@ -69,7 +69,7 @@ static bool move_off(const aur_scene *scene, float reach, footing *before, aur_s
     return true;
 }
 
-/* Twice the largest offset there can be, as an axis may meet a surface at an angle. */
+/* Twice the largest possible offset, because the axis may be oblique to the surface. */
 static float reach_of(const aur_scene *scene, aur_vector at) {
     const aur_vector low = scene->lower, high = scene->upper;
     const aur_vector reach = {fabsf(at.x) + aur_larger(fabsf(low.x), fabsf(high.x)),
@@ -81,10 +81,10 @@ static float reach_of(const aur_scene *scene, aur_vector at) {
 void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *lights,
                              const double position[3], const double normal[3], uint64_t seed, float *shares,
                              aur_sensor_point *surface_point) {
-    enum { MOST_SURFACES = 3 }; /* which meet in a corner */
+    enum { MOST_SURFACES = 3 }; /* surfaces that meet in a corner */
     *surface_point = (aur_sensor_point){.hash = seed};
     double unit[3] = {normal[0], normal[1], normal[2]};
-    /* The square of a tiny or huge normal may leave the range of doubles. */
+    /* The square of a tiny or huge normal may overflow or underflow a double. */
     const double size = fmax(fabs(unit[0]), fmax(fabs(unit[1]), fabs(unit[2])));
     for (size_t d = 0; d < 3; ++d)
         unit[d] /= size;
@@ -118,9 +118,10 @@ void aur_sensor_point_create(const aur_scene *scene, const aur_closed_lights *li
                          surface_point->closed);
 }
 
-/* The radiance from a direction of disks of the sky that are small. */
+/* The radiance in a direction of the small disks of the sky. */
 static aur_vector sun_from(const aur_scene *scene, aur_vector direction) {
-    static const double WIDEST = 2.0 * AUR_PI * AUR_PI * 3.8053e-3; /* extent of 5 degrees to its edge */
+    static const double WIDEST = 2.0 * AUR_PI * AUR_PI * 3.8053e-3; /* extent of a disk whose edge is 5
+                                                                     * degrees from its centre */
     aur_vector sum = {0};
     for (size_t i = 0; i < scene->environment_count; ++i) {
         const aur_emitter *const emitter = scene->environments[i];
@@ -130,7 +131,7 @@ static aur_vector sun_from(const aur_scene *scene, aur_vector direction) {
     return sum;
 }
 
-/* Light of one direction from beyond the scene: the sun's part of it, and the rest. */
+/* Light of one direction from the environment: the sun's part, and the rest. */
 static void add_beyond(const aur_scene *scene, aur_vector direction, const double light[3],
                        double (*sums)[3]) {
     const aur_vector sun = sun_from(scene, direction);
@@ -146,7 +147,7 @@ static void add_beyond(const aur_scene *scene, aur_vector direction, const doubl
     }
 }
 
-/* The rays of direction `index`, from which light is to be found. */
+/* The rays of direction `index`, which look for light. */
 static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t index,
                      const aur_sensor_point *surface_point, float (*shifts)[3]) {
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -170,9 +171,9 @@ static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t inde
     g->specular = 0;
 }
 
-/* The numbers of a pair, moved on each lane by a shift of its own. Where the edge of what is seen is parallel
- * to that of the strata of scrambled points, all but one stratum count alike in all randomisations, and their
- * spread says nothing when that one is met rarely; shifted strata differ. */
+/* A sample's two numbers, with a separate shift per lane (Cranley-Patterson). If the edge of a visible region
+ * is parallel to the strata of scrambled points, all but one stratum contribute equally in all
+ * randomisations. The spread then shows no error if that stratum is rarely hit; shifted strata differ. */
 static void draw_pair(const aur_path_group *g, uint32_t pair, float *u, float *v) {
     aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -184,7 +185,7 @@ static void draw_pair(const aur_path_group *g, uint32_t pair, float *u, float *v
     }
 }
 
-/* A point on a light for each lane. */
+/* A point on an emitter for each lane. */
 static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
                        aur_sensor_sums *sensor_sums) {
     float choice[AUR_PACKET_SIZE] = {0}, u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE];
@@ -201,7 +202,7 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
             continue;
         const float share =
             surface_point->shares != NULL ? surface_point->shares[drawn.emitter] : AUR_LIGHT_OPEN;
-        /* No direction brings the light that has a closed form. */
+        /* Emission that has a closed form is not counted along rays. */
         const aur_vertex_samples samples = {1.0f, share >= 0.0f ? 0.0f : 1.0f};
         if (!aur_vertex_irradiance(&reference, samples, &drawn, &shadow))
             continue;
@@ -239,7 +240,7 @@ static void add_lights(aur_path_group *g, const aur_sensor_point *surface_point,
     }
 }
 
-/* Whether the first surface of a lane is seen from behind, where it scatters nothing. */
+/* Whether the lane's first hit is a surface's back that scatters nothing. */
 static bool is_dark(const aur_path_group *g, size_t lane) {
     if (aur_has_lane(g->plain, lane))
         return g->lanes.side[lane] < 0.0f && aur_vector_is_zero(aur_lane_vector(&g->lanes.albedo[1], lane));
@@ -249,7 +250,7 @@ static bool is_dark(const aur_path_group *g, size_t lane) {
            aur_vector_dot(ray.direction, surface->geometric_normal) > 0.0f;
 }
 
-/* Adds what the lanes' sums have got more than `seen`, to the part of each lane. */
+/* Adds the increase of the lanes' sums since `seen` to the component of each lane. */
 static void add_parts(const aur_path_group *g, const size_t *parts, double (*seen)[3],
                       aur_sensor_sums *sensor_sums) {
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -266,8 +267,8 @@ static void add_parts(const aur_path_group *g, const size_t *parts, double (*see
     }
 }
 
-/* What direction `index` brings; lanes begin with no light. What comes straight through panes counts as what
- * comes without any. */
+/* The contribution of direction `index`; lanes begin with no light. Light through thin panes counts as direct
+ * light. */
 static void add_direction(aur_path_group *g, const aur_sensor_point *surface_point,
                           const aur_cached_light *known, aur_sensor_sums *sensor_sums) {
     double seen[AUR_PACKET_SIZE][3] = {{0.0}};
@@ -309,7 +310,7 @@ void aur_sensor_trace(aur_path_group *g, const aur_sensor_rule *rule, const aur_
     if (surface_point->covered)
         return;
     aur_sensor_sums from_lights = {0};
-    float shifts[AUR_PACKET_SIZE][3]; /* of the height, and the turn's cosine and sine */
+    float shifts[AUR_PACKET_SIZE][3]; /* per lane: of the height, and the cosine and sine of the rotation */
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         g->pixels[k] = aur_hash3(surface_point->hash, level, k);
         const uint64_t words = aur_hash2(g->pixels[k], 0x7475726e);
@@ -325,7 +326,7 @@ void aur_sensor_trace(aur_path_group *g, const aur_sensor_rule *rule, const aur_
         if (g->has_lights)
             add_lights(g, surface_point, &from_lights);
     }
-    /* Directions have the density cos / pi. */
+    /* Directions have the pdf cos / pi. */
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         for (size_t part = 0; part < AUR_IRRADIANCE_PARTS - 1; ++part)
             for (size_t c = 0; c < 3; ++c)

@@ -6,7 +6,7 @@
 
 #include "points/base/array.h"
 
-/* Beyond it squares of distances are no floats, and Embree ends the program. */
+/* Larger coordinates have squared distances that overflow floats, and Embree aborts. */
 static const double FARTHEST = 1e18;
 
 static bool are_finite(const double v[3]) {

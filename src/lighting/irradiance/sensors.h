@@ -1,4 +1,4 @@
-/* Sensors: points that look in directions. */
+/* Sensors: points with normals. */
 #pragma once
 
 #include <aureole-lighting/irradiance.h>
@@ -14,25 +14,25 @@ struct aur_sensors {
     double *corners;
 };
 
-/* The place of a sensor, for messages. */
+/* The file and line of a sensor, for messages. */
 static inline aur_location aur_sensor_location(const aur_sensors_view *sensors, size_t index) {
     return (aur_location){.file = sensors->file, .line = sensors->lines != NULL ? sensors->lines[index] : 0};
 }
 
-/* Room for `count` sensors, and the file's name. Errors: MEMORY. */
+/* Allocates `count` sensors, and copies the file's name. Errors: MEMORY. */
 aur_result aur_sensors_allocate(const char *path, size_t count, aur_sensors *sensors, aur_error *error);
 
 /* Sensors on a mesh; `sensors` is empty. */
 aur_result aur_sensors_take_mesh(const char *path, const aur_sensors_options *options, aur_sensors *sensors,
                                  aur_error *error);
 
-/* `failure`, with the place, for the first sensor with a number that is not finite or a normal of length 0.
- */
+/* Returns `failure`, with the location, for the first sensor with a number that is not finite or a normal of
+ * length 0. */
 aur_result aur_sensors_check(const aur_sensors_view *sensors, aur_result failure, aur_error *error);
 
-/* --- what is to be said of sensors */
+/* --- warnings about sensors */
 
-/* Sensors of one kind: how many, and the first. */
+/* Sensors of one kind: the number, and the index of the first. */
 typedef struct aur_sensor_oddity {
     size_t count, first;
 } aur_sensor_oddity;
@@ -46,7 +46,8 @@ static inline void aur_sensor_count(size_t sensor, aur_sensor_oddity *kind) {
         kind->first = sensor;
 }
 
-/* Sensors one after the other: `dark` is the share of directions that meet the black back of a surface. */
+/* Counts a sensor; called in order. `dark` is the share of directions that hit the black back of a surface.
+ */
 static inline void aur_sensor_note(size_t sensor, bool on_surface, bool doubtful, double dark, double light,
                                    aur_sensor_oddities *odd) {
     if (on_surface)
@@ -59,6 +60,6 @@ static inline void aur_sensor_note(size_t sensor, bool on_surface, bool doubtful
         aur_sensor_count(sensor, &odd->unlit);
 }
 
-/* One warning for each kind that there is. */
+/* Sends one warning for each kind found. */
 void aur_sensors_warn(const aur_sensors_view *sensors, const aur_warnings *to,
                       const aur_sensor_oddities *odd);

@@ -1,4 +1,4 @@
-/* Sensors on a grid over surfaces, in cells of the plane that they lie in. */
+/* Sensors on a grid over surfaces: square cells in the surfaces' common plane. */
 #include <fnmatch.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,11 +18,11 @@ typedef struct grid {
     const aur_scene *scene;
     aur_grid_options options;
     size_t count, capacity;  /* triangles */
-    double (*corners)[3];    /* three of each, in the world */
+    double (*corners)[3];    /* three per triangle, in world space */
     double x[3], y[3], z[3]; /* the frame: z is the normal on the sensors' side */
     double low[2], step[2];
     size_t cells[2];
-    double *heights; /* of the surface in each cell; NaN: none */
+    double *heights; /* of the surface at each cell's centre; NaN: none */
     aur_error *error;
 } grid;
 
@@ -40,9 +40,10 @@ static aur_result add_triangle(grid *self, const double a[3], const double b[3],
     return AUR_OK;
 }
 
-/* --- what it is over */
+/* --- surfaces */
 
-/* X0,Y0,X1,Y1,H with H along up, or a corner and two edges. *known: whether the target is such numbers. */
+/* X0,Y0,X1,Y1,H with H along up, or a corner and two edges. *known: whether the target is such a list of
+ * numbers. */
 static aur_result take_rectangle(grid *self, bool *known) {
     double n[9];
     size_t count = 0;
@@ -125,7 +126,7 @@ static aur_result take_shapes(grid *self) {
                           self->options.target, strlen(hint) < 200 ? hint : "");
 }
 
-/* --- where its cells are */
+/* --- cells */
 
 static aur_result set_frame(grid *self) {
     double normal[3] = {0.0};
@@ -141,12 +142,12 @@ static aur_result set_frame(grid *self) {
     }
     if (!(aur_normalize3(normal) > 0.0))
         return fail(self, "its surfaces have no area, or face all sides: a flat one expected");
-    /* Floors of models face out of the room as often as into it: light is measured above. */
+    /* Floors of models face down as often as up; sensors are always above. */
     const double rise = aur_dot3(normal, self->options.up);
     for (size_t d = 0; d < 3 && rise < -0.99; ++d)
         normal[d] = -normal[d];
     memcpy(self->z, normal, sizeof normal);
-    /* The axis of x, or of y where that stands on the plane, laid into it. */
+    /* The x axis, or y if x is normal to the plane, projected into it. */
     const size_t axis = fabs(normal[0]) < 0.9 ? 0 : 1;
     for (size_t d = 0; d < 3; ++d)
         self->x[d] = (d == axis ? 1.0 : 0.0) - normal[axis] * normal[d];
@@ -161,7 +162,7 @@ static void flatten(const grid *self, const double point[3], double flat[3]) {
     flat[2] = aur_dot3(point, self->z);
 }
 
-/* As many cells as fit between the ends, in the middle; one at least. */
+/* As many cells as fit between the ends, centred; at least one. */
 static aur_result set_cells(grid *self) {
     double high[2] = {-INFINITY, -INFINITY};
     self->low[0] = self->low[1] = INFINITY;
@@ -193,7 +194,7 @@ static aur_result set_cells(grid *self) {
     return self->heights != NULL ? AUR_OK : aur_fail_memory(self->error);
 }
 
-/* The cells whose middles may lie between two coordinates along an axis. */
+/* The cells with centres between two coordinates along an axis. */
 static void find_range(const grid *self, size_t axis, double low, double high, size_t range[2]) {
     const double last = (double)self->cells[axis];
     const double from = floor((low - self->low[axis]) / self->step[axis] - 0.5),
@@ -228,10 +229,10 @@ static void fill_triangle(grid *self, size_t triangle) {
         }
 }
 
-/* --- the margin: what is nearer to an edge that only one triangle has is left out */
+/* --- the margin: omits sensors near a boundary edge (an edge of only one triangle) */
 
 typedef struct edge {
-    double ends[2][3]; /* in order, so that neighbours have equal ones */
+    double ends[2][3]; /* in lexicographic order, so that the edges of neighbours compare equal */
 } edge;
 
 static int compare_edges(const void *a, const void *b) {
@@ -262,7 +263,7 @@ static void clear_along(grid *self, const double a[2], const double b[2]) {
         }
 }
 
-/* The part of an edge that lies along another one, from 0 to 1; false where none does. */
+/* The interval of an edge, within 0 .. 1, that coincides with another edge; false if none. */
 static bool find_overlap(const grid *self, const double a[2], const double way[2], const edge *other,
                          double part[2]) {
     const double square = way[0] * way[0] + way[1] * way[1];
@@ -282,7 +283,7 @@ static bool find_overlap(const grid *self, const double a[2], const double way[2
     return part[1] > 1e-9 && part[0] < 1.0 - 1e-9;
 }
 
-/* Surfaces side by side may have corners within each other's edges: an edge is open where no other runs. */
+/* Adjacent surfaces may have T-junctions: an edge is open where it coincides with no other. */
 static void clear_open(grid *self, size_t count, const edge *edges, size_t index) {
     double a[3], b[3];
     flatten(self, edges[index].ends[0], a);

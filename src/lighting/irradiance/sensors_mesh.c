@@ -6,7 +6,7 @@
 #include "lighting/viewfactors/facets.h"
 #include "render/scene/scene_data.h"
 
-/* Facets without area have no sensor: a warning has told of them. */
+/* Facets without area have no sensor; a warning has been sent. */
 static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur_sensors *sensors,
                                  aur_error *error) {
     const double *const origin = aur_scene_origin(facets->scene);
@@ -42,7 +42,7 @@ static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur
     return AUR_OK;
 }
 
-/* Vertices that no triangle has are left out; `numbers` gets those of the others. */
+/* Vertices without triangles are omitted; `numbers` receives those of the others. */
 static size_t number_used(const aur_mesh *mesh, uint32_t *numbers) {
     size_t used = 0;
     memset(numbers, 0xff, mesh->vertex_count * sizeof *numbers);
@@ -56,7 +56,7 @@ static size_t number_used(const aur_mesh *mesh, uint32_t *numbers) {
 
 static aur_result stand_on_vertices(const aur_mesh *mesh, const char *path, aur_sensors *sensors,
                                     aur_error *error) {
-    aur_mesh smooth = *mesh; /* but for its normals */
+    aur_mesh smooth = *mesh; /* without its normals */
     smooth.normals = NULL;
     uint32_t *const numbers = malloc((mesh->vertex_count + 1) * sizeof *numbers);
     sensors->triangles = malloc((3 * mesh->triangle_count + 1) * sizeof *sensors->triangles);

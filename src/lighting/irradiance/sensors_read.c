@@ -1,4 +1,4 @@
-/* Sensors from files. */
+/* Reads sensors from files. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

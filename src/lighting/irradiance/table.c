@@ -22,7 +22,7 @@ static void write_csv(const aur_sensor_table *o, FILE *stream) {
                       k + 1 < o->width ? ',' : '\n');
 }
 
-/* As rtrace -h -I: three numbers a line. */
+/* As rtrace -h -I: three numbers per line. */
 static void write_rtrace(const aur_sensor_table *o, FILE *stream) {
     for (size_t i = 0; i < o->sensors->count; ++i) {
         for (size_t c = 0; c < 3; ++c)
@@ -45,7 +45,7 @@ static void write_json(const aur_sensor_table *o, FILE *stream) {
     aur_json_close(&json, ']');
 }
 
-/* The sensor's colour, with the largest of all channels as 1. */
+/* The sensor's colour, scaled so that the largest channel of all sensors is 1. */
 static void color_of(const aur_sensor_table *o, size_t i, double largest, unsigned char color[3]) {
     for (size_t c = 0; c < 3; ++c) {
         const double value = value_of(o, i, o->color + (o->colors > 1 ? c : 0));
@@ -61,7 +61,7 @@ static double largest_value(const aur_sensor_table *o) {
     return largest > 0.0 ? largest : 1.0;
 }
 
-/* Each sensor is a vertex, or three, the corners of its face. */
+/* Each sensor is a vertex, or three: the corners of its face. */
 static void write_ply(const aur_sensor_table *o, FILE *stream) {
     const aur_sensors_view *const sensors = o->sensors;
     const size_t copies = sensors->corners != NULL ? 3 : 1;
@@ -95,7 +95,7 @@ static void write_ply(const aur_sensor_table *o, FILE *stream) {
     }
 }
 
-/* As points of a cube, which NPY knows no other names for. */
+/* As an NPY array without column names. */
 static aur_result write_npy(const aur_sensor_table *o, const char *path, aur_error *error) {
     const aur_points_view view = aur_points_view_of(AUR_DOMAIN_CUBE, o->sensors->count, o->width, o->values);
     return aur_points_write(path, AUR_POINTS_NPY, &view, NULL, error);

@@ -1,4 +1,4 @@
-/* Results of sensors as files. */
+/* Writes sensors' results to files. */
 #include <aureole-lighting/irradiance.h>
 #include <aureole/text.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@ typedef enum content { POSITION, NORMAL, VALUE, ERROR, HALF_WIDTH, DIRECTIONS } 
 
 typedef struct column {
     content content;
-    size_t part, channel; /* of a value; the channel is the axis of a position or normal */
+    size_t part, channel; /* component of a value; the channel is the axis of a position or normal */
 } column;
 
 typedef struct columns {

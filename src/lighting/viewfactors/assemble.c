@@ -10,13 +10,13 @@ typedef struct assembly {
     const aur_facets *facets;
     const aur_ray_hits *ray_hits;
     const aur_closed_pairs *closed;
-    size_t *starts; /* of the patches of each row, in `patches` */
+    size_t *starts; /* first of the patches of each row, in `patches` */
     uint32_t *patches;
     aur_upper_row *rows;
     aur_exchange *exchange;
 } assembly;
 
-/* Sums for the columns that a row meets. `slots` says where a column stands in `met`, counted from 1. */
+/* Sums for the columns of a row. `slots` maps a column to its index in `met`, counted from 1. */
 typedef struct scratch {
     size_t met_count, capacity;
     uint32_t *slots, *met;
@@ -40,7 +40,7 @@ static bool reserve(scratch *s, size_t width) {
     return true;
 }
 
-/* The place of a column in the scratch; SIZE_MAX when there is no memory. */
+/* The index of a column in the scratch; SIZE_MAX if out of memory. */
 static size_t find_slot(scratch *s, size_t column, size_t width) {
     if (s->slots[column] != 0)
         return s->slots[column] - 1;
@@ -60,8 +60,8 @@ static bool any_hit(const uint16_t *hits, size_t width) {
     return false;
 }
 
-/* Adds the pairs of one patch: closed ones as they are, the others by the rays of both patches, each in
- * proportion to the inverse of its area, which is that of its variance. */
+/* Adds the pairs of one patch: closed forms directly, the others by the rays of both patches, weighted by the
+ * inverse of their variance, which is proportional to the inverse area. */
 static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
     const aur_facets *const facets = work->facets;
     const aur_ray_hits *const ray_hits = work->ray_hits;
@@ -90,7 +90,7 @@ static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
         if ((known < closed->count && closed->patches[known] == k) || !aur_pair_stands_with(facets, i, k))
             continue;
         if (!any_hit(out, width) && !any_hit(in, width))
-            continue; /* they were forgotten */
+            continue; /* already freed */
         const size_t column = aur_facets_row(facets, k);
         const size_t slot = find_slot(s, column, width);
         if (slot == SIZE_MAX)
@@ -147,7 +147,7 @@ static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
     return good;
 }
 
-/* What leaves a row for the sky or for backs. */
+/* The light that leaves a row for the sky or for backs. */
 static void add_losses(const assembly *work, size_t row, const double *counts, double *deviations,
                        double *exchange, double *half_width) {
     const size_t width = work->ray_hits->randomizations;

@@ -7,7 +7,7 @@ enum { MOST_ROUNDS = 40 };
 
 static const double GOAL = 2e-15, BALANCED = 1e-12, EXACT = 1e-24;
 
-/* What the rows lack, as parts of their areas: the largest, and by area the mean square. */
+/* Residuals of the row sums relative to the areas: the maximum, and the area-weighted mean square. */
 static void find_deficit(aur_row_system *s, double *largest, double *mean_square) {
     const aur_exchange *const g = s->exchange;
     double squares = 0.0, area = 0.0;
@@ -27,7 +27,7 @@ static void find_deficit(aur_row_system *s, double *largest, double *mean_square
     *mean_square = area > 0.0 ? squares / area : 0.0;
 }
 
-/* Adds a change; what would be negative becomes 0 and stays so. */
+/* Adds a change; a value that would become negative is set to 0 for good. */
 static bool change(double *value, double *weight, double by) {
     *value += *weight * by;
     if (*value >= 0.0)
@@ -37,7 +37,7 @@ static bool change(double *value, double *weight, double by) {
     return true;
 }
 
-/* True when something was cut at 0. */
+/* Returns true if an entry was clamped at 0. */
 static bool apply(aur_row_system *s) {
     aur_exchange *const g = s->exchange;
     const double *const m = s->best;
@@ -51,7 +51,7 @@ static bool apply(aur_row_system *s) {
     return cut;
 }
 
-/* One phase with the given weights, until the rows add up or no more can be had. */
+/* One phase with the given weights, until the rows sum to their areas or the residual no longer falls. */
 static aur_result balance_rows(aur_row_system *s, double *largest, aur_error *error) {
     double mean_square, before = INFINITY;
     for (size_t round = 0; round < MOST_ROUNDS; ++round) {
@@ -64,15 +64,15 @@ static aur_result balance_rows(aur_row_system *s, double *largest, aur_error *er
         if (result != AUR_OK)
             return result;
         if (apply(s))
-            before = INFINITY; /* fewer entries can move now: the next round may begin worse */
+            before = INFINITY; /* fewer entries are free now: the next round may start with a larger residual
+                                */
     }
     find_deficit(s, largest, &mean_square);
     return AUR_OK;
 }
 
-/* What the variances of entries, which are those of counts of rays, are to be multiplied by to be squares of
- * half an interval. From all rows together, because an entry's own few randomisations would be weights by
- * chance. */
+/* The factor from variances of ray counts to squared half widths of intervals. Pooled over all rows, because
+ * an entry's few randomisations would give random weights. */
 static double scale_of_entries(const aur_exchange *g) {
     double squares = 0.0, counts = 0.0;
     for (uint64_t e = 0; e < g->starts[g->rows]; ++e) {
@@ -82,9 +82,9 @@ static double scale_of_entries(const aur_exchange *g) {
     return squares > 0.0 && counts > 0.0 ? squares / counts : 0.0;
 }
 
-/* What rows lose has variances of its own: it is a sum of many rays, or of half planes, which are spread
- * evenly, and some rows see sky in all of them. The variance that is usual, in proportion to what a row
- * loses, counts as one more randomisation beside the row's own. */
+/* Sky and back sums have separate variances: they sum many rays, or half planes, which are evenly
+ * distributed, and some rows see sky in all of them. The typical variance, proportional to the row's sky and
+ * back, counts as one additional randomisation. */
 static void weigh_losses(const aur_exchange *g, double scale, const double *losses, const double *half_widths,
                          double *weights) {
     const double own = (double)(g->randomizations - 1) / (double)g->randomizations;
@@ -102,7 +102,7 @@ static void weigh_losses(const aur_exchange *g, double scale, const double *loss
     }
 }
 
-/* The weights of sampled entries, or of all. */
+/* The weights of the sampled entries, or of all entries. */
 static void choose_weights(aur_row_system *s, bool all) {
     const aur_exchange *const g = s->exchange;
     const double scale = scale_of_entries(g);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Boxes are halved at their middle item along the longest axis of the items' middles. */
+/* Boxes are split at the median item along the longest axis of the items' centres. */
 
 typedef struct middle {
     double at[3];
@@ -65,7 +65,7 @@ static void bound(const aur_box *boxes, const aur_box_tree *tree, aur_box_node *
         }
 }
 
-/* The node over middles[first] .. and those below it; nodes stand in the order of a walk through the tree. */
+/* Builds the node over middles[first] .. and its descendants, in depth-first order. */
 static void build(const aur_box *boxes, aur_box_tree *tree, middle *middles, size_t first, size_t count) {
     static int (*const compare[3])(const void *, const void *) = {compare_x, compare_y, compare_z};
     aur_box_node *const node = &tree->nodes[tree->node_count++];

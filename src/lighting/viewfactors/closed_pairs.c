@@ -5,10 +5,10 @@
 
 #include "points/base/array.h"
 
-/* Up to so many patches all pairs are looked at. */
+/* Up to this number of patches all pairs are tested. */
 enum { SMALL_MESH = 1500, BLOCK = 16 };
 
-/* Rays that a pair must expect: none of them meets it with a chance of exp(-16), one in 9 million. */
+/* Minimum of expected rays for a pair: no ray hits it with probability exp(-16), one in 9 million. */
 static const double EXPECTED_RAYS = 8.0;
 
 typedef struct finding {
@@ -19,7 +19,7 @@ typedef struct finding {
     bool all;
 } finding;
 
-/* How many rays of both patches should meet the other one, for an exchange of area times factor. */
+/* The expected number of rays of both patches that hit the other one, per exchange (area times factor). */
 static double expected_rays(const finding *work, size_t i, size_t k, double exchange) {
     const double rays = (double)(work->ray_hits->rays * work->ray_hits->randomizations);
     const double *const areas = work->facets->areas;
@@ -27,7 +27,7 @@ static double expected_rays(const finding *work, size_t i, size_t k, double exch
            (1.0 / areas[aur_facet_of(work->facets, i)] + 1.0 / areas[aur_facet_of(work->facets, k)]);
 }
 
-/* Twice the exchange that two distant patches could have at most: all of both seen along the line between
+/* Twice the upper bound of the exchange of two distant patches: both fully visible along the line between
  * their means. */
 static bool is_hopeless(const finding *work, size_t i, size_t k) {
     const aur_facets *const facets = work->facets;
@@ -52,7 +52,7 @@ static bool is_hopeless(const finding *work, size_t i, size_t k) {
     return expected_rays(work, i, k, most) < EXPECTED_RAYS;
 }
 
-/* The exchange of the pair, or a negative number when it is not certain that nothing stands between. */
+/* The exchange of the pair; negative if it may be occluded. */
 static double find_exchange(const finding *work, size_t i, size_t k) {
     const aur_facets *const facets = work->facets;
     const size_t facet[2] = {aur_facet_of(facets, i), aur_facet_of(facets, k)};
@@ -107,7 +107,7 @@ static bool find_row(const finding *work, size_t i) {
                 return false;
         return true;
     }
-    /* Both lists ascend: what this patch has met, and those that have met it. */
+    /* Both lists are sorted: patches hit by this patch, and patches whose rays hit this one. */
     const aur_ray_hits_row *const row = &ray_hits->rows[i];
     size_t own = 0, theirs = ray_hits->starts[i];
     while (own < row->count || theirs < ray_hits->starts[i + 1]) {

@@ -5,7 +5,7 @@
 #include "points/base/vector.h"
 #include "points/base/vector3d.h"
 
-/* The positive nodes of Gauss's rules (0 first where the count is odd) and their weights. */
+/* The nonnegative nodes of the Gauss rules (0 first if the count is odd) and their weights. */
 typedef struct rule {
     size_t count;
     double nodes[5], weights[5];
@@ -29,8 +29,8 @@ static const rule rules[] = {
 
 enum { THREE, FOUR, FIVE, EIGHT, TEN, MOST_NODES = 10 };
 
-/* An edge: `length` along the unit vector `along`, from `start`; `middle` is its middle. All lengths are
- * parts of the distance between the polygons' means, the first of which is the origin. */
+/* An edge of `length` from `start` along the unit vector `along`, with midpoint `middle`. The unit of length
+ * is the distance between the polygons' means; the first mean is the origin. */
 typedef struct edge {
     double start[3], along[3], middle[3];
     double length;
@@ -66,8 +66,7 @@ static double integrate_log(const double p[3], const edge *e) {
     return half_log(a, h2) + half_log(b, h2) - e->length + h * atan2(h * e->length, h2 - a * b);
 }
 
-/* Where along a line a function is not smooth: at position + i height, the line's own coordinate being
- * complex. */
+/* Singularities of a function on a line: at position + i height, in the line's complex coordinate. */
 typedef struct singularity {
     double position, height;
 } singularity;
@@ -76,7 +75,7 @@ typedef struct outer {
     const edge *from, *to;
     size_t count;
     singularity singularities[3];
-    double smallest; /* pieces are not halved below this length: what is left is below 1e-15 */
+    double smallest; /* shortest interval that is halved: the remaining error is below 1e-15 */
 } outer;
 
 static singularity seen_from(const edge *line, const double point[3]) {
@@ -89,8 +88,8 @@ static singularity seen_from(const edge *line, const double point[3]) {
     return (singularity){position, aur_length3(way)};
 }
 
-/* The inner integral is singular where the line passes the ends of the other edge, and where it crosses or
- * passes the other edge between them. */
+/* The inner integral is singular where the line passes the ends of the other edge, and where it intersects or
+ * passes it in between. */
 static void find_singularities(outer *o) {
     const edge *const p = o->from, *const q = o->to;
     double end[3], way[3];
@@ -127,7 +126,7 @@ static double apply_rule(const outer *o, const rule *g, double a, double b) {
     return half * sum;
 }
 
-/* Halves pieces that are longer than their distance from a singularity. */
+/* Halves intervals longer than their distance from a singularity. */
 static double integrate_piece(const outer *o, double a, double b) {
     const double length = b - a;
     if (length > o->smallest)
@@ -154,9 +153,9 @@ static size_t place_nodes(const edge *e, const rule *g, const double center[3], 
     return count;
 }
 
-/* Edges far from each other: Gauss's rule along both. ln r is taken from the small difference of r^2 from 1,
- * the square of the means' distance, so that the sum over all edges, which is smaller than its terms, keeps
- * its digits. */
+/* Distant edges: Gauss rule along both. ln r is computed from the small difference between r^2 and 1 (the
+ * squared distance of the means). This preserves the digits of the sum over all edges, which is smaller than
+ * its terms. */
 static double integrate_far(const edge *p, const edge *q, const rule *g, const double way[3]) {
     static const double origin[3] = {0.0, 0.0, 0.0};
     double a[MOST_NODES][3], b[MOST_NODES][3], u[MOST_NODES], v[MOST_NODES];
@@ -182,7 +181,8 @@ static double integrate_edges(const edge *p, const edge *q, const double way[3])
         between[d] = q->middle[d] - p->middle[d];
     const double longer = fmax(p->length, q->length);
     const double apart = aur_length3(between) - 0.5 * (p->length + q->length);
-    /* Gauss's error is rho^(-2 count), rho = y + sqrt(1 + y^2) for a singularity y half lengths away. */
+    /* The error of Gauss quadrature is rho^(-2 count), rho = y + sqrt(1 + y^2) for a singularity at y half
+     * lengths. */
     if (apart > 1000.0 * longer)
         return integrate_far(p, q, &rules[THREE], way);
     if (apart > 32.0 * longer)

@@ -5,7 +5,7 @@
 #include "points/base/array.h"
 #include "points/base/parallel.h"
 
-/* Steeper facets reach through the height in a strip no wider than a few times that. */
+/* Steeper facets cross this height in a strip no wider than a few times the height. */
 static const double NEARLY_PARALLEL = 0.99;
 
 enum { BLOCK = 1024 };
@@ -18,8 +18,8 @@ typedef struct cover_list {
 typedef struct search {
     const aur_facets *facets;
     const aur_box_tree *tree;
-    cover_list *lists; /* of blocks, facet by facet */
-    size_t *counts;    /* of facets */
+    cover_list *lists; /* per block, facet by facet */
+    size_t *counts;    /* per facet */
 } search;
 
 static aur_vector vector_of(const double v[3]) {
@@ -32,7 +32,7 @@ float aur_facet_offset(const aur_facets *facets, size_t facet) {
                                vector_of(facets->planes[facet].normal));
 }
 
-/* Up to this height above its plane rays do not know what they meet, wherever they come from. */
+/* Up to this height above the facet's plane, rays from anywhere cannot resolve which surface they hit. */
 static double height_of(const aur_facets *facets, size_t facet) {
     return 2.0 *
            (double)aur_surface_offset(vector_of(facets->reach), vector_of(facets->planes[facet].normal));
@@ -104,7 +104,7 @@ static aur_result search_block(void *context, size_t index) {
     return AUR_OK;
 }
 
-/* Puts the lists of the blocks one after the other. */
+/* Concatenates the lists of the blocks. */
 static bool join(const search *s, size_t blocks, aur_facets *facets) {
     size_t total = 0;
     for (size_t b = 0; b < blocks; ++b)
@@ -149,7 +149,7 @@ aur_result aur_facets_find_covers(aur_facets *facets, aur_error *error) {
     return result;
 }
 
-/* Of the covers of a facet the first one that the ray meets between two distances, else `met`. */
+/* The nearest cover of the facet that the ray hits between two distances, else `met`. */
 static size_t first_between(const aur_facets *facets, size_t facet, const double origin[3],
                             const double direction[3], double nearest, double farthest, size_t met) {
     for (size_t k = facets->cover_starts[facet]; k < facets->cover_starts[facet + 1]; ++k) {
@@ -170,7 +170,7 @@ size_t aur_facets_first_met(const aur_facets *facets, size_t facet, const double
                             const double direction[3], size_t met) {
     if (facets->cover_starts == NULL)
         return met;
-    /* Below this distance the facet's own covers are all that there is, beyond it those of what is met. */
+    /* Below this distance only the facet's covers matter, beyond it those of the hit facet. */
     const double cosine = fabs(aur_dot3(facets->planes[facet].normal, direction));
     const double begin = height_of(facets, facet) / cosine;
     const size_t first = first_between(facets, facet, origin, direction, 0.0, begin, SIZE_MAX);

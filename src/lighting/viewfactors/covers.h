@@ -1,5 +1,5 @@
-/* Facets that lie closer to each other than rays of floats resolve, as a rug lies on a floor. Doubles decide
- * which of them a ray meets first. */
+/* Facets closer together than float rays can resolve, such as a rug on a floor. Double precision decides
+ * which of them a ray hits first. */
 #pragma once
 
 #include <stdint.h>
@@ -7,23 +7,23 @@
 #include "lighting/viewfactors/facets.h"
 #include "points/base/error.h"
 
-/* How far beside a facet rays begin. */
+/* Offset of ray origins from a facet. */
 float aur_facet_offset(const aur_facets *facets, size_t facet);
 
-/* Lists in facets->covers what lies within that height of each facet, nearly parallel to it, before it or
- * behind it. Errors: MEMORY. */
+/* Lists in facets->covers the nearly parallel facets within that height in front of or behind each facet.
+ * Errors: MEMORY. */
 aur_result aur_facets_find_covers(aur_facets *facets, aur_error *error);
 
-/* The facet that a ray from a point of `facet` meets first, where floats found `met` (SIZE_MAX: none). The
- * direction is of unit length. */
+/* The facet that a ray from a point of `facet` hits first, given `met`, the hit in float precision (SIZE_MAX:
+ * none). The direction has unit length. */
 size_t aur_facets_first_met(const aur_facets *facets, size_t facet, const double origin[3],
                             const double direction[3], size_t met);
 
-/* A tree of boxes over things that have boxes. */
+/* A bounding volume hierarchy. */
 
 enum { AUR_BOX_LEAF = 2 };
 
-/* The node's children follow it; `skip` is the node after all of them. */
+/* The node's children follow it; `skip` is the index of the node after its subtree. */
 typedef struct aur_box_node {
     double lower[3], upper[3];
     uint32_t first, count; /* of the tree's items */

@@ -21,14 +21,14 @@ static int compare_points(const void *left, const void *right) {
     return (a->index > b->index) - (a->index < b->index);
 }
 
-/* The bits of x, each followed by a 0. */
+/* Interleaves the bits of x with zeros. */
 static uint32_t spread_bits(uint32_t x) {
     x = (x | x << 4) & 0x0f0fu;
     x = (x | x << 2) & 0x3333u;
     return (x | x << 1) & 0x5555u;
 }
 
-/* Where the direction lies on the disk, along Morton's curve. */
+/* The position on the disk along a Morton curve. */
 static uint32_t direction_key(double u, double v) {
     const double radius = sqrt(u), angle = 2.0 * AUR_PI * v;
     const uint32_t x = (uint32_t)(127.5 * (1.0 + radius * cos(angle)));
@@ -44,7 +44,7 @@ aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double
     options.seed = seed;
     aur_pointset *made = NULL;
     aur_result result = aur_pointset_create(set, &options, &made, error);
-    if (result == AUR_ERROR_UNSUPPORTED) { /* a set that is not scrambled: the shifts are random enough */
+    if (result == AUR_ERROR_UNSUPPORTED) { /* a set without scrambling: the random shifts suffice */
         options.scramble = AUR_SCRAMBLE_NONE;
         result = aur_pointset_create(set, &options, &made, error);
     }
@@ -103,14 +103,14 @@ void aur_facet_pattern_release(aur_facet_pattern *pattern) {
     *pattern = (aur_facet_pattern){0};
 }
 
-/* A patch as rays see it. */
+/* A patch as the origin of rays. */
 typedef struct emitter {
     float corner[3], edge[2][3], normal[3], axis[2][3];
-    float inset;  /* barycentric: how far rays begin off the edges, where other facets begin */
-    float offset; /* how far they begin before the facet */
+    float inset;  /* barycentric: offset of origins from the edges, where other facets begin */
+    float offset; /* offset of origins from the facet */
 } emitter;
 
-/* A few roundings of the coordinates, seen from the farthest corner of an edge. */
+/* A few rounding errors of the coordinates, relative to the height of the farthest corner over an edge. */
 float aur_facet_inset(const aur_facets *facets, size_t facet) {
     double size = 0.0, longest = 0.0;
     for (size_t c = 0; c < 3; ++c) {
@@ -175,7 +175,7 @@ static void fill_packet(const aur_facet_pattern *pattern, const emitter *e, cons
     }
 }
 
-/* What a ray of `patch` arrives at; `hit`: something, by floats. */
+/* The target of a ray of `patch`; `hit`: the ray hits a surface in float precision. */
 static uint32_t find_target(const aur_facets *facets, size_t patch, const aur_packet *packet, size_t lane,
                             bool hit) {
     const struct RTCHit16 *const hits = &packet->query.hit;
@@ -183,7 +183,7 @@ static uint32_t find_target(const aur_facets *facets, size_t patch, const aur_pa
     const double direction[3] = {(double)rays->dir_x[lane], (double)rays->dir_y[lane],
                                  (double)rays->dir_z[lane]};
     size_t facet = hit ? facets->first[hits->geomID[lane]] + hits->primID[lane] : SIZE_MAX;
-    if (facets->cover_starts != NULL) { /* from the place on the facet itself */
+    if (facets->cover_starts != NULL) { /* from the point on the facet, without offset */
         const aur_plane *const plane = &facets->planes[aur_facet_of(facets, patch)];
         double origin[3] = {(double)rays->org_x[lane], (double)rays->org_y[lane], (double)rays->org_z[lane]};
         const double height = aur_plane_height(plane, origin);

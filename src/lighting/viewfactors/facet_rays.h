@@ -1,29 +1,29 @@
-/* Rays from facets: one pattern of places and directions, shifted at random for every facet and
+/* Rays from facets: one pattern of origins and directions, shifted randomly for every facet and
  * randomisation. */
 #pragma once
 
 #include "lighting/viewfactors/facets.h"
 #include "points/base/parallel.h"
 
-/* What a ray arrives at, if no patch. */
+/* Targets of a ray that are not patches. */
 #define AUR_TARGET_SKY UINT32_MAX
 #define AUR_TARGET_BACK (UINT32_MAX - 1)
 
-/* Points of the unit cube of four dimensions. Neighbours in the arrays have neighbouring directions, so that
- * the rays of a packet stay together. */
+/* Points of the four-dimensional unit cube. Adjacent points have similar directions, so that the rays of a
+ * packet are coherent. */
 typedef struct aur_facet_pattern {
     size_t count;
     uint64_t seed;
-    float *place[2];  /* coordinates of the places */
+    float *place[2];  /* coordinates of the origins */
     float *squared;   /* squared sine of the direction to the normal */
     float *around[2]; /* cosine and sine of the angle about the normal */
 } aur_facet_pattern;
 
-/* points[count][4] of SET, scrambled where it can be. Errors: those of aur_pointset_create; UNSUPPORTED for
+/* points[count][4] of SET, scrambled if supported. Errors: those of aur_pointset_create; UNSUPPORTED for
  * fewer than 4 dimensions. */
 aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double *points, aur_error *error);
 
-/* Barycentric: how far places keep off a facet's edges, where other facets begin. */
+/* Barycentric: distance of ray origins from a facet's edges, where other facets begin. */
 float aur_facet_inset(const aur_facets *facets, size_t facet);
 
 /* `count` points of SET. Errors: those of aur_pointset_create; UNSUPPORTED for fewer than 4 dimensions. */
@@ -31,18 +31,18 @@ aur_result aur_facet_pattern_create(const char *set, size_t count, uint64_t seed
                                     aur_error *error);
 void aur_facet_pattern_release(aur_facet_pattern *pattern);
 
-/* Traces the rays of one randomisation of the pattern from a patch that has an area, cosine distributed about
- * its normal from places that are uniform by area: targets[pattern->count] is what each arrives at. With
- * `along` (else NULL; not 0) all rays go that way. */
+/* Traces the rays of one randomisation of the pattern from a patch that has an area, cosine-distributed about
+ * its normal, from uniformly distributed origins. targets[pattern->count] receives the hits. With `along`
+ * (else NULL; nonzero) all rays have that direction. */
 void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t patch,
                      uint64_t randomization, const double *along, uint32_t *targets);
 
-/* y = F x along rays, of the rows of facets. */
+/* y = F x along rays, for the rows of facets. */
 
-/* The mean over `count` randomisations of the pattern from `first` on; what each ray meets brings home its x.
- * `sky` (may be NULL) is the part that leaves the scene. With `sun` (may be NULL; not 0), y is instead the
- * irradiance of light from that direction, whose length is the irradiance of what faces it; x is not used.
- * Errors: CANCELLED, MEMORY. */
+/* The mean over `count` randomisations of the pattern from `first` on; each ray collects the x of its hit.
+ * `sky` (may be NULL) is the fraction that leaves the scene. With `sun` (may be NULL; nonzero), y is instead
+ * the irradiance by light from that direction; its length is the irradiance on a plane facing it; x is
+ * unused. Errors: CANCELLED, MEMORY. */
 aur_result aur_facet_product(const aur_facets *facets, const aur_facet_pattern *pattern, size_t first,
                              size_t count, const aur_parallel_options *parallel, const double *sun,
                              const double *x, double *y, double *sky, aur_error *error);

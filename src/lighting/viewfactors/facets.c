@@ -11,8 +11,8 @@
 #include "points/base/text.h"
 #include "render/scene/scene_data.h"
 
-/* The text as the value of an attribute of XML, in which scenes replace $names; a buffer of 6 bytes for each
- * one suffices. */
+/* The text escaped as an XML attribute value; `$`, which scenes substitute, is escaped too. A buffer of 6
+ * bytes per character suffices. */
 static void escape(const char *text, char *escaped) {
     static const char special[] = "&<>\"$";
     static const char *const instead[] = {"&amp;", "&lt;", "&gt;", "&quot;", "\\$"};
@@ -26,7 +26,7 @@ static void escape(const char *text, char *escaped) {
     *escaped = '\0';
 }
 
-/* A mesh is the one shape of a scene, so that it is read, checked and traced as the meshes of scenes are. */
+/* Loads a mesh as the only shape of a scene, so that it is read, checked and traced like meshes of scenes. */
 static aur_result load_mesh(const char *path, aur_overlap_rule rule, const aur_scene_options *options,
                             aur_scene **scene, aur_error *error) {
     static const char *const shapes[AUR_MESH_FORMAT_COUNT] = {"obj", "ply", "stl", "off"};
@@ -49,7 +49,7 @@ static aur_result load_mesh(const char *path, aur_overlap_rule rule, const aur_s
         result = aur_scene_load_with_points(path, (size_t)length, text, rule, options, scene, error);
     }
     if (result != AUR_OK && error != NULL && strcmp(error->file, absolute) == 0)
-        aur_format(error->file, sizeof error->file, "%s", path); /* as the caller knows it */
+        aur_format(error->file, sizeof error->file, "%s", path); /* the caller's path */
     free(absolute);
     free(escaped);
     free(text);
@@ -66,7 +66,7 @@ static bool is_vs3(const char *path) {
     return dot != NULL && strcasecmp(dot, ".vs3") == 0;
 }
 
-/* Surfaces that View3D combines, or single ones, are groups. */
+/* Surfaces that View3D combines, or single ones, form groups. */
 static aur_result take_vs3_groups(aur_facets *facets, aur_vs3 *from, aur_error *error) {
     const size_t shapes = facets->scene->shape_count;
     if (shapes != from->shape_count)
@@ -105,7 +105,7 @@ static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
     return AUR_OK;
 }
 
-/* Facets in the order of the scene's shapes. */
+/* The facets in the order of the scene's shapes. */
 static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
     const aur_scene *const scene = facets->scene;
     for (size_t i = 0; i < scene->shape_count; ++i) {
@@ -149,7 +149,7 @@ static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
     return AUR_OK;
 }
 
-/* A facet that is thinner than its coordinates are rounded has no normal that means anything. */
+/* The normal of a facet thinner than the rounding of its coordinates is meaningless. */
 static void leave_out_slivers(aur_facets *facets) {
     for (size_t i = 0; i < facets->count; ++i) {
         double longest = 0.0;
@@ -207,7 +207,7 @@ static aur_result load_scene(const char *path, aur_overlap_rule rule, const aur_
                              bool mesh, const aur_vs3 *surfaces, aur_scene **made, aur_error *error) {
     aur_scene_options scene = {.size = sizeof scene};
     aur_scene_options_init(&scene, NULL);
-    scene.model_light = AUR_MODEL_LIGHT_NONE; /* and so no studio, whose ground would be a facet */
+    scene.model_light = AUR_MODEL_LIGHT_NONE; /* no studio either: its ground would be a facet */
     scene.warnings = options->warnings;
     scene.definition_count = options->definition_count;
     scene.confine = options->confine;

@@ -1,4 +1,4 @@
-/* What is odd about a mesh: said once for each kind, with a count and the first place. */
+/* Warnings about a mesh: one per kind, with the count and the first location. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "points/base/random.h"
 #include "render/scene/scene_data.h"
 
-/* Points to the first of some facets. */
+/* Sets the location of a warning to the first of some facets. */
 typedef struct finding {
     size_t count, first;
 } finding;
@@ -26,12 +26,11 @@ static void report(const aur_facets *facets, const aur_warnings *warnings, const
                 (size_t)facets->sources[f->first]);
 }
 
-/* An edge in the direction in which its facet passes it, or a facet's three corners, by the numbers of
- * places. */
+/* An edge in the direction of its facet's boundary, or a facet's three corners, by vertex numbers. */
 typedef struct use {
     uint32_t low, middle, high;
     uint32_t facet;
-    bool turned; /* against the order of low and high, or an odd permutation of the corners */
+    bool turned; /* reversed relative to (low, high), or an odd permutation of the corners */
 } use;
 
 static int compare_uses(const void *left, const void *right) {
@@ -49,7 +48,7 @@ static bool same_place(const use *a, const use *b) {
     return a->low == b->low && a->middle == b->middle && a->high == b->high;
 }
 
-/* Numbers the places of corners: equal coordinates have equal numbers. */
+/* Numbers the corner positions: equal coordinates have equal numbers. */
 static bool number_places(const aur_facets *facets, uint32_t *places) {
     size_t slots = 16;
     while (slots < 6 * facets->count)
@@ -63,7 +62,7 @@ static bool number_places(const aur_facets *facets, uint32_t *places) {
         uint64_t bits[3];
         double clean[3];
         for (int d = 0; d < 3; ++d)
-            clean[d] = corners[i][d] + 0.0; /* -0 is 0 */
+            clean[d] = corners[i][d] + 0.0; /* -0 becomes 0 */
         memcpy(bits, clean, sizeof bits);
         size_t slot = aur_hash3(bits[0], bits[1], bits[2]) & (slots - 1);
         while (table[slot] != UINT32_MAX &&
@@ -108,7 +107,7 @@ static void find_sheets(const aur_facets *facets, const uint32_t *places, use *u
     report(facets, warnings, &inverted, "facets lie back to back with others, a sheet without thickness");
 }
 
-/* What was cut when the scene was loaded. */
+/* Overlaps that were removed when the scene was loaded. */
 static void report_overlaps(const aur_facets *facets, const aur_warnings *warnings) {
     const aur_scene_overlap *const found = &facets->scene->overlap;
     size_t pair[2];
@@ -154,8 +153,7 @@ static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
     report(facets, warnings, &disagreeing, "edges join facets that face inwards and outwards");
 }
 
-/* Whether the facet is narrower, across its longest side, than rays that leave or meet it there are rounded.
- */
+/* Whether the facet's height over its longest side is below the rounding error of rays there. */
 static bool is_too_narrow(const aur_facets *facets, size_t facet) {
     const double(*const c)[3] = (const double(*)[3])facets->corners[facet];
     double longest = 0.0, across[3] = {0.0}, reach[3] = {0.0};

@@ -1,4 +1,4 @@
-/* Radiosities of facets, by the matrix or by rays that are traced again for each reflection. */
+/* Radiosities of facets, by the matrix or by rays that are traced for each reflection. */
 #include <aureole/statistics.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,11 +9,11 @@
 #include "points/base/error.h"
 #include "points/base/parallel.h"
 
-/* Rays to the sun are few beside the others, and what it lights ends at edges: they begin at SUN_PLACES times
- * as many places. */
+/* Few rays go to the sun, and the sunlit region has sharp edges, so they start at SUN_PLACES times as many
+ * origins. */
 enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16, SUN_PLACES = 4 };
 
-/* With a matrix the sum ends where the next reflection is a part of the whole smaller than this. */
+/* With a matrix the series ends when the next reflection is below this fraction of the total. */
 static const double SMALLEST_CHANGE = 1e-7;
 
 typedef struct solution {
@@ -21,22 +21,22 @@ typedef struct solution {
     const aur_view_factors *factors;
     const aur_facets_light *light;
     aur_parallel_options parallel;
-    aur_progress_span *span; /* of all products */
+    aur_progress_span *span; /* over all products */
     size_t rows, randomizations;
-    /* Patterns of half as many rays each, down to FEWEST_RAYS. */
+    /* Patterns with successively half as many rays, down to FEWEST_RAYS. */
     aur_facet_pattern patterns[LEVELS];
     size_t level_count;
     aur_facet_pattern sun_places;
-    double smallest; /* part of the light at which the sum ends */
-    /* Of rows; what one randomisation has found, and the sums over them. */
+    double smallest; /* fraction of the light at which the series ends */
+    /* Per row: the result of one randomisation, and sums over randomisations. */
     double *now, *next, *sky, *found, *total, *squares, *sky_total;
-    double *reflectances, *emissions; /* of rows */
-    double highest;                   /* of the reflectances */
-    double *sun; /* [randomizations + 1][rows]: irradiances, the last ones their mean; NULL: there is none */
+    double *reflectances, *emissions; /* per row */
+    double highest;                   /* maximum of the reflectances */
+    double *sun; /* [randomizations + 1][rows]: irradiances, the last ones their mean; NULL: no sun */
 } solution;
 
-/* The next product takes `work` after `done` of its randomisation, in units of the first one. The sun's takes
- * about one too, and those with fewer rays, which the light shrinks to, come to as much as that. */
+/* Progress: the next product takes `work` after `done` of its randomisation, in units of the first product.
+ * The sun's also takes about one; those with fewer rays, as the light decreases, take about one together. */
 static void place_product(const solution *s, size_t randomization, bool of_sun, double done, double work) {
     const double sun = s->sun != NULL ? 1.0 : 0.0, others = 1.0 + 1.0 / fmax(1.0 - s->highest, 0.1),
                  each = of_sun ? sun : others,
@@ -55,7 +55,8 @@ static double mean(const solution *s, const double *values) {
     return area > 0.0 ? sum / area : 0.0;
 }
 
-/* By the factors as one randomisation has them; by their mean where there is none of this number. */
+/* Multiplies by the factors of one randomisation; by their mean if there is no randomisation of this index.
+ */
 static bool multiply(const aur_view_factors *m, size_t randomization, const double *x, double *y) {
     for (size_t i = 0; i < m->rows; ++i) {
         double sum = 0.0;
@@ -77,8 +78,8 @@ static bool multiply(const aur_view_factors *m, size_t randomization, const doub
     return true;
 }
 
-/* One application of the factors. Every pair of a randomisation and a reflection has rays of its own, so that
- * the expectation of the product of many is the product of their expectations. */
+/* One application of the factors. Each pair of a randomisation and a reflection uses independent rays, so
+ * that the expectation of a product of several is the product of their expectations. */
 static aur_result apply(const solution *s, size_t level, size_t randomization, size_t reflection,
                         const double *x, double *y, double *sky, aur_error *error) {
     if (s->factors == NULL)
@@ -95,7 +96,7 @@ static aur_result apply(const solution *s, size_t level, size_t randomization, s
     return AUR_OK;
 }
 
-/* What comes first from the sun, the sky and the facets' own light. */
+/* Light before reflection: from the sun, the sky and the facets' emission. */
 static aur_result first_light(const solution *s, size_t randomization, aur_error *error) {
     const aur_facets_light *const light = s->light;
     memcpy(s->now, s->emissions, s->rows * sizeof *s->now);
@@ -127,7 +128,7 @@ static aur_result trace_sun(solution *s, aur_error *error) {
     return result;
 }
 
-/* s->found is what arrives at each row, over all reflections. */
+/* s->found receives the irradiance of each row, over all reflections. */
 static aur_result solve_once(const solution *s, size_t randomization, aur_error *error) {
     aur_result result = first_light(s, randomization, error);
     double before = 0.0, done = 1.0, first = 0.0, whole = mean(s, s->emissions);
@@ -140,7 +141,8 @@ static aur_result solve_once(const solution *s, size_t randomization, aur_error 
         for (size_t i = 0; i < s->rows; ++i)
             s->found[i] += s->next[i];
         if (part == 0.0 || (ratio < 1.0 && part * ratio / (1.0 - ratio) <= s->smallest * whole)) {
-            /* What would still come, all in the shape of the last. */
+            /* Extrapolates the remaining reflections as a geometric series with the distribution of the last
+             * one. */
             for (size_t i = 0; i < s->rows && part > 0.0; ++i)
                 s->found[i] += s->next[i] * ratio / (1.0 - ratio);
             return AUR_OK;
@@ -161,8 +163,8 @@ static aur_result solve_once(const solution *s, size_t randomization, aur_error 
                                        MOST_REFLECTIONS);
 }
 
-/* Without a matrix the solution is the mean over randomisations. With one, it is that of the matrix, and
- * those of the matrices of single randomisations say what it errs by. */
+/* Without a matrix the solution is the mean over the randomisations. With one, it is the solution for the
+ * matrix; the solutions for the matrices of single randomisations give its error. */
 static aur_result solve(solution *s, bool intervals, aur_error *error) {
     const size_t count = intervals || s->factors == NULL ? s->randomizations : 0;
     for (size_t r = 0; r < count; ++r) {
@@ -170,7 +172,7 @@ static aur_result solve(solution *s, bool intervals, aur_error *error) {
         if (result != AUR_OK)
             return result;
         for (size_t i = 0; i < s->rows; ++i) {
-            /* Mean and sum of squared deviations, as in Welford 1962. */
+            /* Updates the mean and the sum of squared deviations (Welford 1962). */
             const double off = s->found[i] - s->total[i];
             s->total[i] += off / (double)(r + 1);
             s->squares[i] += off * (s->found[i] - s->total[i]);

@@ -1,4 +1,4 @@
-/* Results as files. */
+/* Writes results to files. */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "lighting/viewfactors/view_factors.h"
 #include "points/base/text.h"
 
-/* What scipy.sparse.load_npz asks for, and beside it what belongs to the rows. */
+/* The arrays that scipy.sparse.load_npz expects, and further arrays per row. */
 static void write_npz(const aur_view_factors *f, FILE *stream) {
     aur_npz npz = {.stream = stream};
     char rows[32], entries[32];
@@ -46,7 +46,7 @@ static void write_csv(const aur_view_factors *f, FILE *stream) {
     }
 }
 
-/* As View3D 3.3 writes text: a first line of 30 characters, areas, all factors row by row, emittances. */
+/* View3D 3.3's text format: a first line of 30 characters, areas, all factors row by row, emittances. */
 static void write_view3d(const aur_view_factors *f, FILE *stream) {
     char header[80];
     snprintf(header, sizeof header, "Aureole %s 0 0 0 %zu", aur_version(), f->rows);
@@ -68,7 +68,7 @@ static void write_view3d(const aur_view_factors *f, FILE *stream) {
     fputc('\n', stream);
 }
 
-/* One of uDALES's files, with the ending that the first one has. */
+/* Opens one of uDALES's files, with the same suffix as the first one. */
 static aur_result write_beside(const aur_view_factors *f, const char *path, const char *ending,
                                const char *name, const char *head, const double *numbers, aur_error *error) {
     const char *const slash = strrchr(path, '/');
@@ -89,7 +89,7 @@ static aur_result write_beside(const aur_view_factors *f, const char *path, cons
     return aur_file_commit(&writer, error);
 }
 
-/* As uDALES's preprocessing writes them: rows and columns from 1, and no factor below 5e-7. */
+/* The format of uDALES's preprocessing: rows and columns from 1, and no factor below 5e-7. */
 static aur_result write_udales(const aur_view_factors *f, const char *path, aur_error *error) {
     static const char first[] = "vfsparse.inp";
     const char *const slash = strrchr(path, '/'), *const name = slash != NULL ? slash + 1 : path;

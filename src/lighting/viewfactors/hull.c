@@ -10,7 +10,7 @@ static void add_corner(aur_hull *hull, const double corner[3]) {
     }
 }
 
-/* Whether corners lie more than `beyond` behind and before the plane: on which sides the hull is. */
+/* Whether corners lie more than `beyond` behind or in front of the plane: on which sides the hull is. */
 static void find_sides(const aur_hull *hull, const aur_plane *plane, double beyond, bool *behind,
                        bool *before) {
     *behind = *before = false;
@@ -21,7 +21,7 @@ static void find_sides(const aur_hull *hull, const aur_plane *plane, double beyo
     }
 }
 
-/* Adds the plane through an edge and a corner when the hull is on one side of it. */
+/* Adds the plane through an edge and a corner if the hull lies on one side of it. */
 static void try_plane(aur_hull *hull, const double a[3], const double b[3], const double c[3]) {
     double u[3], v[3];
     for (int d = 0; d < 3; ++d) {
@@ -43,13 +43,13 @@ static void try_plane(aur_hull *hull, const double a[3], const double b[3], cons
     } else if (behind) {
         return;
     }
-    for (size_t p = 0; p < 2; ++p) /* a corner in the polygon's own plane, of which less is outside */
+    for (size_t p = 0; p < 2; ++p) /* planes through a corner in the polygon's own plane exclude less */
         if (aur_dot3(plane.normal, hull->planes[p].normal) > 1.0 - 1e-12)
             return;
     hull->planes[hull->plane_count++] = plane;
 }
 
-/* How far the corners of the other polygon rise above the plane of polygon p. */
+/* The maximum height of the other polygon's corners above the plane of polygon p. */
 static double thickness(const aur_hull *hull, size_t p) {
     double highest = 0.0;
     for (size_t i = 0; i < hull->counts[1 - p]; ++i)
@@ -104,7 +104,7 @@ static bool box_is_outside(const aur_hull *hull, const aur_box_node *node) {
     return false;
 }
 
-/* Whether some edge of the first polygon has the second one beyond it, seen along the normal. */
+/* Whether some edge of the first polygon separates it from the second one, projected along the normal. */
 static bool edge_separates(size_t count, const double (*corners)[3], size_t other_count,
                            const double (*others)[3], const double normal[3], double slack) {
     for (size_t i = 0; i < count; ++i) {
@@ -123,7 +123,8 @@ static bool edge_separates(size_t count, const double (*corners)[3], size_t othe
     return false;
 }
 
-/* Whether two convex polygons overlap by more than the slack, seen along the normal of the second one. */
+/* Whether two convex polygons overlap by more than the slack, projected along the normal of the second one.
+ */
 static bool overlap(size_t count, const double (*corners)[3], size_t other_count, const double (*others)[3],
                     const double normal[3], double slack) {
     aur_plane plane;
@@ -134,7 +135,7 @@ static bool overlap(size_t count, const double (*corners)[3], size_t other_count
            !edge_separates(other_count, others, count, corners, normal, slack);
 }
 
-/* Whether the part of the facet in front of the plane of polygon p covers some of that polygon. */
+/* Whether the part of the facet in front of the plane of polygon p covers a part of that polygon. */
 static bool covers_polygon(const aur_hull *hull, size_t p, const double (*corners)[3]) {
     double cut[4][3];
     const size_t count = aur_polygon_clip(3, corners, &hull->planes[p], cut);
@@ -143,8 +144,8 @@ static bool covers_polygon(const aur_hull *hull, size_t p, const double (*corner
                                 hull->planes[p].normal, hull->slack);
 }
 
-/* Whether the part of some polygon in front of the plane, which is the facet's or that turned over, covers
- * some of the facet. */
+/* Whether the part of some polygon in front of the facet's plane, or of its reverse, covers a part of the
+ * facet. */
 static bool is_covered(const aur_hull *hull, const aur_plane *plane, const double (*corners)[3],
                        const double normal[3]) {
     for (size_t p = 0; p < 2; ++p) {
@@ -162,8 +163,8 @@ static double highest_of(const aur_plane *plane, const double (*corners)[3]) {
                 fmax(aur_plane_height(plane, corners[1]), aur_plane_height(plane, corners[2])));
 }
 
-/* Whether the part of the facet between the two polygons' planes is outside. Sides of a hull across a narrow
- * gap are steep by rounding alone, which farther parts of the facet would take for a way in. */
+/* Whether the part of the facet between the two polygons' planes is outside. The hull's sides across a narrow
+ * gap are inclined by rounding only; extended, they would let distant parts of the facet appear inside. */
 static bool part_is_outside(const aur_hull *hull, const double (*corners)[3]) {
     double cut[4][3], part[5][3];
     size_t count = aur_polygon_clip(3, corners, &hull->planes[0], cut);
@@ -203,7 +204,7 @@ static bool facet_is_outside(const aur_hull *hull, const aur_facets *facets, siz
     find_sides(hull, &plane, hull->slack, &behind, &before);
     if (behind && before)
         return false;
-    if (before) { /* what little reaches through the plane is behind it */
+    if (before) { /* the small part that crosses the plane is behind it */
         for (int d = 0; d < 3; ++d)
             plane.normal[d] = -plane.normal[d];
         plane.offset = -plane.offset;

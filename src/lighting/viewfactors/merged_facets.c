@@ -5,7 +5,7 @@
 
 #include "lighting/viewfactors/covers.h"
 
-/* A polygon's corner and the next one, the smaller first. */
+/* A side of a polygon: the indices of its two corners, the smaller first. */
 typedef struct side {
     double ends[2][3];
     uint32_t polygon, place;
@@ -16,8 +16,8 @@ typedef struct merging {
     const aur_facets *facets;
     size_t count;
     aur_merged_facet *polygons;
-    uint32_t *first; /* the facet whose plane the polygon has */
-    bool *done;      /* in this round */
+    uint32_t *first; /* the facet whose plane the polygon uses */
+    bool *done;      /* merged in this round */
     side *sides;
 } merging;
 
@@ -38,7 +38,7 @@ static int compare_sides(const void *left, const void *right) {
     return (a->polygon > b->polygon) - (a->polygon < b->polygon);
 }
 
-/* Which coordinate changes most along the side. */
+/* The coordinate that changes most along the side. */
 static int direction_of(const side *s) {
     int axis = 0;
     for (int d = 1; d < 3; ++d)
@@ -60,7 +60,7 @@ static bool is_longest(const aur_merged_facet *polygon, size_t place) {
     return own > longest * (1.0 - 1e-6);
 }
 
-/* Positive where the way from a by b to c turns to the left: twice the area, over the length from a to c. */
+/* Positive if the path a, b, c turns left: twice the triangle's area over the distance from a to c. */
 static double bend(const double a[3], const double b[3], const double c[3], const double normal[3]) {
     double u[3], v[3], across[3];
     for (int d = 0; d < 3; ++d) {
@@ -71,8 +71,8 @@ static double bend(const double a[3], const double b[3], const double c[3], cons
     return aur_dot3(across, normal) / aur_length3(v);
 }
 
-/* How far corners may be from a common plane or line: a part of the extent of both polygons, wherever they
- * stand. */
+/* Tolerance of corners to a common plane or line: relative to the extent of both polygons, independent of
+ * their position. */
 static double slack_of(const aur_merged_facet *a, const aur_merged_facet *b) {
     const aur_box first = aur_box_of(a->count, (const double(*)[3])a->corners),
                   second = aur_box_of(b->count, (const double(*)[3])b->corners);
@@ -82,7 +82,7 @@ static double slack_of(const aur_merged_facet *a, const aur_merged_facet *b) {
     return 1e-6 * size;
 }
 
-/* Puts the second polygon to the first where both may have it. */
+/* Merges the second polygon into the first if the shared side allows it. */
 static bool merge(const merging *work, const side *a, const side *b) {
     aur_merged_facet *const into = &work->polygons[a->polygon], *const from = &work->polygons[b->polygon];
     const aur_plane *const plane = &work->facets->planes[work->first[a->polygon]];
@@ -119,7 +119,7 @@ static bool merge(const merging *work, const side *a, const side *b) {
     return true;
 }
 
-/* One round across longest sides, or across those along an axis. Each polygon takes part once. */
+/* One round, across longest sides or across sides along an axis. Each polygon is merged at most once. */
 static size_t merge_round(merging *work, int axis) {
     size_t count = 0, merged = 0;
     for (size_t i = 0; i < work->count; ++i) {

@@ -1,4 +1,4 @@
-/* Where the facets of a mesh file stand in it. */
+/* Line numbers and groups of the facets in a mesh file. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static aur_result take_lines(aur_facets *facets, const aur_mesh_data *data, aur_
     return AUR_OK;
 }
 
-/* The names go from the one to the other. */
+/* Moves the names from one to the other. */
 static void take_groups(aur_facets *facets, aur_mesh_data *data) {
     facets->group_count = data->groups.count;
     facets->names = data->groups.items;

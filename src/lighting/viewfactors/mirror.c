@@ -12,7 +12,7 @@ static void put(aur_exchange *exchange, uint64_t at, size_t column, const aur_up
     exchange->half_widths[at] = row->half_widths[k];
 }
 
-/* The whole matrix from its upper triangle. Rows come in order, so that columns ascend. */
+/* Builds the whole matrix from its upper triangle. Rows are processed in order, so that columns ascend. */
 bool aur_exchange_mirror(aur_upper_row *uppers, aur_exchange *exchange) {
     const size_t rows = exchange->rows, width = exchange->randomizations;
     uint64_t *const next = calloc(rows + 1, sizeof *next);
@@ -48,7 +48,7 @@ bool aur_exchange_mirror(aur_upper_row *uppers, aur_exchange *exchange) {
         if (row->count > 0)
             memcpy(to, row->deviations, row->count * width * sizeof *to);
         to += row->count * width;
-        free(row->deviations); /* the most of what a row has */
+        free(row->deviations); /* the largest array of a row */
         row->deviations = NULL;
         for (size_t k = 0; k < row->count; ++k) {
             const size_t b = row->columns[k];

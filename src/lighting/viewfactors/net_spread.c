@@ -2,9 +2,8 @@
 
 #include <math.h>
 
-/* Before anything is measured, each rate from that of chance to that of nets where nothing jumps is as
- * likely: 1 to 2, with the variance 1/12. The mean is also the rate where jumps lie in two dimensions (He and
- * Wang 2015: 1 + 1/2). */
+/* Prior of the rate: uniform from that of random points to that of nets with a smooth integrand, 1 to 2, with
+ * the variance 1/12. Its mean is also the rate for jumps in two dimensions (He and Wang 2015: 1 + 1/2). */
 static const double USUAL_RATE = 1.5, USUAL_VARIANCE = 1.0 / 12.0;
 
 static double mean_of(size_t count, const double *values) {
@@ -15,8 +14,8 @@ static double mean_of(size_t count, const double *values) {
 }
 
 /* Let V(n) be the variance of the mean of n points. About the mean of all N, parts of N/R points have the
- * mean square V(N/R) - V(N), which is V(N) (R^rate - 1). So those of R and of R/2 parts have the ratio that
- * is returned; it grows with the rate. */
+ * mean square V(N/R) - V(N), which is V(N) (R^rate - 1). Returned is the ratio of this for R parts and for
+ * R/2 parts; it increases with the rate. */
 static double ratio_at(double rate, double parts) {
     return (pow(parts, rate) - 1.0) / (pow(0.5 * parts, rate) - 1.0);
 }
@@ -33,9 +32,9 @@ static double rate_of(double ratio, double parts) {
     return 0.5 * (low + high);
 }
 
-/* Of the rate that one number tells: the ratio is 1 and a quotient of two sums of squares, of halves'
- * differences with R/2 and of halves' means with R/2 - 1 degrees of freedom, whose relative variance is about
- * 2 over the one and over the other. */
+/* Variance of the rate estimated from one number: the ratio is 1 plus a quotient of two sums of squares, of
+ * halves' differences with R/2 and of halves' means with R/2 - 1 degrees of freedom. Their relative variances
+ * are about 2 over the degrees of freedom. */
 static double variance_of_rate(double parts) {
     const double step = 1e-3, ratio = ratio_at(USUAL_RATE, parts);
     const double slope =
@@ -60,7 +59,8 @@ static double find_rate(size_t count, size_t parts, const double *values) {
     }
     if (!(paired > 0.0))
         return USUAL_RATE;
-    /* Numbers that vary more tell more: so many alike ones would tell as much. */
+    /* Effective sample size: numbers with larger variance have more weight; so many equally weighted ones
+     * would give the same information. */
     const double measured = single * single / squares / variance_of_rate((double)parts),
                  usual = 1.0 / USUAL_VARIANCE;
     return (measured * rate_of(single / paired, (double)parts) + usual * USUAL_RATE) / (measured + usual);

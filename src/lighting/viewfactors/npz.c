@@ -4,14 +4,14 @@
 #include <string.h>
 #include <zlib.h>
 
-/* Every member has the fields of ZIP64, so that no size is special (PKWARE's APPNOTE 4.3 to 4.5). */
+/* Every member has ZIP64 fields, so that all sizes are handled alike (PKWARE's APPNOTE 4.3 to 4.5). */
 
 static void put_bytes(aur_npz *npz, size_t size, const void *bytes) {
     fwrite(bytes, 1, size, npz->stream);
     npz->position += size;
 }
 
-/* The lowest byte first. */
+/* Little endian. */
 static void put_number(aur_npz *npz, size_t bytes, uint64_t value) {
     unsigned char buffer[8];
     for (size_t i = 0; i < bytes; ++i)
@@ -19,7 +19,7 @@ static void put_number(aur_npz *npz, size_t bytes, uint64_t value) {
     put_bytes(npz, bytes, buffer);
 }
 
-/* crc32 counts in 32 bits. */
+/* crc32 takes 32-bit lengths. */
 static uint32_t checksum_of(uint32_t checksum, uint64_t size, const unsigned char *bytes) {
     while (size > 0) {
         const uint64_t part = size < UINT32_C(1) << 30 ? size : UINT32_C(1) << 30;
@@ -30,13 +30,13 @@ static uint32_t checksum_of(uint32_t checksum, uint64_t size, const unsigned cha
     return checksum;
 }
 
-/* From the version on to the sizes, alike in a member's own header and in the directory. */
+/* The fields from the version to the sizes, identical in a member's header and in the directory. */
 static void put_common(aur_npz *npz, const aur_npz_member *member, size_t extra) {
     put_number(npz, 2, 45); /* the version of ZIP64 */
     put_number(npz, 2, 0);
     put_number(npz, 2, 0);      /* stored */
     put_number(npz, 2, 0);      /* midnight */
-    put_number(npz, 2, 0x0021); /* of 1 January 1980: files are functions of what is in them */
+    put_number(npz, 2, 0x0021); /* of 1 January 1980: files are reproducible */
     put_number(npz, 4, member->checksum);
     put_number(npz, 4, UINT32_MAX);
     put_number(npz, 4, UINT32_MAX);
@@ -48,7 +48,7 @@ void aur_npz_add(aur_npz *npz, const char *name, const char *type, const char *s
                  size_t width, const void *data) {
     if (npz->count == AUR_NPZ_MEMBERS)
         return;
-    /* NumPy's header: its length makes the data begin at a multiple of 64. */
+    /* NumPy's header, padded so that the data begin at a multiple of 64. */
     char header[256];
     memcpy(header, "\x93NUMPY\x01\x00", 8);
     int length = snprintf(header + 10, sizeof header - 10,

@@ -1,4 +1,4 @@
-/* The view factor of two polygons that a caller gives. */
+/* The view factor of two polygons given by the caller. */
 #include <aureole-lighting/view_factors.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 
 enum { MOST_CORNERS = 1 << 16 };
 
-/* A polygon in units of the larger one's size, with room for the corners that a cut adds. */
+/* A polygon, scaled by the larger one's size, with room for the corners that clipping adds. */
 typedef struct polygon {
     size_t count;
     double (*corners)[3];
@@ -68,7 +68,7 @@ static aur_result read_polygon(const char *which, size_t count, const double *co
     return AUR_OK;
 }
 
-/* Cuts off what lies behind the plane. */
+/* Clips the part behind the plane. */
 static aur_result cut(polygon *p, const aur_plane *plane, aur_error *error) {
     double(*const kept)[3] = malloc((p->count + 2) * sizeof *kept);
     if (kept == NULL)

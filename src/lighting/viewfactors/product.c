@@ -1,4 +1,4 @@
-/* y = F x by rays alone. */
+/* y = F x by rays, without a matrix. */
 #include <stdlib.h>
 
 #include "lighting/viewfactors/facet_rays.h"
@@ -11,10 +11,10 @@ typedef struct product {
     const aur_facet_pattern *pattern;
     size_t first, randomizations;
     const double *sun, *x;
-    double *y, *sky; /* of patches */
+    double *y, *sky; /* per patch */
 } product;
 
-/* The irradiance of a patch from parallel light: the part of its places that see the source. */
+/* The irradiance of a patch by parallel light: the fraction of its ray origins that see the source. */
 static double sunlight(const product *work, size_t patch, uint32_t *targets) {
     const aur_plane plane = aur_patch_plane(work->facets, patch);
     const double facing = aur_dot3(plane.normal, work->sun);
@@ -56,7 +56,7 @@ static aur_result multiply_block(void *context, size_t index) {
     return AUR_OK;
 }
 
-/* The mean over the patches of each row, by area. */
+/* The area-weighted mean over the patches of each row. */
 static void gather_rows(const aur_facets *facets, const double *patches, double *rows) {
     for (size_t a = 0; a < facets->row_count; ++a)
         rows[a] = 0.0;

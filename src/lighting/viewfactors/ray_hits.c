@@ -11,7 +11,7 @@ typedef struct tracing {
     aur_ray_hits *ray_hits;
 } tracing;
 
-/* What a block of patches needs. `slots` says where a patch stands in `met`, counted from 1. */
+/* Buffers for a block of patches. `slots` maps a patch to its index in `met`, counted from 1. */
 typedef struct scratch {
     uint32_t *targets, *slots, *met;
     uint16_t *hits;
@@ -43,7 +43,7 @@ static void count_targets(const tracing *work, scratch *s, size_t patch, size_t 
     }
 }
 
-/* Keeps what has been met, in order, and makes the scratch ready for the next patch. */
+/* Stores the hits in order, and resets the scratch for the next patch. */
 static bool keep_row(const tracing *work, scratch *s, size_t patch) {
     const size_t width = work->ray_hits->randomizations;
     aur_ray_hits_row *const row = &work->ray_hits->rows[patch];
@@ -90,12 +90,12 @@ static aur_result trace_block(void *context, size_t index) {
     return good ? AUR_OK : AUR_ERROR_MEMORY;
 }
 
-/* The rows that each patch stands in, in ascending order. */
+/* For each patch, the patches whose rays hit it, in ascending order. */
 static bool transpose(aur_ray_hits *ray_hits) {
     ray_hits->starts = calloc(ray_hits->patch_count + 2, sizeof *ray_hits->starts);
     if (ray_hits->starts == NULL)
         return false;
-    size_t *const next = ray_hits->starts + 1; /* moves on from each start to the next one */
+    size_t *const next = ray_hits->starts + 1; /* advances from each start */
     for (size_t i = 0; i < ray_hits->patch_count; ++i)
         for (size_t k = 0; k < ray_hits->rows[i].count; ++k)
             ++next[ray_hits->rows[i].patches[k] + 1];

@@ -1,11 +1,11 @@
-/* Intervals of what the least change leaves: its own linear map is applied to every randomisation. */
+/* Intervals after the correction: its linear map is applied to every randomisation. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "lighting/viewfactors/row_system.h"
 #include "lighting/viewfactors/upper_walk.h"
 
-/* An interval need not be known better than to a part in ten thousand. */
+/* Sufficient precision of an interval. */
 static const double GOOD_ENOUGH = 1e-8;
 
 static bool begin(const aur_exchange *g, aur_upper_walk *walk) {
@@ -13,7 +13,7 @@ static bool begin(const aur_exchange *g, aur_upper_walk *walk) {
 }
 
 /* lacks[randomizations][rows]: residual of each row's sum in each randomisation, minus its mean over the
- * randomisations. Entries that were cut at 0 are 0 in all randomisations. */
+ * randomisations. Entries that were clamped at 0 are 0 in all randomisations. */
 static bool find_deficits(const aur_row_system *s, double *deficits) {
     const aur_exchange *const g = s->exchange;
     const size_t width = g->randomizations, rows = g->rows;
@@ -53,7 +53,7 @@ static bool apply(const aur_row_system *s, const double *multipliers) {
 
 aur_result aur_row_system_settle(aur_row_system *s, aur_error *error) {
     const size_t width = s->exchange->randomizations, rows = s->exchange->rows;
-    double *const numbers = malloc((width * rows + 1) * sizeof *numbers); /* lacks, then multipliers */
+    double *const numbers = malloc((width * rows + 1) * sizeof *numbers); /* residuals, then multipliers */
     aur_result result = numbers != NULL && find_deficits(s, numbers) ? AUR_OK : aur_fail_memory(error);
     aur_row_system_prepare(s);
     for (size_t r = 0; r < width && result == AUR_OK; ++r) {

@@ -56,8 +56,8 @@ static double dot(size_t count, const double *x, const double *y) {
     return sum;
 }
 
-/* Conjugate gradients with the diagonal as preconditioner. Where there is no solution the residual stops
- * falling: the multipliers of the smallest one are kept. */
+/* Conjugate gradients with Jacobi preconditioner. If there is no solution, the residual stagnates: the
+ * multipliers of the smallest residual are stored. */
 aur_result aur_row_system_solve(aur_row_system *s, double reduction, aur_error *error) {
     const size_t rows = s->exchange->rows;
     memset(s->multipliers, 0, rows * sizeof *s->multipliers);

@@ -14,13 +14,13 @@ typedef struct script_solution {
     const aur_view_factors *from;
     const double *emittances;
     size_t rows;
-    /* Of the matrix of one randomisation, or of their mean. */
+    /* For the matrix of one randomisation, or for their mean. */
     double *values, *sky;
-    double *now, *next, *sum; /* of rows */
+    double *now, *next, *sum; /* per row */
     double *found, *squares;  /* [rows][rows + 1]: the last column is the sky's */
 } script_solution;
 
-/* The factors as one randomisation has them; by their mean where there is none of this number. */
+/* The factors of one randomisation; their mean if there is no randomisation of this index. */
 static aur_result take_randomization(const script_solution *s, size_t randomization, aur_error *error) {
     const aur_view_factors *const m = s->from;
     memcpy(s->values, m->values, m->starts[m->rows] * sizeof *s->values);
@@ -42,8 +42,8 @@ static aur_result take_randomization(const script_solution *s, size_t randomizat
     return AUR_OK;
 }
 
-/* s->sum is what of each row's light comes to where `first` says how much arrives at once: the sum of
- * (F rho)^k first. */
+/* s->sum receives the light of each row over all reflections, given in `first` before reflection: the sum
+ * over k of (F rho)^k first. */
 static bool sum_reflections(const script_solution *s, const double *first) {
     const aur_view_factors *const m = s->from;
     memcpy(s->now, first, s->rows * sizeof *s->now);
@@ -95,7 +95,7 @@ static aur_result solve(const script_solution *s, size_t randomization, aur_erro
     return result;
 }
 
-/* All pairs of rows whose emittances are above 0. */
+/* All pairs of rows with emittances above 0. */
 static aur_result finish(const script_solution *s, double student, aur_view_factors *made, aur_error *error) {
     const size_t n = s->rows, width = n + 1;
     const double parts = (double)s->from->randomizations;

@@ -1,11 +1,11 @@
-/* Facets back to back, the two sides of a sheet without thickness. */
+/* Back-to-back facets: the two sides of a sheet without thickness. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "lighting/viewfactors/facets.h"
 #include "render/scene/overlaps.h"
 
-/* As the file has them, whose digits say how well places are known. */
+/* In the file's units: its digits give the precision of coordinates. */
 static void find_corners(const void *context, size_t first, size_t count, double (*corners)[3][3]) {
     const aur_facets *const facets = context;
     const double *const origin = aur_scene_origin(facets->scene);
@@ -24,7 +24,7 @@ aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error) {
     facets->opposite_starts = calloc(facets->count + 2, sizeof *facets->opposite_starts);
     facets->opposites = malloc(2 * overlaps.count * sizeof *facets->opposites);
     if (facets->opposite_starts != NULL && facets->opposites != NULL) {
-        size_t *const next = facets->opposite_starts + 1; /* moves on from each start to the next one */
+        size_t *const next = facets->opposite_starts + 1; /* advances from each start */
         for (size_t i = 0; i < 2 * overlaps.count; ++i) {
             const aur_overlap *const pair = &overlaps.items[i / 2];
             if (pair->opposite)

@@ -7,11 +7,11 @@
 #include "lighting/viewfactors/slice_kernel.h"
 #include "points/base/random.h"
 
-/* The half planes of a facet end in a line through one of its places, along the axis of space in which there
- * is most sky: over a city they stand upright, and what hides the sky in one is all below a slope. That makes
- * the walk through the tree short; what is found is right with any axis. Sines of elevation are divided into
- * cells, of which each is asked at one place, the same in all cells of a half plane and random: a bias of a
- * few millionths of the sky is left, because a cell has the weight of the whole of it. */
+/* The half planes of a facet share an edge line through one of its points, parallel to the coordinate axis
+ * with the most sky. Over a city they are vertical, and all occluders in one are below a slope. This makes
+ * the tree traversal short; the result is correct for any axis. Sines of elevation are divided into cells.
+ * Each cell is tested at one jittered position, the same in all cells of a half plane. A bias of a few
+ * millionths of the sky remains, because the whole cell is counted. */
 
 enum { BLOCK = 64, LANES = AUR_SLICE_LANES };
 
@@ -20,12 +20,12 @@ struct aur_sky_slices {
     size_t count, randomizations;
     uint64_t seed;
     float *points; /* [randomizations][count][4] */
-    int axes[3];   /* which coordinates stand first, second and third */
-    double sign;   /* of the third one */
+    int axes[3];   /* axis permutation */
+    double sign;   /* sign of the third axis */
     aur_slice_tree tree;
 };
 
-/* An open surface lacks area where the sky is, so that the sum of its normals by area points there. */
+/* The sum of area-weighted normals of an open surface points to its opening, the sky. */
 static void choose_axis(const aur_facets *facets, aur_sky_slices *s) {
     double sum[3] = {0.0, 0.0, 0.0};
     for (size_t i = 0; i < facets->count; ++i)
@@ -78,7 +78,7 @@ static aur_result make_tree(const aur_facets *facets, aur_sky_slices *s, aur_err
     const double slack =
         4e-7 * fmax(facets->reach[0],
                     fmax(facets->reach[1],
-                         facets->reach[2])); /* larger than roundings of floats: boxes may be too wide */
+                         facets->reach[2])); /* larger than float rounding errors: boxes may be too wide */
     aur_box_tree boxes = {0};
     aur_merged_facet *merged;
     size_t count;
@@ -202,7 +202,7 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
         view->words[w] = sum_word(&view->rising[32 * w], &view->level[32 * w]);
 }
 
-/* Whether a facet that floats do not know to be there lies on the place: no sky is seen from there. */
+/* Whether a facet that float rays cannot separate covers the point: then no sky is seen from there. */
 static bool is_covered(const aur_facets *facets, size_t patch, const float place[2]) {
     const size_t facet = aur_facet_of(facets, patch);
     if (facets->cover_starts == NULL || facets->cover_starts[facet] == facets->cover_starts[facet + 1])

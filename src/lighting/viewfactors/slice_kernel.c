@@ -1,5 +1,5 @@
-/* The walk through the tree for sixteen half planes. Loops over lanes have no branches and no contraction, so
- * every instruction set gives the same bits. */
+/* Tree traversal for sixteen half planes. Loops over lanes have no branches and no floating-point
+ * contraction, so that every instruction set gives bit-identical results. */
 #include <math.h>
 #include <string.h>
 
@@ -7,23 +7,23 @@
 
 enum { LANES = AUR_SLICE_LANES, STACK = 64, LAST = AUR_SLICE_CELLS };
 
-/* Compilers forget what `restrict` says where they put a function into its caller: a third of the speed. */
+/* Compilers lose `restrict` when they inline a function: a third of the speed. */
 #define APART static __attribute__((noinline))
 
-/* Beyond all slopes. Times 0 it is 0. */
+/* Above all slopes, but finite: times 0 it is 0. */
 #define STEEPEST 1e30f
 
-/* How far a bound may be off by rounding, in cells: neighbours that share an edge leave no gap. */
+/* Tolerance of a bound for rounding, in cells: neighbours that share an edge leave no gap. */
 #define ROUNDING 1e-3f
 
-/* What hides the sky: a bit for each cell, from the lowest one, how many of them are set before the first
- * that is not, and the slope below which these are. */
+/* Hidden cells: a bit per cell, from the lowest one; the number of set bits before the first clear one (the
+ * floor), and the slope below which these cells are. */
 typedef struct hidden_cells {
     uint32_t bits[AUR_SLICE_WORDS][LANES];
     float cells[LANES], slope[LANES];
 } hidden_cells;
 
-/* Whether something of the box could be seen from the front of the plane. */
+/* Whether a part of the box may be in front of the plane. */
 static inline bool is_before(const aur_slice_view *view, const aur_slice_node *node) {
     double height = -view->offset;
     for (int d = 0; d < 3; ++d)
@@ -31,7 +31,7 @@ static inline bool is_before(const aur_slice_view *view, const aur_slice_node *n
     return height > view->slack;
 }
 
-/* Whether the box reaches into the unhidden part of any half plane. */
+/* Whether the box reaches into the visible part of any half plane. */
 APART bool is_open(const aur_slice_node *node, const aur_slices *restrict s,
                    const hidden_cells *restrict hidden) {
     const float x = 0.5f * (node->lower[0] + node->upper[0]), wide = 0.5f * (node->upper[0] - node->lower[0]);
@@ -52,20 +52,20 @@ APART bool is_open(const aur_slice_node *node, const aur_slices *restrict s,
     return open != 0;
 }
 
-/* Where a polygon cuts the half planes: how far from the line in which they end, and how high. */
+/* Intersection of a polygon with the half planes: distance from the edge line, and height. */
 typedef struct cut_points {
     float along[LANES], height[LANES];
 } cut_points;
 
-/* The edge from corner i to corner k: it enters the polygon's segment in some half planes, and leaves it in
- * others. */
+/* The edge from corner i to corner k: the polygon's segment begins there in some half planes, and ends there
+ * in others. */
 APART void cut_edge(const float *restrict along0, const float *restrict along1, const float *restrict across0,
                     const float *restrict across1, float top0, float top1, const float *restrict base,
                     cut_points *restrict enter, cut_points *restrict leave) {
     for (unsigned l = 0; l < LANES; ++l) {
         const float p = across0[l], q = across1[l];
         const int enters = (p >= 0.0f) & (q < 0.0f), leaves = (p < 0.0f) & (q >= 0.0f);
-        /* An edge gives the polygons on both of its sides the same bits. */
+        /* An edge gives bit-identical results for the polygons on both sides. */
         const float u = 1.0f / (p - q);
         const float s = (p * along1[l] - q * along0[l]) * u;
         const float h = (p * (top1 - base[l]) - q * (top0 - base[l])) * u;
@@ -88,8 +88,8 @@ static inline bool rises_above(const aur_slice_view *view, const aur_slice_polyg
     return height - view->offset > view->slack;
 }
 
-/* Finds the corners' distances along and across the half planes, and which half planes the polygon cuts
- * (crossed[l] is 0 or 1). Whether one of these can be hidden further. */
+/* Finds the corners' distances along and across the half planes, and which half planes the polygon intersects
+ * (crossed[l] is 0 or 1). Returns whether any of these can be hidden further. */
 APART bool find_crossings(const aur_slice_polygon *polygon, const aur_slices *restrict s,
                           const hidden_cells *restrict hidden, float along[restrict AUR_SLICE_CORNERS][LANES],
                           float across[restrict AUR_SLICE_CORNERS][LANES], int *restrict crossed) {
@@ -105,7 +105,7 @@ APART bool find_crossings(const aur_slice_polygon *polygon, const aur_slices *re
             across[i][l] = sideward;
             left[l] |= sideward >= 0.0f;
             right[l] |= sideward < 0.0f;
-            /* Above the floor; behind the line, where a slope says nothing, too. */
+            /* Above the floor; also behind the edge line, where slopes are undefined. */
             open[l] |= (forward <= 0.0f) | (z - s->origin[2][l] >= hidden->slope[l] * forward);
             ahead[l] |= forward > 0.0f;
         }
@@ -118,18 +118,20 @@ APART bool find_crossings(const aur_slice_polygon *polygon, const aur_slices *re
     return any != 0;
 }
 
-/* The first cell that the segment from `enter` to `leave` hides, and the one after the last; as floats. In
- * half planes that it does not reach, `crossed` becomes 0. */
+/* The first cell that the segment from `enter` to `leave` hides, and the one after the last, as floats.
+ * Clears `crossed` for half planes that it does not reach. */
 APART void find_hidden_cells(const aur_slice_view *view, const aur_slices *restrict s,
                              const cut_points *restrict enter, const cut_points *restrict leave,
                              int *restrict crossed, float *restrict lower, float *restrict upper) {
-    /* Loops without branches: compilers make one of a quotient that is chosen later in the same loop. */
+    /* Loops without branches: compilers create one from a quotient that is selected later in the same loop.
+     */
     float turn[LANES];
     for (unsigned l = 0; l < LANES; ++l) {
         const float s0 = enter->along[l], h0 = enter->height[l], s1 = leave->along[l], h1 = leave->height[l];
         lower[l] = h0 / sqrtf(s0 * s0 + h0 * h0);
         upper[l] = h1 / sqrtf(s1 * s1 + h1 * h1);
-        /* Where the segment goes on behind the line that ends the half plane, it hides that end. */
+        /* If the segment continues behind the edge line of the half plane, it hides the cells up to that end.
+         */
         turn[l] = copysignf(1.0f, (s1 - s0) * (s1 * h0 - s0 * h1));
         crossed[l] &= (s0 > 0.0f) | (s1 > 0.0f);
     }
@@ -147,8 +149,8 @@ APART void find_hidden_cells(const aur_slice_view *view, const aur_slices *restr
     }
 }
 
-/* The polygon's part in each half plane is a segment, seen under the angles between its ends. Whether the
- * floor rises anywhere. */
+/* The polygon's part in each half plane is a segment; it hides the angles between its ends. Returns whether
+ * any floor rises. */
 APART bool hide(const aur_slice_view *view, const aur_slice_polygon *polygon, const aur_slices *restrict s,
                 hidden_cells *restrict hidden) {
     float along[AUR_SLICE_CORNERS][LANES], across[AUR_SLICE_CORNERS][LANES], lower[LANES], upper[LANES];
@@ -185,7 +187,7 @@ APART void find_floor(const aur_slice_view *view, const aur_slices *restrict s,
                       hidden_cells *restrict hidden) {
     float cells[LANES] = {0.0f};
     for (int w = AUR_SLICE_WORDS - 1; w >= 0; --w) {
-        /* The lowest bit that is not set is a power of two, whose logarithm is the exponent of a float. */
+        /* The lowest clear bit is a power of two; its logarithm is the exponent of a float. */
         uint32_t lowest[LANES], bits[LANES];
         float power[LANES];
         for (unsigned l = 0; l < LANES; ++l) {
@@ -211,7 +213,7 @@ APART void find_floor(const aur_slice_view *view, const aur_slices *restrict s,
     }
 }
 
-/* What is nearer comes first, because it hides most of the rest. */
+/* Nearer nodes first, because they hide most of the rest. */
 static inline bool is_nearer(const aur_slice_node *a, const aur_slice_node *b, const float way[2]) {
     float difference = 0.0f;
     for (int d = 0; d < 2; ++d)
@@ -219,7 +221,7 @@ static inline bool is_nearer(const aur_slice_node *a, const aur_slice_node *b, c
     return difference < 0.0f;
 }
 
-/* How much of the view each half plane is; what is behind the plane of the patch counts as hidden. */
+/* The weight of each half plane; cells behind the patch's plane count as hidden. */
 APART void begin_slices(const aur_slice_view *view, const aur_slices *restrict s,
                         hidden_cells *restrict hidden, float *restrict facing, float *restrict whole) {
     const float n0 = (float)view->normal[0], n1 = (float)view->normal[1], n2 = (float)view->normal[2];
@@ -256,7 +258,7 @@ APART void sum_sky(const aur_slice_view *view, const hidden_cells *restrict hidd
     for (unsigned l = 0; l < LANES; ++l)
         sky[l] = 0.0f;
     for (unsigned w = 0; w < AUR_SLICE_WORDS; ++w) {
-        /* Most words are hidden or open as a whole, in all half planes. */
+        /* Most words are completely hidden or completely visible in all half planes. */
         const aur_slice_word *const word = &view->words[w];
         uint32_t open[LANES], any = 0, all = UINT32_MAX;
         for (unsigned l = 0; l < LANES; ++l) {

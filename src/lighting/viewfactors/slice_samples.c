@@ -12,8 +12,8 @@ static float shifted(float x, float shift) {
     return sum >= 1.0f ? sum - 1.0f : sum;
 }
 
-/* Azimuths that are uniform for a level patch and in proportion to the cosine for an upright one, as what is
- * seen in them is; a mixture of both for the others. */
+/* Azimuths are uniform for a horizontal patch and proportional to the cosine for a vertical one, like the
+ * view; for others the pdf is a mixture of both. */
 static void choose_way(const aur_slice_patch *patch, double u, aur_slice_sample *made) {
     double c, s;
     if (u < patch->upright) {
@@ -31,10 +31,10 @@ static void choose_way(const aur_slice_patch *patch, double u, aur_slice_sample 
     made->bucket = (uint32_t)(fmin(u, 1.0 - 0x1p-24) * BUCKETS);
 }
 
-/* A half plane's own plane cuts the patch along a chord. Horizons jump from one plane to another, where it
- * begins to pass by an upright edge, and never along a chord: so jumps are in two coordinates of the points,
- * the azimuth and which of the parallel planes it is (`u`, in proportion to the chord's length), and the
- * third one, where on the chord (`w`), is smooth. */
+/* The plane of a half plane intersects the patch in a chord. Horizons jump between planes, at vertical edges,
+ * and never along a chord. So jumps are in two coordinates of the points: the azimuth, and the choice among
+ * the parallel planes (`u`, proportional to the chord's length). The third coordinate, the position on the
+ * chord (`w`), is smooth. */
 static void choose_place(const aur_slice_patch *patch, float u, float w, aur_slice_sample *made) {
     float across[3] = {0.0f}, along[3] = {0.0f};
     for (int k = 0; k < 2; ++k) {
@@ -47,7 +47,7 @@ static void choose_place(const aur_slice_patch *patch, float u, float w, aur_sli
         low = across[k] < across[low] ? k : low;
         high = across[k] >= across[high] ? k : high;
     }
-    if (low == high) /* no number: any three corners do */
+    if (low == high) /* not finite: any three corners do */
         high = (low + 1) % 3;
     const int middle = 3 - low - high;
     const float width = across[high] - across[low];
@@ -55,7 +55,8 @@ static void choose_place(const aur_slice_patch *patch, float u, float w, aur_sli
     const bool before = u < peak;
     const float at = before ? sqrtf(u * peak) : 1.0f - sqrtf((1.0f - u) * (1.0f - peak));
     const float part = before ? at / peak : peak < 1.0f ? (1.0f - at) / (1.0f - peak) : 1.0f;
-    /* Corners' shares of the chord's ends: on the side from low to high, and on one of the other two. */
+    /* Barycentric coordinates of the chord's ends: on the side from low to high, and on one of the other two.
+     */
     float ends[2][3] = {{0.0f}, {0.0f}};
     ends[0][low] = 1.0f - at;
     ends[0][high] = at;

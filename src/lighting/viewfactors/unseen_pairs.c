@@ -5,17 +5,17 @@
 
 #include "points/base/array.h"
 
-/* Rounding of closed forms, as a part of a patch's light. */
+/* Rounding error of closed forms, relative to a patch's light. */
 static const double SMALLEST_REST = 1e-11;
 
 typedef struct filling {
     const aur_facets *facets;
     aur_ray_hits *ray_hits;
     aur_closed_pairs *pairs;
-    double
-        *exchanges; /* of patches: what closed forms have; then what the candidates of one patch could have */
+    double *exchanges; /* per patch: the sum of its closed forms; then upper bounds for the candidates of one
+                        * patch */
     double *possible;
-    bool open; /* some light may leave the mesh */
+    bool open; /* light may leave the mesh */
 } filling;
 
 static int compare_patches(const void *left, const void *right) {
@@ -31,7 +31,7 @@ static bool is_closed(const filling *work, size_t i, size_t k) {
            bsearch(&other, row->patches, row->count, sizeof *row->patches, compare_patches) != NULL;
 }
 
-/* The rays of the patch that arrived where no closed form says, the sky and backs included. */
+/* The number of the patch's rays with targets that have no closed form, the sky and backs included. */
 static double count_sampled(const filling *work, size_t i) {
     const aur_ray_hits *const ray_hits = work->ray_hits;
     const aur_ray_hits_row *const row = &ray_hits->rows[i];
@@ -45,7 +45,7 @@ static double count_sampled(const filling *work, size_t i) {
     return sum;
 }
 
-/* Whether rays of others arrived at the patch without a closed form. */
+/* Whether rays of others hit the patch without a closed form. */
 static bool is_met(const filling *work, size_t i) {
     const aur_ray_hits *const ray_hits = work->ray_hits;
     const size_t width = ray_hits->randomizations;
@@ -59,7 +59,7 @@ static bool is_met(const filling *work, size_t i) {
     return false;
 }
 
-/* The exchange of two patches with nothing between them. */
+/* The unoccluded exchange of two patches. */
 static double free_exchange(const aur_facets *facets, size_t i, size_t k) {
     double corners[2][3][3], first[4][3], second[4][3];
     aur_patch_corners(facets, i, corners[0]);
@@ -72,7 +72,7 @@ static double free_exchange(const aur_facets *facets, size_t i, size_t k) {
     return aur_contour_exchange(counts[0], (const double(*)[3])first, counts[1], (const double(*)[3])second);
 }
 
-/* Puts the pair into its row, whose patches ascend. */
+/* Inserts the pair into its row, whose patches ascend. */
 static bool insert(const filling *work, size_t i, size_t k, double exchange) {
     const bool first = aur_pair_stands_with(work->facets, i, k);
     aur_closed_row *const row = &work->pairs->rows[first ? i : k];
@@ -108,7 +108,7 @@ static bool fill_patch(const filling *work, size_t i, double rest) {
         const double exchange = rest * work->possible[k] / (sum + sky);
         if (exchange > 0.0 && !insert(work, i, k, exchange))
             return false;
-        work->exchanges[k] += exchange; /* which the other one has now, too */
+        work->exchanges[k] += exchange; /* which now also counts for the other patch */
     }
     for (size_t r = 0; r < work->ray_hits->randomizations; ++r)
         work->ray_hits->sky[work->ray_hits->randomizations * i + r] =

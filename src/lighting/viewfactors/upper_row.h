@@ -1,4 +1,4 @@
-/* The rows of an exchange matrix before they are put together. */
+/* The rows of an exchange matrix before assembly. */
 #pragma once
 
 #include "lighting/viewfactors/exchange.h"
@@ -12,6 +12,6 @@ typedef struct aur_upper_row {
     uint64_t closed_pairs, sampled_pairs;
 } aur_upper_row;
 
-/* Fills the matrix from its upper triangle, rows[exchange->rows]. Its areas are set. False when there is no
- * memory. The rows' deviations are released. */
+/* Fills the matrix from its upper triangle, rows[exchange->rows]. Its areas are set. False if out of memory.
+ * Frees the rows' deviations. */
 bool aur_exchange_mirror(aur_upper_row *rows, aur_exchange *exchange);

@@ -1,5 +1,5 @@
-/* The entries of a symmetric matrix from the diagonal on, row by row, each with its place below the diagonal.
- */
+/* Iterates over the entries of a symmetric matrix from the diagonal on, row by row, with the index of the
+ * mirrored entry. */
 #pragma once
 
 #include <stdbool.h>
@@ -12,12 +12,12 @@ typedef struct aur_upper_walk {
     size_t rows;
     const uint64_t *starts;
     const uint32_t *columns;
-    uint64_t *next; /* of each row, the entry below the diagonal that comes next; then the row's own */
+    uint64_t *next; /* per row, the next entry below the diagonal; then the row's own */
     size_t row, column;
-    uint64_t entry, mirror; /* the same entry on the diagonal */
+    uint64_t entry, mirror; /* the index of the mirrored entry */
 } aur_upper_walk;
 
-/* Compressed rows with ascending columns. False when there is no memory. */
+/* Compressed rows with ascending columns. False if out of memory. */
 static inline bool aur_upper_walk_begin(size_t rows, const uint64_t *starts, const uint32_t *columns,
                                         aur_upper_walk *walk) {
     *walk = (aur_upper_walk){rows, starts, columns, malloc((rows + 1) * sizeof *walk->next), 0, 0, 0, 0};
@@ -26,7 +26,7 @@ static inline bool aur_upper_walk_begin(size_t rows, const uint64_t *starts, con
     return walk->next != NULL;
 }
 
-/* On to the next entry; false after the last one, when the walk has been released. */
+/* Advances to the next entry; false after the last one, when the iterator has been released. */
 static inline bool aur_upper_walk_advance(aur_upper_walk *walk) {
     while (walk->row < walk->rows && walk->next[walk->row] == walk->starts[walk->row + 1])
         ++walk->row;

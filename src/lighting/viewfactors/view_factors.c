@@ -12,8 +12,8 @@
 
 enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 2048, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
 
-/* Most of what a city's radiosities err by is the sky's: with three half planes for two rays they reach .1 %
- * in the least time (docs/view-factors.md). */
+/* The sky dominates the error of a city's radiosities: three half planes for two rays reach .1 % fastest
+ * (docs/view-factors.md). */
 static size_t usual_half_planes(const aur_view_factors_options *options) {
     const size_t most = MOST_RAYS * options->randomizations, wanted = (3 * options->rays + 1) / 2;
     return wanted < most ? wanted : most;
@@ -57,7 +57,7 @@ aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
     return AUR_OK;
 }
 
-/* Exchanges become factors. */
+/* Converts exchanges to factors. */
 static void finish(aur_exchange *g, aur_view_factors *made) {
     made->columns = g->columns;
     made->starts = g->starts;
@@ -70,7 +70,7 @@ static void finish(aur_exchange *g, aur_view_factors *made) {
     made->rows = g->rows;
     made->randomizations = g->randomizations;
     made->deviations = g->deviations;
-    made->sky_deviations = g->loss_deviations; /* and behind them those of backs */
+    made->sky_deviations = g->loss_deviations; /* those of backs follow */
     g->deviations = NULL;
     g->loss_deviations = NULL;
     g->columns = NULL;
@@ -108,8 +108,8 @@ static aur_result copy_names(const aur_facets *facets, aur_view_factors *made, a
     return AUR_OK;
 }
 
-/* One or two rays in a row may have slipped through where facets meet, by the rounding of their origins: of
- * backs with fewer than `least` of the light nothing is said. */
+/* One or two rays may have passed between adjacent facets because of rounded origins: no warning for back
+ * hits below `least` of the light. */
 static void warn(const aur_facets *facets, const aur_view_factors *made, const aur_balance *balance,
                  double least, const aur_warnings *warnings) {
     const aur_location place = {.file = facets->path};
@@ -131,8 +131,8 @@ static void warn(const aur_facets *facets, const aur_view_factors *made, const a
             balance->unbalanced, balance->after);
 }
 
-/* Replaces what rays say of the sky by what half planes do, which find it better in less time. A mesh that no
- * ray has left is closed, but for the gaps by which rounding leaves its facets. */
+/* Replaces the sky counted by rays with that of half planes, which are more accurate in less time. A mesh
+ * that no ray has left is closed, except for gaps by rounding. */
 static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_options *options,
                               const aur_parallel_options *parallel, aur_ray_hits *ray_hits,
                               aur_error *error) {
@@ -182,7 +182,7 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
         result = aur_exchange_assemble(facets, &ray_hits, &closed, options->confidence, &parallel, &exchange,
                                        error);
     const size_t rays = ray_hits.rays * ray_hits.randomizations;
-    aur_ray_hits_release(&ray_hits); /* the most memory, and what follows takes as much */
+    aur_ray_hits_release(&ray_hits); /* largest allocation; the following steps need as much */
     aur_closed_pairs_release(&closed);
     if (result == AUR_OK)
         result = aur_exchange_balance(&exchange, &parallel, &balance, error);
@@ -205,7 +205,7 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     return result;
 }
 
-/* Of the intervals of factors and sky. */
+/* For the intervals of factors and sky. */
 static double find_widest(const aur_view_factors *made) {
     double widest = 0.0;
     for (uint64_t e = 0; e < made->starts[made->rows]; ++e)
@@ -241,7 +241,7 @@ aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_fact
             return AUR_OK;
         }
         aur_view_factors_destroy(made);
-        /* Errors of rays fall with the root of their number. */
+        /* The error of rays falls with the inverse root of their number. */
         for (double lack = widest;
              lack > options.error && 2 * options.rays <= MOST_RAYS * options.randomizations;
              lack *= 0.70710678118654752) {

@@ -1,4 +1,4 @@
-/* What a result is made of. */
+/* The result of a computation of view factors. */
 #pragma once
 
 #include <aureole-lighting/view_factors.h>
@@ -11,8 +11,8 @@ struct aur_view_factors {
     uint32_t *columns;
     double *values, *half_widths;
     double *areas, *sky, *sky_half_widths, *back;
-    /* What each randomisation is off the mean, of exchanges from the diagonal on and of those with the sky.
-     */
+    /* Deviations of each randomisation from the mean, of exchanges from the diagonal on and of those with the
+     * sky. */
     size_t randomizations;
     float *deviations;      /* [upper entries][randomizations] */
     double *sky_deviations; /* [rows][randomizations] */
@@ -35,7 +35,7 @@ typedef struct aur_npz_member {
     uint64_t size, offset;
 } aur_npz_member;
 
-/* An archive that is being written. Start with zero but `stream`, which keeps its own errors. */
+/* An archive being written. Initialise with zero except `stream`, which records its errors. */
 typedef struct aur_npz {
     FILE *stream;
     uint64_t position;
@@ -43,8 +43,8 @@ typedef struct aur_npz {
     aur_npz_member members[AUR_NPZ_MEMBERS];
 } aur_npz;
 
-/* Adds `count` numbers of `width` bytes each, as they lie in memory. `type` is NumPy's word for them ("<f8"),
- * `shape` a tuple as Python writes it ("(3,)", "()"). */
+/* Adds `count` numbers of `width` bytes each, in native byte order. `type` is NumPy's type string ("<f8"),
+ * `shape` a tuple in Python's notation ("(3,)", "()"). */
 void aur_npz_add(aur_npz *npz, const char *name, const char *type, const char *shape, size_t count,
                  size_t width, const void *data);
 /* Writes the directory. */

@@ -1,4 +1,4 @@
-/* Facets as an input of View3D. */
+/* Writes facets as an input of View3D. */
 #include "lighting/viewfactors/facets.h"
 #include "points/base/file.h"
 #include "points/base/text.h"
@@ -6,14 +6,14 @@
 
 #include <stdlib.h>
 
-/* A name has no blanks there. */
+/* View3D's names have no blanks. */
 static void write_name(FILE *stream, const char *name) {
     for (; *name != '\0'; ++name)
         fputc(aur_is_space(*name) ? '_' : *name, stream);
 }
 
-/* Surfaces are numbered from 1; those of a row are combined with its first one. `leaders` has the number of
- * that one for each row, or 0. */
+/* Surfaces are numbered from 1; those of a row are combined with its first one. `leaders` holds that number
+ * for each row, or 0. */
 static void write_surfaces(const aur_facets *facets, size_t *leaders, FILE *stream) {
     const aur_scene *const scene = facets->scene;
     size_t surface = 0, facet = 0, vertices = 1;

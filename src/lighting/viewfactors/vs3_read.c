@@ -1,4 +1,4 @@
-/* View3D's input: vertices and surfaces of three or four corners, as a scene of polygons. */
+/* Reads View3D's input, vertices and surfaces of three or four corners, as a scene of polygons. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ typedef struct line {
 typedef struct surface {
     size_t corners[4], count; /* indices of vertices */
     size_t base, leader;      /* numbers of other surfaces, or 0 */
-    size_t depth;             /* how many surfaces stand below: bases of bases */
+    size_t depth;             /* length of the chain of base surfaces */
     size_t line;
 } surface;
 
@@ -38,7 +38,7 @@ static aur_result fail(const reading *self, size_t number, aur_result result, co
     return aur_fail_at(self->error, (aur_location){self->path, number, 0}, result, "%s", what);
 }
 
-/* The next line that says something; false at the end. Comments begin with an exclamation mark. */
+/* The next line that is not empty; false at the end. Comments begin with an exclamation mark. */
 static bool next_line(reading *self) {
     line *const l = &self->line;
     while (self->at < self->end) {
@@ -65,7 +65,7 @@ static bool next_line(reading *self) {
     return false;
 }
 
-/* Word `index` of the line is a number. */
+/* Reads word `index` of the line as a number. */
 static bool read_number(const line *l, size_t index, double *number) {
     char text[64];
     if (index >= l->count || l->lengths[index] >= sizeof text)
@@ -75,7 +75,7 @@ static bool read_number(const line *l, size_t index, double *number) {
     return aur_parse_double(text, number) && isfinite(*number);
 }
 
-/* A whole number from 0 to `most`. */
+/* An integer from 0 to `most`. */
 static bool read_index(const line *l, size_t index, size_t most, size_t *value) {
     double number;
     if (!read_number(l, index, &number) || !(number >= 0.0 && number <= (double)most) ||
@@ -202,13 +202,13 @@ static aur_result write_scene(reading *self) {
         numbers[i] = self->surfaces[i].leader > 0 ? numbers[self->surfaces[i].leader - 1] : made->group_count;
         if (self->surfaces[i].leader > 0)
             continue;
-        char *const name = made->names[i]; /* of groups first, each in its place */
+        char *const name = made->names[i]; /* names of groups first, by index */
         made->names[i] = made->names[made->group_count];
         made->names[made->group_count] = name;
         made->emittances[made->group_count++] = made->emittances[i];
     }
     fputs("void plastic s 0 0 5 .5 .5 .5 0 0 ", stream);
-    /* Surfaces on others come first, so that they are cut out of these. */
+    /* Surfaces with a base come first, so that they are cut out of it. */
     for (size_t depth = deepest + 1; depth-- > 0;)
         for (size_t i = 0; i < count; ++i)
             if (self->surfaces[i].depth == depth) {
