@@ -1,5 +1,5 @@
-/* Tables of results and plots of them, as experiments of the lab describe them. Experimental: all of this
- * header may change in any version. */
+/* Tables of results and their plots, as described by experiments of the lab. Experimental: all of this header
+ * may change in any version. */
 #ifndef AUREOLE_LAB_PLOT_H
 #define AUREOLE_LAB_PLOT_H
 
@@ -7,17 +7,17 @@
 
 typedef struct report_table report_table;
 
-/* Plots of tables of results: which columns are drawn, and how. */
+/* Plots of tables of results: columns and style. */
 
-/* Names of columns; where several make a name, commas stand between them. */
+/* Names of columns; several are separated by commas. */
 typedef struct report_plot {
-    const char *name;       /* a part of file names: "energy"; NULL ends a list of plots */
-    const char *title;      /* what is seen, in a line */
-    const char *table;      /* of an experiment's further tables; NULL: the first one */
-    const char *x, *y;      /* numbers */
-    const char *low, *high; /* the interval of y; or NULL */
-    const char *series;     /* columns whose words name a line: "set,map"; NULL: there is one */
-    const char *panel;      /* columns whose words name a panel beside the others; NULL: there is one */
+    const char *name;       /* part of file names: "energy"; NULL ends a list of plots */
+    const char *title;      /* one line */
+    const char *table;      /* one of the experiment's further tables; NULL: the first one */
+    const char *x, *y;      /* numeric columns */
+    const char *low, *high; /* bounds of y's interval; or NULL */
+    const char *series;     /* columns whose texts name a line: "set,map"; NULL: a single line */
+    const char *panel;      /* columns whose texts name a panel; NULL: a single panel */
     bool log_x, log_y;
     bool points; /* no lines between the points, and one scale for x and y */
 } report_plot;

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Where rays are traced: see check.h. */
+/* Tolerances if rays are traced: see check.h. */
 static const double TOLERANCE = 1e-2, ROUNDING = 1e-7, ZERO = 1e-14;
 
 enum { PATH = 2 * AUR_ERROR_FILE_CAPACITY };
@@ -20,7 +20,7 @@ typedef struct comparing {
     const report_table *before, *now;
 } comparing;
 
-/* A difference that is not one of numbers is worse than any. */
+/* Rank of a difference in text: worse than any numeric one. */
 static void differ(comparing *c, double by, const char *what, const char *before, const char *now) {
     if (c->found->where[0] != '\0' && !(by > c->found->largest))
         return;
@@ -29,7 +29,7 @@ static void differ(comparing *c, double by, const char *what, const char *before
              what, before, now);
 }
 
-/* The unit of the last digit of a number that begins there. */
+/* The unit of the last digit of the number that begins there. */
 static double last_digit(const char *text, const char *end) {
     const char *const point = memchr(text, '.', (size_t)(end - text));
     const char *digits = point;
@@ -40,7 +40,7 @@ static double last_digit(const char *text, const char *end) {
     return pow(10.0, exponent + (power != NULL ? atoi(power + 1) : 0));
 }
 
-/* Whether texts are the same but for numbers in them that processors may make, rounded as they are. */
+/* Whether two texts are equal except for numbers that may depend on the processor, within their rounding. */
 static bool alike(const char *a, const char *b) {
     while (*a != '\0' && *b != '\0') {
         char *a_end, *b_end;
@@ -59,8 +59,8 @@ static bool alike(const char *a, const char *b) {
     return *a == *b;
 }
 
-/* The column with another end of the name's interval: rmse, rmse_low and rmse_high, or those of the
- * experiment. */
+/* The column with the other bound of the interval: rmse, rmse_low and rmse_high, or those of the experiment.
+ */
 static size_t end_of(const comparing *c, const char *name, const char *suffix, const char *of_experiment) {
     char other[128];
     size_t stem = strlen(name);
@@ -109,7 +109,7 @@ static void compare_cell(comparing *c, size_t row, size_t column) {
         differ(c, by, what, before, now);
 }
 
-/* The next line of a text, which it ends there; "" after the last one. */
+/* Returns the next line and terminates it; "" after the last one. */
 static const char *next_line(char **text) {
     char *const line = *text, *const end = line != NULL ? strchr(line, '\n') : NULL;
     *text = end != NULL ? end + 1 : NULL;
@@ -160,7 +160,7 @@ static aur_result compare_tables(comparing *c, const char *before, const char *n
     return result;
 }
 
-/* Whether a file is one of the tables that every run makes alike. */
+/* Whether a file is one of the tables that are reproducible. */
 static bool is_table(const comparing *c, const char *file) {
     static const char *const others[] = {"-run.csv", "-timings.csv", "-pictures.csv", "-stamp.csv"};
     const size_t length = strlen(c->experiment->name), end = strlen(file);
@@ -173,7 +173,7 @@ static bool is_table(const comparing *c, const char *file) {
     return true;
 }
 
-/* The kept table of that name and form; false when there is none. */
+/* The reference table of that name and form; false if there is none. */
 static bool find_kept(const comparing *c, const char *file, char path[PATH]) {
     const char *const name = c->experiment->name;
     snprintf(path, PATH, "%s/%s/quick/%s", c->kept, name, file);
@@ -194,7 +194,7 @@ static aur_result compare_file(comparing *c, const char *file, aur_error *error)
     return AUR_OK;
 }
 
-/* Tables that are kept and that the run has not made. */
+/* Reference tables that the run has not produced. */
 static void find_lost(comparing *c) {
     char path[PATH];
     snprintf(path, sizeof path, "%s/%s%s", c->kept, c->experiment->name, c->quick ? "/quick" : "");

@@ -1,4 +1,4 @@
-/* Figures of repeated measurements. */
+/* Statistics of repeated measurements. */
 #include <aureole/statistics.h>
 #include <math.h>
 

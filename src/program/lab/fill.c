@@ -1,4 +1,4 @@
-/* What an experiment calls: cells, notes, what is kept. */
+/* Functions for experiments: cells, notes, stored measurements. */
 
 #include <aureole/ranks.h>
 #include <aureole/text.h>
@@ -36,7 +36,7 @@ void *lab_run_user(const lab_run *run) {
 }
 
 const char *lab_parameter_text(const lab_run *run, const char *name) {
-    for (size_t i = run->options.parameter_count; i-- > 0;) /* the last one that is given */
+    for (size_t i = run->options.parameter_count; i-- > 0;) /* the last definition wins */
         if (strcmp(run->options.parameters[i].name, name) == 0)
             return run->options.parameters[i].value;
     for (const lab_parameter *p = run->experiment->parameters; p != NULL && p->name != NULL; ++p)
@@ -57,18 +57,18 @@ static const char *column_name(const lab_run *run, size_t index) {
     return run->experiment->columns[index];
 }
 
-/* Ends a row: the verdict, and now and then the table so far as a file. */
+/* Ends a row: adds the verdict, and saves the partial table from time to time. */
 static void end_row(lab_run *run) {
     const lab_experiment *const of = run->experiment;
     report_table *const table = run->result->table;
     run->cells = 0;
     if (of->published != NULL) {
-        const size_t row = report_rows(table); /* which is not whole before the verdict */
+        const size_t row = report_rows(table); /* the row is incomplete before the verdict */
         const char *const names[] = {of->measured, of->low, of->high, of->published};
         double values[4];
         for (size_t i = 0; i < 4; ++i)
             values[i] = report_value(table, row, report_find(table, names[i]));
-        if (lab_parameter_text(run, "scene") != NULL) /* another one than the published scene */
+        if (lab_parameter_text(run, "scene") != NULL) /* not the published scene */
             values[3] = NAN;
         const lab_verdict verdict = lab_judge(values[0], values[1], values[2], values[3], of->factor);
         char text[64];
@@ -83,7 +83,7 @@ static void end_row(lab_run *run) {
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     const double now = (double)time.tv_sec;
-    if (now - run->saved < SAVE_EVERY || aur_ranks_count() > 1) /* ranks write at the same time */
+    if (now - run->saved < SAVE_EVERY || aur_ranks_count() > 1) /* ranks would write concurrently */
         return;
     run->saved = now;
     lab_run_save(run, table, NULL, "unfinished: the same command continues", false, NULL);
@@ -164,7 +164,7 @@ void lab_time(lab_run *run, const char *what, double seconds) {
     report_number(run->times, seconds, 4);
 }
 
-/* --- what is kept */
+/* --- stored measurements */
 
 bool lab_recall(const lab_run *run, const char *key, size_t count, double *values) {
     return lab_store_find(run->store, key, count, values);

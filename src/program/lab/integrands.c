@@ -1,4 +1,4 @@
-/* The integrands that modules and programs have added, for the whole process. */
+/* Integrands registered by modules and programs, global to the process. */
 #include <string.h>
 
 #include "program/lab/run.h"
@@ -9,7 +9,7 @@ static const lab_named_integrand *integrands[MOST_INTEGRANDS];
 static size_t integrand_count;
 
 const lab_named_integrand *lab_find_integrand(const char *name) {
-    for (size_t i = integrand_count; i-- > 0;) /* what was added last */
+    for (size_t i = integrand_count; i-- > 0;) /* the last registration wins */
         if (strcmp(integrands[i]->name, name) == 0)
             return integrands[i];
     return NULL;

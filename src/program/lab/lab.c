@@ -1,4 +1,4 @@
-/* The table of experiments: a new one is one file and one line here. */
+/* The table of experiments: a new one adds a file and a line here. */
 #include <string.h>
 
 #include "program/lab/run.h"
@@ -61,7 +61,7 @@ extern const lab_experiment lab_schretter_2012_sets;
 extern const lab_experiment lab_schretter_2012_warp;
 extern const lab_experiment lab_weights_choosing;
 
-/* One a line, whatever their lengths. */
+/* One per line. */
 /* clang-format off */
 static const lab_experiment *const experiments[] = {
     &lab_analytical_cases,
@@ -126,7 +126,7 @@ static const lab_experiment *const experiments[] = {
 
 enum { OWN_COUNT = sizeof experiments / sizeof experiments[0], MOST_ADDED = 256 };
 
-/* What modules and programs have added, for the whole process, before the first run. */
+/* Experiments registered by modules and programs before the first run, global to the process. */
 static const lab_experiment *added[MOST_ADDED];
 static size_t added_count;
 
@@ -141,7 +141,7 @@ const lab_experiment *lab_experiment_at(size_t index) {
 }
 
 const lab_experiment *lab_find_experiment(const char *name) {
-    for (size_t i = lab_experiment_count(); i-- > 0;) /* what was added last */
+    for (size_t i = lab_experiment_count(); i-- > 0;) /* the last registration wins */
         if (strcmp(lab_experiment_at(i)->name, name) == 0)
             return lab_experiment_at(i);
     return NULL;

@@ -1,4 +1,4 @@
-/* The measurements that a run kept, of each randomisation, as arrays of NumPy: a zip of NPY files, stored. */
+/* Writes a run's stored measurements, by randomisation, as NumPy arrays: a zip of uncompressed NPY files. */
 #include <aureole/text.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static void put(FILE *to, uint32_t value, int bytes) {
         fputc((int)(value >> 8 * i & 255), to);
 }
 
-/* What the entry's header and its line of the directory have in common. */
+/* The fields that an entry's header and its directory record share. */
 static void put_common(FILE *to, uint32_t sum, size_t size, size_t name_length) {
     put(to, 20, 2);    /* version needed */
     put(to, 0x800, 2); /* UTF-8 names */
@@ -52,7 +52,7 @@ static void put_entry(archive *of, const char *name, const char *data, size_t si
     ++of->count;
 }
 
-/* Ends the archive and moves the directory behind the entries. */
+/* Ends the archive: appends the directory to the entries. */
 static bool finish(archive *of, char **directory, size_t *size) {
     if (fclose(of->directory) != 0)
         return false;
@@ -67,7 +67,7 @@ static bool finish(archive *of, char **directory, size_t *size) {
     return fclose(of->to) == 0;
 }
 
-/* A line of the store, "SECONDS KEY: VALUE VALUE ...", as an array of one dimension. */
+/* Writes a line of the store, "SECONDS KEY: VALUE VALUE ...", as a one-dimensional array. */
 static void put_line(archive *of, char *line) {
     char *const key = line + strcspn(line, " ") + (strchr(line, ' ') != NULL);
     char *colon = strrchr(key, ':'), *end, *data = NULL, name[512], shape[160];
@@ -111,7 +111,7 @@ aur_result lab_store_export(const char *store, const char *path, bool *written, 
                   .directory = open_memstream(&directory, &directory_size)};
     bool good = of.to != NULL && of.directory != NULL;
     for (bool first = true; good && getline(&line, &capacity, from) > 0; first = false)
-        if (!first) /* the identity */
+        if (!first) /* the first line is the identity */
             put_line(&of, line);
     fclose(from);
     good = good && finish(&of, &directory, &directory_size);

@@ -1,11 +1,11 @@
-/* The beginning of the report. */
+/* The first part of the report. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "program/lab/publication.h"
 
-/* A paper: what its experiments' names begin with, what they show, the plot that shows it best, and the
- * experiments that try causes of differences, whose verdicts do not count. */
+/* A paper: the prefix of its experiments' names, a summary, its best plot, and the experiments that test
+ * causes of differences, whose verdicts do not count. */
 typedef struct paper {
     const char *prefix, *title, *finding, *experiment, *plot, *causes[3];
 } paper;

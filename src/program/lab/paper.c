@@ -1,4 +1,4 @@
-/* Results in the files that papers want: tables of LaTeX, plots of PDF and TikZ, data between tabs. */
+/* Writes results for papers: LaTeX tables, PDF and TikZ plots, tab-separated data. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 typedef struct paper {
     publication from;
     const lab_paper_style *style;
-    FILE *written; /* paths, a line each */
+    FILE *written; /* paths, one per line */
 } paper;
 
 /* FOLDER/NAME[-WHAT].EXTENSION */
@@ -38,7 +38,7 @@ static aur_result save(const paper *p, const report_table *table, const lab_expe
     return result;
 }
 
-/* The table of an experiment, or its further one, as LaTeX and as data. */
+/* Writes the table of an experiment, or a further one, as LaTeX and as data. */
 static aur_result save_table(const paper *p, const lab_experiment *of, const char *what, aur_error *error) {
     char path[AUR_ERROR_FILE_CAPACITY];
     report_table *table = NULL;
@@ -55,7 +55,7 @@ static aur_result save_plot(const paper *p, const lab_experiment *of, const repo
     char path[AUR_ERROR_FILE_CAPACITY], name[128], data[AUR_ERROR_FILE_CAPACITY];
     report_table *table = NULL;
     bool drawn = true;
-    snprintf(name, sizeof name, "plot-%s", plot->name); /* tables may have the plot's name */
+    snprintf(name, sizeof name, "plot-%s", plot->name); /* the prefix avoids the names of tables */
     publication_path(&p->from, of, plot->table, path, sizeof path);
     path_of(p, of, name, "dat", data);
     aur_result result = report_load(path, &table, NULL, error);

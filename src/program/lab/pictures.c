@@ -1,4 +1,4 @@
-/* What an experiment calls: images. */
+/* Functions for experiments: images. */
 #include <string.h>
 
 #include "program/lab/run.h"
@@ -13,7 +13,7 @@ double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image 
     return sum / (double)count;
 }
 
-/* The row of an image; one that was made before an interruption has it already. */
+/* Adds the row of an image; one written before an interruption has a row already. */
 static void list_picture(lab_run *run, const lab_image_position *place, const char *path) {
     const char *const file = strrchr(path, '/') + 1;
     for (size_t i = 0; i < report_rows(run->pictures); ++i)

@@ -23,7 +23,7 @@ void publication_text(FILE *page, const char *begin, const char *text, const cha
     fputs(end, page);
 }
 
-/* The plot in the formats of print, of pages and of papers, with a link to each. */
+/* Writes the plot in the formats for print, web pages and papers, with a link to each. */
 static aur_result print_plot(const publication *p, const char *experiment, const report_table *table,
                              const report_plot *plot, aur_error *error) {
     static const char *const extensions[] = {"pdf", "svg", "tex"};
@@ -46,7 +46,7 @@ aur_result publication_plot(const publication *p, const lab_experiment *of, cons
     char path[AUR_ERROR_FILE_CAPACITY];
     report_table *table = NULL;
     publication_path(p, of, plot->table, path, sizeof path);
-    if (plot->table != NULL && access(path, R_OK) != 0) /* the run is not finished */
+    if (plot->table != NULL && access(path, R_OK) != 0) /* the run has not finished */
         return AUR_OK;
     aur_result result = report_load(path, &table, NULL, error);
     if (result == AUR_OK)

@@ -6,8 +6,8 @@
 
 #include "program/report/page/page.h"
 
-/* A small page halves images of more pixels than SMALL_PIXELS, where they stay as wide as SMALL_WIDTH,
- * shows of each experiment one view that is as wide, and the first rows of long tables. */
+/* A small page halves images of more pixels than SMALL_PIXELS if they remain at least SMALL_WIDTH wide. For
+ * each experiment it shows one such view and the first rows of long tables. */
 enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160, SMALL_ROWS = 25, SMALL_WIDTH = 128 };
 
 static void put_notes(FILE *page, const char *notes) {
@@ -25,7 +25,7 @@ static void put_notes(FILE *page, const char *notes) {
     fputs("</ul>\n", page);
 }
 
-/* The form that was run: the full one of kept tables, which have no file that names it. */
+/* The form of the run: full for reference tables, which have no file that states it. */
 static const char *form_of(const publication *p, const lab_experiment *of) {
     char path[AUR_ERROR_FILE_CAPACITY];
     report_table *facts = NULL;
@@ -38,7 +38,7 @@ static const char *form_of(const publication *p, const lab_experiment *of) {
     return access(path, R_OK) == 0 ? "unfinished" : quick ? "quick" : "full";
 }
 
-/* Experiments and their verdicts. */
+/* Lists the experiments and their verdicts. */
 static aur_result put_summary(const publication *p, aur_error *error) {
     static const char *const columns[] = {"experiment", "reproduces", "form",        "rows",   "agree",
                                           "within",     "differ",     "unpublished", "claims", "hold"};
@@ -73,7 +73,7 @@ static aur_result put_summary(const publication *p, aur_error *error) {
     return result;
 }
 
-/* The image, or means of its blocks where a small page is wanted and it is large. */
+/* The image, or block means if it is large and the page is small. */
 static aur_result read_picture(const publication *p, const char *path, aur_image **image, bool *reduced,
                                aur_error *error) {
     aur_image *whole = NULL;

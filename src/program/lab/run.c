@@ -1,4 +1,4 @@
-/* Runs an experiment: its table, its files, and what it has measured already. */
+/* Runs an experiment: its table, its files, and stored measurements. */
 #include <aureole/ranks.h>
 #include <errno.h>
 #include <math.h>
@@ -10,9 +10,9 @@
 
 #include "program/lab/run.h"
 
-/* The part of an experiment that is done, by the processor time that it is expected to take: what it does one
- * after another is too various. Nothing bounds the time of one that takes longer: from nine tenths on, what
- * is left is a ninth of the time so far. */
+/* Progress of an experiment, by its expected processor time, because its steps are too diverse to count. Runs
+ * may take longer without limit: from nine tenths on, the remaining time is shown as a ninth of the elapsed
+ * time. */
 static double part_done(double seconds, double expected) {
     const double part = seconds / fmax(expected, 1.0);
     return part < 0.9 ? part : 1.0 - 0.1 * pow(0.9 / part, 9.0);
@@ -34,7 +34,7 @@ static void add_columns(report_table *table, const char *const *columns) {
         report_column(table, *columns);
 }
 
-/* What a run must share with another one to go on with its results. */
+/* What must be equal to resume another run's results. */
 static void identify(const lab_experiment *experiment, const lab_options *options, char text[LAB_IDENTITY]) {
     int at =
         snprintf(text, LAB_IDENTITY, "aureole %s, %s, %s form, set %s, rows %s", aur_version(),
@@ -45,7 +45,7 @@ static void identify(const lab_experiment *experiment, const lab_options *option
                        options->parameters[i].value);
 }
 
-/* Whether the experiment has all parameters that are given. */
+/* Whether the experiment has all given parameters. */
 static aur_result check_parameters(const lab_run *run, aur_error *error) {
     for (size_t i = 0; i < run->options.parameter_count; ++i) {
         const char *const name = run->options.parameters[i].name;
@@ -79,7 +79,7 @@ bool lab_is_finished(const lab_experiment *experiment, const lab_options *option
     return finished;
 }
 
-/* The folder and the state of the run. */
+/* Creates the folder and the state of the run. */
 static aur_result begin(lab_run *run, aur_error *error) {
     static const char *const of_pictures[] = {"view", "name", "file", "role", "exposure", NULL};
     static const char *const of_times[] = {"what", "cpu_seconds", NULL};
@@ -119,8 +119,8 @@ static aur_result begin(lab_run *run, aur_error *error) {
     return AUR_OK;
 }
 
-/* A file is compared at other sizes than its own by its first points, which says nothing of what it is at
- * those. */
+/* At other sizes than its own, a file is represented by its first points, which says nothing about sets of
+ * that size. */
 static void note_prefixes(lab_run *run) {
     const char *const set = run->options.set;
     aur_points *points;
@@ -150,7 +150,7 @@ static void note_verdicts(lab_run *run) {
         lab_note(run, "--set %s is not compared here: %s", run->options.set, of->takes_no_set);
 }
 
-/* Files and the mark that the run is finished, in the end. */
+/* Writes the files, and last the mark that the run is finished. */
 static aur_result save_all(lab_run *run, aur_error *error) {
     char path[AUR_ERROR_FILE_CAPACITY], identity[LAB_IDENTITY];
     aur_result result = lab_run_save(run, run->result->table, NULL, run->result->notes, true, error);
@@ -189,7 +189,7 @@ static aur_result save_all(lab_run *run, aur_error *error) {
     return result;
 }
 
-/* Ends a text that was written to memory; false when there was not enough. */
+/* Terminates a text written to memory; false if out of memory. */
 static bool finish(FILE *stream) {
     return stream != NULL && fclose(stream) == 0;
 }

@@ -1,4 +1,4 @@
-/* Where the files of a run are, and what it has taken. */
+/* Paths of a run's files, and its times. */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -15,7 +15,7 @@ double lab_run_seconds(const lab_run *run) {
     return lab_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - run->begin + lab_store_seconds(run->store);
 }
 
-/* FOLDER/NAME/NAME-<what>.<extension>; letters that file names should not have become underscores. */
+/* FOLDER/NAME/NAME-<what>.<extension>; characters unsafe in file names become underscores. */
 void lab_run_path(const lab_run *run, const char *what, const char *extension, char *path, size_t capacity) {
     const char *const name = run->experiment->name;
     const int before = snprintf(path, capacity, "%s/%s%s%.160s", run->folder, name, what != NULL ? "-" : "",

@@ -1,5 +1,5 @@
-/* What an experiment calls: scenes and their rendering. Apart from images, so that an experiment that only
- * writes some needs nothing of the renderer. */
+/* Functions for experiments: scenes and rendering. Separate from images, so that an experiment that only
+ * writes images does not need the renderer. */
 #include <aureole/ranks.h>
 #include <unistd.h>
 

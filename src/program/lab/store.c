@@ -1,5 +1,5 @@
-/* The file is the identity, then a line for each measurement: "SECONDS KEY: VALUE VALUE ...", where a line
- * that an interruption cut off is dropped. */
+/* The file holds the identity, then a line per measurement: "SECONDS KEY: VALUE VALUE ...". A line truncated
+ * by an interruption is ignored. */
 #include "program/lab/run.h"
 
 #include <aureole/ranks.h>
@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 struct lab_store {
-    FILE *file; /* NULL where there are several ranks: they keep nothing */
+    FILE *file; /* NULL with several ranks: nothing is stored */
     size_t count;
     char **lines; /* of the earlier run, without the identity */
     double seconds;
@@ -36,7 +36,7 @@ static bool add_line(lab_store *store, const char *line) {
     return store->lines[store->count++] != NULL;
 }
 
-/* Reads what belongs to `identity` and leaves the file at its end. */
+/* Reads the measurements if the file's identity is `identity`, and positions the file at its end. */
 static aur_result take_up(lab_store *store, const char *identity, aur_error *error) {
     char *line = NULL;
     size_t capacity = 0;
@@ -64,8 +64,8 @@ static aur_result take_up(lab_store *store, const char *identity, aur_error *err
     return fflush(store->file) == 0 ? AUR_OK : fail(store, AUR_ERROR_WRITE, strerror(errno), error);
 }
 
-/* A file that this program appends to, and empties where it is of something else: no link, pipe or device,
- * and under no other name. NULL with errno. */
+/* Opens a file for appending, and truncates it if its identity differs. Rejects links, pipes, devices and
+ * hard links to other names. NULL with errno. */
 static FILE *open_own(const char *path) {
     const int descriptor =
         open(path, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
@@ -142,7 +142,7 @@ aur_result lab_store_add(lab_store *store, const char *key, size_t count, const 
                          double seconds, aur_error *error) {
     if (store->file == NULL)
         return AUR_OK;
-    /* Hexadecimal digits are read as the same number. */
+    /* Hexadecimal digits are read back exactly. */
     aur_print(store->file, "%.1f %s:", seconds, key);
     for (size_t i = 0; i < count; ++i)
         aur_print(store->file, " %a", values[i]);
