@@ -101,7 +101,7 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     at = put(at, AUR_IMPORT_FIND, 0, 5, "c.png");
     at = put(at, AUR_IMPORT_NOTE, 0, 6, "\x1b[31mx");
     at = put(at, AUR_IMPORT_MESH, 0, 4, "ply\n");
-    at = put(at, AUR_IMPORT_PICTURE, 0, 8, "\x89PNG\r\n\x1a\n");
+    at = put(at, AUR_IMPORT_IMAGE, 0, 8, "\x89PNG\r\n\x1a\n");
     memcpy(last, &scene, sizeof scene);
     memcpy(last + sizeof scene, records, sizeof records);
     at = put(at, AUR_IMPORT_SCENE, 0, sizeof last, last);

@@ -62,7 +62,7 @@ unsigned writer_add_mesh_file(writer *self, size_t size, const void *data) {
 
 unsigned writer_add_picture_file(writer *self, size_t size, const void *data) {
     char *answer;
-    stream_send(AUR_IMPORT_PICTURE, 0, size, data);
+    stream_send(AUR_IMPORT_IMAGE, 0, size, data);
     const bool good = stream_receive(AUR_IMPORT_ANSWER, &size, &answer) != 0;
     free(answer);
     return good ? self->first + self->files++ : NO_FILE;

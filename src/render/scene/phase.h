@@ -24,7 +24,8 @@ typedef struct aur_phase_descriptor {
 struct aur_phase {
     const aur_phase_descriptor *descriptor;
     void *data;
-    size_t asked; /* phase functions inside that may be evaluated for this one, as often as they are named */
+    size_t evaluations; /* phase functions inside that may be evaluated for this one, as often as they are
+                           named */
 };
 
 extern const aur_table aur_phase_table;

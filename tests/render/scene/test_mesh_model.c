@@ -36,11 +36,11 @@ static void test_library(void **state) {
     assert_true(a->specular[0] == 0.5 && a->specular[1] == 0.5 && a->specular[2] == 0.5);
     assert_true(a->opacity == 0.75 && a->shininess == 30.0);
     assert_true(isnan(a->roughness) && isnan(a->metal));
-    assert_string_equal(a->pictures[AUR_MTL_DIFFUSE].name, "My Textures/wood #1.png");
-    assert_true(a->pictures[AUR_MTL_DIFFUSE].clamped);
-    assert_true(b->opacity == 0.5 && isnan(b->diffuse[0]) && !b->pictures[AUR_MTL_EMISSION].clamped);
-    assert_string_equal(b->pictures[AUR_MTL_EMISSION].name, "e.png");
-    assert_string_equal(b->pictures[AUR_MTL_NORMAL].name, "n.png");
+    assert_string_equal(a->images[AUR_MTL_DIFFUSE].name, "My Textures/wood #1.png");
+    assert_true(a->images[AUR_MTL_DIFFUSE].clamped);
+    assert_true(b->opacity == 0.5 && isnan(b->diffuse[0]) && !b->images[AUR_MTL_EMISSION].clamped);
+    assert_string_equal(b->images[AUR_MTL_EMISSION].name, "e.png");
+    assert_string_equal(b->images[AUR_MTL_NORMAL].name, "n.png");
     aur_mtl_release(&library);
 }
 

@@ -1,12 +1,12 @@
-/* Inverse trigonometric functions without branches and calls, so that loops over them become vector code, and
- * with the same bits everywhere. */
+/* Inverse trigonometric functions without branches or calls, so that loops over them vectorise; results are
+ * bit-identical on all machines. */
 #pragma once
 
 #include <stdbool.h>
 
 #include "points/base/vector.h"
 
-/* The angle of a cosine in [-1, 1] (Abramowitz and Stegun 4.4.46; error below 1e-7 and rounding). */
+/* arccos of a cosine in [-1, 1] (Abramowitz and Stegun 4.4.46; error below 1e-7 plus rounding). */
 static inline float aur_arc(float cosine) {
     const float x = fabsf(cosine);
     float p = -0.0012624911f;
@@ -21,8 +21,8 @@ static inline float aur_arc(float cosine) {
     return 0.5f * AUR_PI_F - copysignf(0.5f * AUR_PI_F - angle, cosine);
 }
 
-/* How far (x, y) is turned from the x axis, in whole turns: -1/2 to 1/2, and 0 of (0, 0) (Abramowitz and
- * Stegun 4.4.49 divided by 2 pi; error below 1e-8 and rounding). */
+/* The angle of (x, y) from the x axis in turns, -1/2 to 1/2; 0 for (0, 0) (Abramowitz and Stegun 4.4.49
+ * divided by 2 pi; error below 1e-8 plus rounding). */
 static inline float aur_turn(float x, float y) {
     const float a = fabsf(x), b = fabsf(y);
     const bool flat = a >= b;

@@ -1,4 +1,4 @@
-/* Surfaces that emit the same radiance in all directions of the side that their normal shows. */
+/* Diffuse area lights: constant radiance on the side of the surface normal. */
 #include <stdlib.h>
 
 #include "render/scene/emitter.h"
@@ -14,13 +14,13 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
     return aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
 }
 
-/* How points of the shape are drawn. */
+/* How points of the shape are sampled. */
 typedef struct area_light {
     const aur_shape *shape;
-    aur_distribution triangles; /* of meshes, by area */
+    aur_distribution triangles; /* triangles of meshes, by area */
     bool is_mesh, is_rectangle;
-    float offset;                  /* of rays that leave a parallelogram */
-    aur_rectangle_light rectangle; /* drawn by the solid angle under which it is seen */
+    float offset;                  /* offset of rays that leave a parallelogram */
+    aur_rectangle_light rectangle; /* sampled by solid angle */
     const aur_rectangle_kernels *kernels;
 } area_light;
 
@@ -69,7 +69,8 @@ static double triangle_area(const area_light *light, size_t triangle) {
     return aur_triangle_area(corner);
 }
 
-/* A triangle's mean luminance, but with a part of the whole light's: some points of it may not say all. */
+/* A triangle's mean luminance, plus a fraction of the whole light's, in case the points tested miss bright
+ * texels. */
 static double triangle_brightness(const aur_emitter *emitter, size_t triangle) {
     static const float points[][2] = {{1.0f / 3.0f, 1.0f / 3.0f},
                                       {0.1f, 0.1f},
@@ -105,7 +106,7 @@ static aur_shape_point sample_area(const area_light *light, const float u[3]) {
     return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
 }
 
-/* A point of a triangle, or of all of the light. */
+/* A point of one triangle, or of the whole light. */
 static aur_shape_point sample_part(const area_light *light, uint32_t part, const float u[3]) {
     return light->is_mesh && part != AUR_WHOLE_LIGHT
                ? aur_triangle_sample(&light->shape->mesh, part, u[1], u[2])
@@ -149,20 +150,20 @@ static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bound
                               bounds->axis);
 }
 
-/* A density: a steradian, or where by_area over that of points drawn uniformly by area. */
+/* Pdf by solid angle, or, if by_area, relative to uniform area sampling. */
 typedef struct area_density {
     float value;
     bool by_area;
 } area_density;
 
-/* Of a triangle, or of all of the light. */
+/* Pdf relative to uniform area sampling, of one triangle or of the whole light. */
 static float part_density(const area_light *light, uint32_t part) {
     return light->is_mesh && part != AUR_WHOLE_LIGHT
                ? (float)(light->shape->area / triangle_area(light, part))
                : 1.0f;
 }
 
-/* By what the reference sees of the shape, where that is to be had. */
+/* Samples by the solid angle visible from the reference, for shapes that support it. */
 static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query,
                                    area_density *density) {
     const aur_curved *const curved = light->shape->curved;
@@ -202,7 +203,7 @@ static area_density density_of(const area_light *light, const aur_light_referenc
                           seen.by_area};
 }
 
-/* A steradian, at a distance and under a cosine. */
+/* Pdf by solid angle for area sampling, at a distance and emission cosine. */
 static float pdf_of(const area_light *light, area_density density, float squared, float cosine) {
     return density.by_area ? density.value * squared / (cosine * light->rectangle.area) : density.value;
 }
@@ -215,7 +216,7 @@ static float pdf_seen(const aur_emitter *emitter, const aur_light_reference *ref
     return pdf_of(light, density_of(light, reference, surface, by_parts), aur_vector_dot(way, way), cosine);
 }
 
-/* What a point of the shape gives to the reference. */
+/* Radiance and pdf of a point of the shape, seen from the reference. */
 static bool finish_sample(const aur_emitter *emitter, aur_vector reference, const aur_shape_point *point,
                           area_density density, aur_light_sample *drawn) {
     const aur_vector way = aur_vector_subtract(point->position, reference);
@@ -242,7 +243,7 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
 
 static bool sample_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
                          const float *u, const float *v, aur_light_lanes *drawn) {
-    (void)lanes; /* all sixteen, which costs as much */
+    (void)lanes; /* all 16 lanes, which costs the same */
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;

@@ -1,5 +1,5 @@
-/* Flat surfaces that shine along their normals only: beams with the section of the shape, which no camera
- * sees. */
+/* Flat surfaces that emit along their normals only: beams with the cross section of the shape, invisible to
+ * cameras. */
 #include <stdlib.h>
 
 #include "render/scene/emitter.h"
@@ -13,12 +13,12 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
     return aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
 }
 
-/* The parallelogram between two edges, or the ellipse about two half axes. */
+/* The parallelogram between two edges, or the ellipse with two half axes. */
 typedef struct beam {
     const aur_shape *shape;
     aur_vector origin, normal;
     float rounding;      /* of points on the shape (aur_shape_point) */
-    aur_vector along[2]; /* products with what leads from the origin are coordinates along the edges */
+    aur_vector along[2]; /* dual basis: products with a vector from `origin` are coordinates */
 } beam;
 
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
@@ -50,7 +50,7 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     return AUR_OK;
 }
 
-/* Whether the shape is there, and its texture coordinates. */
+/* Whether the point lies on the shape, and its texture coordinates. */
 static bool find_point(const aur_shape *shape, float x, float y, aur_bsdf_point *texture) {
     *texture = (aur_bsdf_point){.u = x, .v = y};
     if (shape->parallelogram)
@@ -59,7 +59,7 @@ static bool find_point(const aur_shape *shape, float x, float y, aur_bsdf_point 
     return texture->u >= shape->inner && texture->u <= 1.0f;
 }
 
-/* The one point of the shape whose beam meets the reference, if there is one. */
+/* The point of the shape whose beam passes through the reference, if any. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const beam *const self = emitter->data;
     const aur_vector way = aur_vector_subtract(query->reference.position, self->origin);

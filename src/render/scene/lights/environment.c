@@ -1,4 +1,4 @@
-/* Light from beyond the scene: what all such lights share, and the same light from everywhere. */
+/* Light from infinitely far: code shared by all environments, and the constant environment. */
 #include "render/scene/emitter.h"
 #include "render/scene/materials/sampling.h"
 #include "render/scene/scene_data.h"
@@ -27,8 +27,8 @@ bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *q
     if (aur_vector_dot(query->reference.normal, direction) < 0.0f)
         return false;
     aur_sample_far(emitter->scene, query->reference.position, direction, drawn);
-    /* Radiance and density are asked for by the direction, as rays that find the light ask: rounding cannot
-     * make the two differ. */
+    /* Evaluates radiance and pdf from the direction, as for rays that reach the environment: rounding cannot
+     * make sampling and evaluation differ. */
     drawn->radiance = aur_emitter_light_from(emitter, direction, &drawn->pdf);
     return drawn->pdf > 0.0f;
 }

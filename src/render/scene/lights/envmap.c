@@ -1,4 +1,4 @@
-/* Light from beyond the scene, from an image. */
+/* Environment lighting from an image. */
 #include "render/scene/lights/envmap.h"
 
 #include <stdlib.h>
@@ -31,7 +31,7 @@ static aur_vector color_of(aur_texel texel) {
     return (aur_vector){texel[0], texel[1], texel[2]};
 }
 
-/* The texels, with the first column at the end once more. */
+/* Copies the texels, with the first column repeated at the end. */
 static aur_result keep_picture(size_t width, size_t height, const float *rgb, float scale, aur_envmap *self) {
     self->width = width;
     self->rows = height - 1;
@@ -94,7 +94,7 @@ static const aur_texel *texel_at(const aur_envmap *self, size_t i, size_t j) {
     return &self->texels[j * (self->width + 1) + i];
 }
 
-/* Patches by the means of their corners' luminances. */
+/* Patch weights: mean luminance of the four corners. */
 static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     aur_envmap *const self = emitter->data;
     const size_t width = self->width, rows = self->rows;
@@ -122,12 +122,12 @@ static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     return result;
 }
 
-/* --- what shines at a place */
+/* --- evaluation */
 
-/* The density follows the radiance within patches, too: were it the same all over a patch, the ratio of both
- * would jump from patch to patch, and what is even among the numbers that draw would be lost. It is
- * interpolated by the height because a point in proportion to it is then drawn without a search. */
-static aur_vector light_at(const aur_envmap *self, const aur_envmap_place *at, float *pdf) {
+/* The pdf follows the radiance within patches too. A constant pdf per patch would make the ratio jump between
+ * patches and destroy the stratification of the samples. It is interpolated by height, because points can
+ * then be sampled without a search. */
+static aur_vector light_at(const aur_envmap *self, const aur_envmap_position *at, float *pdf) {
     const aur_texel *const row = texel_at(self, at->i, at->j), *const next = row + self->width + 1;
     const aur_texel upper = row[0] + at->s * (row[1] - row[0]);
     const aur_texel lower = next[0] + at->s * (next[1] - next[0]);
@@ -145,7 +145,7 @@ static void corners_of(const aur_envmap *self, size_t i, size_t j, float corner[
 
 static aur_vector envmap_light_from(const aur_emitter *emitter, aur_vector direction, float *pdf) {
     const aur_envmap *const self = emitter->data;
-    const aur_envmap_place at = aur_envmap_find(self, direction);
+    const aur_envmap_position at = aur_envmap_find(self, direction);
     return light_at(self, &at, pdf);
 }
 
@@ -160,10 +160,10 @@ static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
     return pdf;
 }
 
-static aur_vector draw_direction(const aur_envmap *self, float u, float v, aur_envmap_place *at) {
+static aur_vector draw_direction(const aur_envmap *self, float u, float v, aur_envmap_position *at) {
     size_t i, j;
     aur_patches_choose(&self->patches, &u, &v, &i, &j);
-    *at = (aur_envmap_place){(uint32_t)i, (uint32_t)j, u, 0.0f, v};
+    *at = (aur_envmap_position){(uint32_t)i, (uint32_t)j, u, 0.0f, v};
     float corner[4];
     corners_of(self, i, j, corner);
     return aur_envmap_draw(self, corner, at);
@@ -171,7 +171,7 @@ static aur_vector draw_direction(const aur_envmap *self, float u, float v, aur_e
 
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const aur_envmap *const self = emitter->data;
-    aur_envmap_place at;
+    aur_envmap_position at;
     const aur_vector direction = draw_direction(self, query->u[1], query->u[2], &at);
     if (aur_vector_dot(query->reference.normal, direction) < 0.0f)
         return false;
@@ -180,53 +180,55 @@ static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *que
     return drawn->pdf > 0.0f;
 }
 
-/* --- sixteen at once: what all of them will read of the tables is asked for before it is read */
+/* --- 16 lanes at once: table entries are prefetched for all lanes before they are read */
 
-/* The patches that the lanes' numbers fall on. */
+/* Selects the patches of all lanes. */
 static void choose_patches(const aur_envmap *self, uint32_t lanes, const float *u, const float *v,
-                           aur_envmap_places *places) {
-    *places = (aur_envmap_places){0};
+                           aur_envmap_positions *positions) {
+    *positions = (aur_envmap_positions){0};
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        places->s[k] = u[k];
-        places->w[k] = v[k];
-        places->j[k] = (uint32_t)aur_distribution_choose(&self->patches.rows, &places->w[k]);
-        aur_distribution_prefetch_guide(&self->patches.cells[places->j[k]], (double)u[k]);
+        positions->s[k] = u[k];
+        positions->w[k] = v[k];
+        positions->j[k] = (uint32_t)aur_distribution_choose(&self->patches.rows, &positions->w[k]);
+        aur_distribution_prefetch_guide(&self->patches.cells[positions->j[k]], (double)u[k]);
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        aur_distribution_prefetch_items(&self->patches.cells[places->j[k]], (double)u[k]);
+        aur_distribution_prefetch_items(&self->patches.cells[positions->j[k]], (double)u[k]);
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        places->i[k] = (uint32_t)aur_distribution_choose(&self->patches.cells[places->j[k]], &places->s[k]);
-        const aur_texel *const row = texel_at(self, places->i[k], places->j[k]);
+        positions->i[k] =
+            (uint32_t)aur_distribution_choose(&self->patches.cells[positions->j[k]], &positions->s[k]);
+        const aur_texel *const row = texel_at(self, positions->i[k], positions->j[k]);
         __builtin_prefetch(row);
         __builtin_prefetch(row + self->width + 1);
     }
 }
 
-static aur_vector light_of_lane(const aur_envmap *self, const aur_envmap_places *places, size_t k,
+static aur_vector light_of_lane(const aur_envmap *self, const aur_envmap_positions *positions, size_t k,
                                 float *pdf) {
-    const aur_envmap_place at = {places->i[k], places->j[k], places->s[k], places->t[k], places->w[k]};
+    const aur_envmap_position at = {positions->i[k], positions->j[k], positions->s[k], positions->t[k],
+                                    positions->w[k]};
     return light_at(self, &at, pdf);
 }
 
 static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
                          const float *u, const float *v, aur_light_lanes *drawn) {
     const aur_envmap *const self = emitter->data;
-    aur_envmap_places places;
+    aur_envmap_positions positions;
     aur_lane_vectors directions;
     aur_lane_numbers corner[4];
-    choose_patches(self, lanes, u, v, &places);
+    choose_patches(self, lanes, u, v, &positions);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         float own[4] = {1.0f, 1.0f, 1.0f, 1.0f};
         if ((lanes >> k & 1u) != 0)
-            corners_of(self, places.i[k], places.j[k], own);
+            corners_of(self, positions.i[k], positions.j[k], own);
         for (size_t c = 0; c < 4; ++c)
             corner[c][k] = own[c];
     }
-    self->kernels->draw(self, (const aur_lane_numbers *)corner, &places, &directions);
+    self->kernels->draw(self, (const aur_lane_numbers *)corner, &positions, &directions);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
         const aur_vector direction = aur_lane_vector(&directions, k);
@@ -239,7 +241,7 @@ static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
         float pdf;
         aur_lane_set(&drawn->position, k, far.position);
         aur_lane_set(&drawn->direction, k, direction);
-        aur_lane_set(&drawn->radiance, k, light_of_lane(self, &places, k, &pdf));
+        aur_lane_set(&drawn->radiance, k, light_of_lane(self, &positions, k, &pdf));
         drawn->pdf[k] = pdf * emitter->probability;
     }
     return true;
@@ -248,23 +250,23 @@ static bool envmap_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_l
 static void envmap_lights_from(const aur_emitter *emitter, uint32_t lanes, const aur_lane_vectors *directions,
                                aur_lane_vectors *radiance, float *pdf) {
     const aur_envmap *const self = emitter->data;
-    aur_envmap_places places;
-    self->kernels->find(self, directions, &places);
+    aur_envmap_positions positions;
+    self->kernels->find(self, directions, &positions);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        const aur_texel *const row = texel_at(self, places.i[k], places.j[k]);
+        const aur_texel *const row = texel_at(self, positions.i[k], positions.j[k]);
         __builtin_prefetch(row);
         __builtin_prefetch(row + self->width + 1);
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        aur_lane_set(radiance, k, light_of_lane(self, &places, k, &pdf[k]));
+        aur_lane_set(radiance, k, light_of_lane(self, &positions, k, &pdf[k]));
     }
 }
 
 static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
     const aur_envmap *const self = emitter->data;
-    aur_envmap_place at;
+    aur_envmap_position at;
     return aur_emit_environment(emitter, draw_direction(self, u[1], u[2], &at), u[3], u[4], ray, power);
 }
 

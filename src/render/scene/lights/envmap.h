@@ -1,5 +1,4 @@
-/* Light from an image around the scene: the tables that directions are drawn and radiance is looked up by.
- */
+/* Environment map: tables to sample directions and to look up radiance. */
 #pragma once
 
 #include "points/base/simd.h"
@@ -13,39 +12,38 @@ typedef float aur_texel __attribute__((vector_size(16)));
 
 typedef struct aur_envmap_kernels aur_envmap_kernels;
 
-/* A latitude-longitude image, +y up. Its values stand at azimuths (i + 1/2) / width and, from pole to pole,
- * at polar angles j / rows, and are interpolated between: each patch lies between four of them. */
+/* A latitude-longitude image, +y up. Values are at azimuths (i + 1/2) / width and, from pole to pole, at
+ * polar angles j / rows. They are interpolated: each patch lies between four of them. */
 typedef struct aur_envmap {
     size_t width, rows;
-    aur_texel *texels; /* [rows + 1][width + 1]: the first column stands at the end once more */
-    float *heights;    /* [rows + 1], the cosines of the rows' polar angles */
-    float density;     /* of directions, a steradian, over the luminance that they are drawn by */
-    aur_frame frame;   /* the world's directions of the image's axes */
+    aur_texel *texels; /* [rows + 1][width + 1]: the first column is repeated at the end */
+    float *heights;    /* [rows + 1]: cosines of the rows' polar angles */
+    float density;     /* pdf by solid angle over interpolated luminance */
+    aur_frame frame;   /* the image axes as world directions */
     aur_patches patches;
     const aur_envmap_kernels *kernels;
 } aur_envmap;
 
-/* A place in patch (i, j): s between its columns, and between its rows t by the angle, which radiance is
- * interpolated by, and w by the height, which directions are drawn by; all in [0, 1]. */
-typedef struct aur_envmap_place {
+/* A position in patch (i, j): s across columns; across rows t by polar angle, used to interpolate radiance,
+ * and w by height, used to sample directions. All are in [0, 1]. */
+typedef struct aur_envmap_position {
     uint32_t i, j;
     float s, t, w;
-} aur_envmap_place;
+} aur_envmap_position;
 
-typedef struct aur_envmap_places {
+typedef struct aur_envmap_positions {
     uint32_t i[AUR_PACKET_SIZE], j[AUR_PACKET_SIZE];
     aur_lane_numbers s, t, w;
-} aur_envmap_places;
+} aur_envmap_positions;
 
-/* The arithmetic of sixteen directions, for each instruction set; the bits are the same for each, and those
- * of one direction alone. Lanes of no meaning must have a place in the image, too. */
+/* Kernels for 16 directions, one per instruction set; all are bit-identical to the scalar functions. Masked
+ * lanes must be valid positions too. */
 struct aur_envmap_kernels {
-    /* Moves s and w, uniform in the patch whose corners have these luminances, to what is drawn there; sets
-     * t, and the world's direction. */
-    void (*draw)(const aur_envmap *map, const aur_lane_numbers corner[4], aur_envmap_places *places,
+    /* Warps s and w, uniform in the patch with these corner luminances; sets t and the world direction. */
+    void (*draw)(const aur_envmap *map, const aur_lane_numbers corner[4], aur_envmap_positions *positions,
                  aur_lane_vectors *directions);
-    /* The places of the world's directions. */
-    void (*find)(const aur_envmap *map, const aur_lane_vectors *directions, aur_envmap_places *places);
+    /* The map positions of world directions. */
+    void (*find)(const aur_envmap *map, const aur_lane_vectors *directions, aur_envmap_positions *positions);
 };
 
 AUR_KERNELS(const aur_envmap_kernels, aur_envmap_kernels);
@@ -54,7 +52,7 @@ static inline float aur_envmap_part(float x) {
     return aur_smaller(aur_larger(x, 0.0f), 1.0f);
 }
 
-/* The local direction of a height and an azimuth in turns, from 0 to below 2. */
+/* The local direction with this height, and azimuth in turns, 0 to below 2. */
 static inline aur_vector aur_envmap_direction(float height, float turns) {
     const int nearest = (int)(4.0f * turns + 0.5f);
     float cosine, sine;
@@ -67,13 +65,14 @@ static inline aur_vector aur_envmap_direction(float height, float turns) {
     return (aur_vector){radius * x, height, radius * z};
 }
 
-/* In rows, of the height of a direction. */
+/* Row coordinate of a direction's height. */
 static inline float aur_envmap_row(float rows, float height) {
     return aur_arc(aur_smaller(aur_larger(height, -1.0f), 1.0f)) * (rows / AUR_PI_F);
 }
 
-/* aur_envmap_kernels::draw of one. */
-static inline aur_vector aur_envmap_draw(const aur_envmap *map, const float corner[4], aur_envmap_place *at) {
+/* Scalar form of aur_envmap_kernels::draw. */
+static inline aur_vector aur_envmap_draw(const aur_envmap *map, const float corner[4],
+                                         aur_envmap_position *at) {
     const aur_bilinear corners = {{corner[0], corner[1], corner[2], corner[3]}};
     aur_patch_draw(&corners, &at->s, &at->w);
     const float top = map->heights[at->j], bottom = map->heights[at->j + 1];
@@ -83,8 +82,8 @@ static inline aur_vector aur_envmap_draw(const aur_envmap *map, const float corn
     return aur_frame_to_world(&map->frame, local);
 }
 
-/* aur_envmap_kernels::find of one. */
-static inline aur_envmap_place aur_envmap_find(const aur_envmap *map, aur_vector direction) {
+/* Scalar form of aur_envmap_kernels::find. */
+static inline aur_envmap_position aur_envmap_find(const aur_envmap *map, aur_vector direction) {
     const aur_vector local = aur_frame_to_local(&map->frame, direction);
     const float width = (float)map->width, rows = (float)map->rows;
     const float azimuth = aur_turn(-local.z, local.x) - 0.5f / width;
@@ -92,6 +91,6 @@ static inline aur_envmap_place aur_envmap_find(const aur_envmap *map, aur_vector
     const float x = aur_smaller(positive, 0x1.fffffep-1f) * width, y = aur_envmap_row(rows, local.y);
     const int i = (int)x, last = (int)map->rows - 1, below = (int)y, j = below < last ? below : last;
     const float top = map->heights[j], bottom = map->heights[j + 1];
-    return (aur_envmap_place){(uint32_t)i, (uint32_t)j, x - (float)i, aur_envmap_part(y - (float)j),
-                              aur_envmap_part((top - local.y) / (top - bottom))};
+    return (aur_envmap_position){(uint32_t)i, (uint32_t)j, x - (float)i, aur_envmap_part(y - (float)j),
+                                 aur_envmap_part((top - local.y) / (top - bottom))};
 }

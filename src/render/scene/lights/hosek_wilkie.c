@@ -8,20 +8,20 @@
 
 enum { TURBIDITIES = 10, ALBEDOS = 2, CONTROL_POINTS = 6, CHANNELS = 3, PARAMETERS = 9, ELEVATIONS = 30 };
 
-/* Of each turbidity, albedo, control point and channel: the parameters and the mean radiance. */
+/* By turbidity, albedo, control point and channel: the parameters and the mean radiance. */
 static const double sky_rows[TURBIDITIES * ALBEDOS * CONTROL_POINTS * CHANNELS][PARAMETERS + 1] = {
 #include "data/hosek_wilkie_sky.inc"
 };
 
-/* Of each turbidity and elevation, from 2 degrees on by steps of 3. */
+/* By turbidity and elevation, from 2 degrees in steps of 3. */
 static const double sun_rows[TURBIDITIES * ELEVATIONS][CHANNELS] = {
 #include "data/hosek_wilkie_sun.inc"
 };
 
-/* The integral of CIE's Y over wavelengths in nm, as Mitsuba has it. */
+/* The integral of CIE's Y over wavelengths in nm, as in Mitsuba. */
 static const double CIE_Y_INTEGRAL = 106.7502593994140625;
 
-/* What a position among `count` rows is between: row `low` with 1 - share, the next with `share`. */
+/* Interpolation between `count` rows: weights 1 - share of row `low`, and share of the next. */
 typedef struct between {
     size_t low;
     double share;
@@ -33,7 +33,7 @@ static between find_between(double position, size_t count) {
     return (between){low, held - (double)low};
 }
 
-/* Adds the rows of one turbidity and albedo for channel c, each times its Bernstein polynomial. */
+/* Adds the rows of one turbidity and albedo for channel c, times their Bernstein polynomials. */
 static void add_rows(size_t turbidity, size_t albedo, size_t c, double x, double weight,
                      double sums[PARAMETERS + 1]) {
     static const double binomials[CONTROL_POINTS] = {1.0, 5.0, 10.0, 10.0, 5.0, 1.0};
@@ -65,7 +65,7 @@ aur_hosek_wilkie_sky aur_hosek_wilkie_sky_make(double turbidity, aur_vector albe
     return sky;
 }
 
-/* Equations (8) and (9) of Hosek and Wilkie 2012, with the parameters in the order of their tables. */
+/* Equations (8) and (9) of Hosek and Wilkie 2012, with parameters in the order of their tables. */
 static double radiance_of(const double p[PARAMETERS], double height, double angle) {
     const double along = cos(angle), square = along * along;
     const double halo = (1.0 + square) / pow(1.0 + p[8] * p[8] - 2.0 * p[8] * along, 1.5);

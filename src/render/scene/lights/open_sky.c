@@ -11,7 +11,7 @@ static bool is_zero(const double v[3]) {
     return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0;
 }
 
-/* The up and north that are to hold; `north` may stay 0, which leaves it to `up`. */
+/* The resulting up and north; `north` may stay 0: derived from `up`. */
 static void find_axes(const aur_scene *scene, double up[3], double north[3]) {
     for (size_t i = 0; i < scene->environment_count && is_zero(up); ++i) {
         const aur_emitter *const emitter = scene->environments[i];
@@ -59,13 +59,13 @@ static aur_result create_sky(double ground, const double up[3], const double nor
     return result;
 }
 
-/* The view: a copy of what the scene points to, with lights of its own. */
+/* The view: a shallow copy of the scene with different lights. */
 typedef struct view {
-    aur_scene scene; /* first, so that it is found from its scene */
+    aur_scene scene; /* first, to convert from its scene pointer */
     aur_emitter *dark, *sky;
 } view;
 
-/* The lights stay where shapes know them by their index, but dark; the sky comes after them. */
+/* The lights keep their indices, which shapes refer to, but emit nothing; the sky is appended. */
 static aur_result set_lights(const aur_scene *scene, view *made, aur_open_sky *open, aur_error *error) {
     const size_t count = scene->emitter_count;
     aur_scene *const copy = &made->scene;
@@ -103,8 +103,8 @@ static aur_result set_lights(const aur_scene *scene, view *made, aur_open_sky *o
 aur_result aur_open_sky_create(const aur_scene *scene, double ground, const double up[3],
                                const double north[3], aur_open_sky *open, aur_error *error) {
     *open = (aur_open_sky){.scene = NULL};
-    double own_up[3] = {up[0], up[1], up[2]}, own_north[3] = {north[0], north[1], north[2]};
-    find_axes(scene, own_up, own_north);
+    double local_up[3] = {up[0], up[1], up[2]}, local_north[3] = {north[0], north[1], north[2]};
+    find_axes(scene, local_up, local_north);
     view *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
@@ -114,7 +114,7 @@ aur_result aur_open_sky_create(const aur_scene *scene, double ground, const doub
     made->scene.lights = (aur_distribution){0};
     made->scene.choice = (aur_light_choice){.parts = NULL};
     open->scene = &made->scene;
-    aur_result result = create_sky(ground, own_up, own_north, &made->sky, error);
+    aur_result result = create_sky(ground, local_up, local_north, &made->sky, error);
     if (result == AUR_OK)
         result = set_lights(scene, made, open, error);
     if (result == AUR_OK)

@@ -1,5 +1,5 @@
-/* Measured lamps: points of the luminous opening, each of which shines by direction as the whole lamp does.
- */
+/* Photometric luminaires: points of the luminous opening, each emitting with the angular distribution of the
+ * whole luminaire. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,11 +9,11 @@
 #include "render/scene/scene_data.h"
 
 typedef struct photometric_light {
-    aur_photometry lamp;
+    aur_photometry photometry;
     aur_transform to_world, to_local;
-    double place[3];    /* of the middle in the world */
-    aur_vector middle;  /* from the scene's origin */
-    aur_vector half[3]; /* half axes of the opening: along length, width and height */
+    double world_middle[3]; /* centre in the world */
+    aur_vector middle;      /* centre relative to the scene's origin */
+    aur_vector half[3];     /* half axes of the opening: along length, width and height */
 } photometric_light;
 
 typedef struct photometric_keys {
@@ -42,7 +42,7 @@ static const aur_key keys[] = {
 };
 
 static void release(void *data) {
-    aur_photometry_release(&((photometric_light *)data)->lamp);
+    aur_photometry_release(&((photometric_light *)data)->photometry);
 }
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
@@ -58,16 +58,16 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
                                    "it needs the string 'filename', or 'text'");
     if (result == AUR_OK)
         result = p.text != NULL ? aur_photometry_parse(parameters->location.file, strlen(p.text), p.text,
-                                                       &self->lamp, error)
-                                : aur_photometry_read(p.filename, &self->lamp, error);
+                                                       &self->photometry, error)
+                                : aur_photometry_read(p.filename, &self->photometry, error);
     if (result != AUR_OK)
         return result;
-    const double flux = aur_photometry_flux(&self->lamp);
+    const double flux = aur_photometry_flux(&self->photometry);
     const bool given = aur_parameters_find(parameters, "lumens") != NULL;
     const float watts = (float)(p.scale * (given ? p.lumens / flux : 1.0) / 179.0);
     self->to_world = p.to_world;
-    aur_transform_point(&p.to_world, (const double[3]){0.0}, self->place);
-    const double sizes[3] = {self->lamp.length, self->lamp.width, self->lamp.height};
+    aur_transform_point(&p.to_world, (const double[3]){0.0}, self->world_middle);
+    const double sizes[3] = {self->photometry.length, self->photometry.width, self->photometry.height};
     for (size_t i = 0; i < 3; ++i) {
         const float half = p.point ? 0.0f : (float)(0.5 * sizes[i]);
         self->half[i] = aur_transform_direction_f(
@@ -82,24 +82,24 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     (void)error;
     photometric_light *const self = emitter->data;
-    self->middle = aur_place_from(emitter->scene->origin, self->place);
+    self->middle = aur_place_from(emitter->scene->origin, self->world_middle);
     return AUR_OK;
 }
 
-/* Uniform over the opening's plan. Its height has no part: what is measured far away does not tell it. */
+/* Uniform over the opening's plan. Its height is ignored: far-field measurements do not determine it. */
 static aur_vector draw_point(const photometric_light *self, float u, float v) {
     float x = 2.0f * u - 1.0f, y = 2.0f * v - 1.0f;
-    if (self->lamp.round)
+    if (self->photometry.round)
         aur_sample_disk(u, v, &x, &y);
     return aur_vector_add_scaled(aur_vector_add_scaled(self->middle, x, self->half[0]), y, self->half[1]);
 }
 
-/* Candela in a direction of the world. */
+/* Luminous intensity in candela in a world direction. */
 static float intensity(const photometric_light *self, aur_vector direction) {
     double local[3], world[3];
     aur_vector_to_doubles(direction, world);
     aur_transform_direction(&self->to_local, world, local);
-    return (float)aur_photometry_intensity(&self->lamp, local);
+    return (float)aur_photometry_intensity(&self->photometry, local);
 }
 
 static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bounds *bounds) {
@@ -117,7 +117,7 @@ static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bound
     }
 }
 
-/* radiance / pdf is intensity over the squared distance. */
+/* radiance / pdf is the intensity over the squared distance. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const photometric_light *const self = emitter->data;
     const aur_vector position = draw_point(self, query->u[1], query->u[2]);

@@ -1,4 +1,4 @@
-/* Lights without a size: in all directions, in a cone, or from infinitely far. */
+/* Lights without extent: point, spot and directional. */
 #include <stdlib.h>
 
 #include "render/scene/emitter.h"
@@ -6,21 +6,22 @@
 #include "render/scene/scene_data.h"
 
 typedef struct point_light {
-    double place[3];     /* in the world */
-    aur_vector position; /* from the scene's origin */
-    aur_frame frame;     /* z is where a spot points, or directional light goes */
-    /* Radians: light falls from all within the beam to nothing at the cutoff. A point's are beyond pi. */
+    double world_position[3]; /* world coordinates */
+    aur_vector position;      /* relative to the scene's origin */
+    aur_frame frame;          /* z is the axis of a spot, or the direction of directional light */
+    /* Radians: intensity falls from full at the beam width to zero at the cutoff. For a point light both
+     * exceed pi. */
     float cutoff, beam;
     float cosine_cutoff;
-    aur_color picture; /* of a spot: a factor across its cone, where there is a texture */
+    aur_color image; /* texture of a spot: a factor across its cone */
     aur_transform to_local;
 } point_light;
 
 typedef struct point_keys {
-    aur_color color, picture;
+    aur_color color, image;
     aur_transform to_world;
     double position[3], direction[3];
-    double cutoff, beam; /* degrees; beam -1: not given */
+    double cutoff, beam; /* degrees; beam -1: default */
 } point_keys;
 
 static const aur_key point_table[] = {
@@ -31,7 +32,7 @@ static const aur_key point_table[] = {
 
 static const aur_key spot_table[] = {
     {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power per steradian along the axis, RGB")},
-    {AUR_KEY_OF_COLOR(point_keys, "texture", picture, 1e30, NULL, "texture projected across the cone")},
+    {AUR_KEY_OF_COLOR(point_keys, "texture", image, 1e30, NULL, "texture projected across the cone")},
     {AUR_KEY_OF_REAL(point_keys, "cutoff_angle", cutoff, 1e-3, 180.0, "20", "no light beyond, degrees")},
     {AUR_KEY_OF_REAL(point_keys, "beam_width", beam, 0.0, 180.0, "3/4 of cutoff_angle",
                      "full light within, degrees; at most cutoff_angle"),
@@ -51,7 +52,7 @@ static aur_vector to_vector(const double v[3]) {
     return (aur_vector){(float)v[0], (float)v[1], (float)v[2]};
 }
 
-/* Reads the keys, and places and aims the light. */
+/* Reads the parameters, and sets the light's position and orientation. */
 static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, point_keys *p,
                             aur_error *error) {
     const aur_row *const row = &emitter->descriptor->row;
@@ -74,7 +75,7 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
     if (emitter->descriptor->is_far && !(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
                                    "'direction' must not be 0 0 0, nor nearly so");
-    aur_transform_point(&p->to_world, p->position, self->place);
+    aur_transform_point(&p->to_world, p->position, self->world_position);
     self->frame = aur_frame_about(aur_vector_normalize(way));
     emitter->radiance = p->color;
     return AUR_OK;
@@ -85,7 +86,7 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     (void)error;
     point_light *const self = emitter->data;
-    self->position = aur_place_from(emitter->scene->origin, self->place);
+    self->position = aur_place_from(emitter->scene->origin, self->world_position);
     return AUR_OK;
 }
 
@@ -94,8 +95,8 @@ static aur_result create_point(aur_parameters *parameters, aur_emitter *emitter,
     const aur_result result = read_keys(parameters, emitter, &p, error);
     if (result != AUR_OK)
         return result;
-    const aur_transform place = aur_transform_translate(p.position[0], p.position[1], p.position[2]);
-    const aur_transform both = aur_transform_multiply(&p.to_world, &place);
+    const aur_transform world_position = aur_transform_translate(p.position[0], p.position[1], p.position[2]);
+    const aur_transform both = aur_transform_multiply(&p.to_world, &world_position);
     if (!aur_transform_is_within_reach(&both))
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "it must be within %g of the origin",
                                    AUR_REACH);
@@ -116,8 +117,8 @@ static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, 
                            beam);
     point_light *const self = emitter->data;
     self->cutoff = (float)(cutoff * AUR_PI / 180.0);
-    self->picture = p.picture;
-    if (p.picture.texture != NULL && cutoff >= 90.0)
+    self->image = p.image;
+    if (p.image.texture != NULL && cutoff >= 90.0)
         return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED,
                                    "a 'texture' needs a 'cutoff_angle' below 90 degrees");
     self->beam = (float)(beam * AUR_PI / 180.0);
@@ -127,17 +128,17 @@ static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, 
     return AUR_OK;
 }
 
-/* The factor of a spot's image in a direction from it. */
-static aur_vector picture_at(const point_light *self, aur_vector direction) {
-    if (self->picture.texture == NULL)
+/* The texture factor of a spot in a direction from it. */
+static aur_vector image_at(const point_light *self, aur_vector direction) {
+    if (self->image.texture == NULL)
         return (aur_vector){1.0f, 1.0f, 1.0f};
     const aur_vector local = aur_transform_direction_f(&self->to_local, direction);
     const float width = 2.0f * local.z * tanf(self->cutoff);
-    return aur_color_at(&self->picture,
+    return aur_color_at(&self->image,
                         (aur_bsdf_point){.u = 0.5f + local.x / width, .v = 0.5f + local.y / width});
 }
 
-/* Full within the beam, then falling linearly with the angle to 0 at the cutoff. */
+/* Full within the beam width, then linear in the angle to 0 at the cutoff. */
 static float falloff(const point_light *self, float cosine) {
     if (self->beam > AUR_PI_F)
         return 1.0f;
@@ -158,8 +159,8 @@ static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bound
     aur_vector_to_doubles(self->frame.z, bounds->axis);
 }
 
-/* radiance / pdf is intensity over the squared distance. */
-static bool sample_place(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
+/* radiance / pdf is the intensity over the squared distance. */
+static bool sample_point(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const point_light *const self = emitter->data;
     const aur_vector way = aur_vector_subtract(self->position, query->reference.position);
     const float squared = aur_vector_dot(way, way);
@@ -171,9 +172,9 @@ static bool sample_place(const aur_emitter *emitter, const aur_light_query *quer
     drawn->position = aur_point_target(query->reference.position, self->position, drawn->normal);
     const float share = falloff(self, -aur_vector_dot(drawn->direction, self->frame.z));
     drawn->radiance = aur_vector_scale(aur_vector_scale(emitter->radiance.constant, 1.0f / squared), share);
-    if (self->picture.texture != NULL && share > 0.0f)
+    if (self->image.texture != NULL && share > 0.0f)
         drawn->radiance =
-            aur_vector_multiply(drawn->radiance, picture_at(self, aur_vector_scale(drawn->direction, -1.0f)));
+            aur_vector_multiply(drawn->radiance, image_at(self, aur_vector_scale(drawn->direction, -1.0f)));
     drawn->pdf = 1.0f;
     drawn->delta = true;
     return share > 0.0f;
@@ -193,7 +194,7 @@ static bool emit_spot(const aur_emitter *emitter, const float u[5], aur_ray *ray
     *ray = (aur_ray){self->position, 0.0f, aur_frame_to_world(&self->frame, aur_direction_at(cosine, u[4])),
                      INFINITY};
     *power = aur_vector_scale(emitter->radiance.constant, falloff(self, cosine) * 2.0f * AUR_PI_F * cap);
-    *power = aur_vector_multiply(*power, picture_at(self, ray->direction));
+    *power = aur_vector_multiply(*power, image_at(self, ray->direction));
     return true;
 }
 
@@ -203,7 +204,7 @@ const aur_emitter_descriptor aur_emitter_point = {
     .create = create_point,
     .prepare = prepare,
     .bounds = find_bounds,
-    .sample = sample_place,
+    .sample = sample_point,
     .emit = emit_point,
 };
 
@@ -213,7 +214,7 @@ const aur_emitter_descriptor aur_emitter_spot = {
     .create = create_spot,
     .prepare = prepare,
     .bounds = find_bounds,
-    .sample = sample_place,
+    .sample = sample_point,
     .emit = emit_spot,
 };
 

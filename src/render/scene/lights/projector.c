@@ -1,4 +1,4 @@
-/* An image thrown into the scene from a point, through the lens of a pinhole camera. */
+/* An image projected from a point, with the geometry of a pinhole camera. */
 #include <stdlib.h>
 
 #include "render/scene/emitter.h"
@@ -6,10 +6,10 @@
 #include "render/scene/scene_data.h"
 
 typedef struct projector {
-    aur_transform to_world, to_local; /* of coordinates that count from the scene's origin, when prepared */
-    aur_frame frame;                  /* the camera's axes, unit: x is the left of the image */
+    aur_transform to_world, to_local; /* relative to the scene's origin, when prepared */
+    aur_frame frame;                  /* unit axes; x is the left of the image */
     aur_vector position;
-    float half_width, half_height; /* of the image at z = 1 */
+    float half_width, half_height; /* area of the image at z = 1 */
     float scale;
 } projector;
 
@@ -39,9 +39,9 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
         result = aur_to_world_check(parameters, &p.to_world, &self->to_local, error);
     if (result != AUR_OK)
         return result;
-    const aur_texture *const picture = p.irradiance.texture;
-    const float aspect = picture != NULL && picture->aspect > 0.0f ? picture->aspect : 1.0f;
-    /* A lens of 50 mm on 35 mm film, whose diagonal is that of 36 mm by 24 mm, unless told. */
+    const aur_texture *const image = p.irradiance.texture;
+    const float aspect = image != NULL && image->aspect > 0.0f ? image->aspect : 1.0f;
+    /* Default: a 50 mm lens on 35 mm film, for the diagonal of 36 mm by 24 mm. */
     const aur_sensor lens =
         p.fov > 0.0 ? (aur_sensor){.axis = p.axis, .tangent = (float)tan(0.5 * p.fov * AUR_PI / 180.0)}
                     : (aur_sensor){.axis = AUR_FOV_DIAGONAL,
@@ -79,8 +79,8 @@ static void find_bounds(const aur_emitter *emitter, size_t part, aur_light_bound
     aur_vector_to_doubles(self->frame.z, bounds->axis);
 }
 
-/* radiance / pdf is what falls on a surface that faces the projector: the image's over the square of the
- * depth and the cosine to the axis, by which a plane across the axis is lit evenly. */
+/* radiance / pdf is the irradiance on a surface that faces the projector: the image's value over depth
+ * squared and the cosine to the axis. This lights a plane perpendicular to the axis evenly. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const projector *const self = emitter->data;
     const aur_vector way = aur_vector_subtract(self->position, query->reference.position);

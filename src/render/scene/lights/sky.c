@@ -1,4 +1,4 @@
-/* Daylight: the sky by a formula above the horizon, and the same radiance from everywhere below it. */
+/* Daylight: an analytic sky above the horizon, and constant radiance below it. */
 #include "points/base/text.h"
 #include "points/base/vector3d.h"
 #include "render/scene/emitter.h"
@@ -11,9 +11,9 @@
 typedef struct sky_light {
     aur_sky_model model;
     aur_sun_position position;
-    aur_vector color;  /* radiance is this times the model's */
-    aur_vector ground; /* radiance from below */
-    bool blends;       /* sky and ground about the horizon */
+    aur_vector color;  /* factor of the model's radiance */
+    aur_vector ground; /* radiance below the horizon */
+    bool blends;       /* blend sky and ground at the horizon */
     aur_sky_dome dome;
 } sky_light;
 
@@ -30,7 +30,7 @@ typedef struct sky_keys {
     aur_sun_keys sun;
 } sky_keys;
 
-/* Lumens a watt of radiation that counts alike in all three colours, as Radiance has it. */
+/* Luminous efficacy in lumens per watt, with equal weights of the three colours, as in Radiance. */
 static const double EFFICACY = 179.0;
 
 static const aur_key keys[] = {
@@ -84,7 +84,7 @@ static aur_result fail_both(const aur_parameters *parameters, const char *first,
                                second);
 }
 
-/* --- reading */
+/* --- parameters */
 
 static aur_result read_cie(const sky_keys *p, aur_parameters *parameters, sky_light *self, aur_error *error) {
     const double *const sun = self->position.sun;
@@ -132,7 +132,7 @@ static aur_vector gray(double value) {
     return (aur_vector){(float)value, (float)value, (float)value};
 }
 
-/* How bright the sky is, by the one key of four that is given. */
+/* The sky's brightness, from exactly one of four parameters. */
 static aur_result read_scale(const sky_keys *p, aur_parameters *parameters, sky_light *self,
                              aur_error *error) {
     static const char *const names[] = {"irradiance", "illuminance", "zenith_radiance", "zenith_luminance"};
@@ -193,9 +193,10 @@ static void release(void *data) {
 
 /* --- radiance */
 
-/* Of a direction by east, north and up. The sky's part of a blend is a / (a + 1 / a), a = (z + 1.01)^10. */
+/* Radiance of a direction (east, north, up). With blending the sky has weight a / (a + 1 / a), a = (z
+ * + 1.01)^10. */
 static aur_vector radiance_at(const sky_light *self, const double local[3]) {
-    /* Gradations but the linear one end at the horizon. */
+    /* All gradations but the linear one are undefined below the horizon. */
     const double level[3] = {local[0], local[1], self->model.a != 0.0 ? fmax(local[2], 0.0) : local[2]};
     const double a = self->blends ? pow(local[2] + 1.01, 20.0) : 0.0;
     const double part = self->blends ? a / (1.0 + a) : local[2] < 0.0 ? 0.0 : 1.0;
@@ -219,7 +220,7 @@ static float luminance(const void *sky, const double direction[3]) {
                         : aur_luminance(self->color) * (float)aur_sky_model_radiance(&self->model, direction);
 }
 
-/* What is drawn from below, where a blend reaches: the mean over heights. */
+/* Luminance used to sample directions below the horizon within the blend: the mean over heights. */
 static float luminance_below(const sky_light *self) {
     enum { HEIGHTS = 64 };
     float sum = 0.0f;

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-/* Patches of the sky that are equal in azimuth and height, in which radiance is nearly what it is at their
- * corners, interpolated; the last row is the ground. */
+/* The sky is divided into patches of equal azimuth and height. Sampling interpolates the luminance at their
+ * corners, which is close to the sky's radiance. The last row is the ground. */
 enum { COLUMNS = AUR_DOME_COLUMNS, SKY_ROWS = 48, ROWS = SKY_ROWS + 1 };
 
 static void direction_at(double column, double height, double local[3]) {

@@ -24,7 +24,7 @@ aur_sky_model aur_sky_model_cie_of(const double coefficients[5], const double su
 }
 
 aur_sky_model aur_sky_model_cie(size_t type, const double sun[3]) {
-    /* Six gradations a, b and six indicatrices c, d, e; each type has one of both (table 1). */
+    /* Six gradations a, b and six indicatrices c, d, e; each type combines one of each (table 1). */
     static const double gradations[6][2] = {{4.0, -0.70},  {1.1, -0.80},  {0.0, -1.00},
                                             {-1.0, -0.55}, {-1.0, -0.32}, {-1.0, -0.15}};
     static const double indicatrices[6][3] = {{0.0, -1.0, 0.00},  {2.0, -1.5, 0.15},  {5.0, -2.5, 0.30},
@@ -37,7 +37,7 @@ aur_sky_model aur_sky_model_cie(size_t type, const double sun[3]) {
         (const double[5]){gradation[0], gradation[1], indicatrix[0], indicatrix[1], indicatrix[2]}, sun);
 }
 
-/* Table 1 of Perez et al. (1993): what the clearness of each class is below, and four coefficients for each
+/* Table 1 of Perez et al. (1993): the upper bound of clearness of each class, and four coefficients for each
  * of a, b, c, d and e. */
 enum { PEREZ_CLASSES = 8 };
 static const double clearness_below[PEREZ_CLASSES] = {1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2, INFINITY};
@@ -92,7 +92,7 @@ double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle, double a
 }
 
 double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3]) {
-    if (sky->c == 0.0 && sky->e == 0.0) /* the indicatrix is 1 */
+    if (sky->c == 0.0 && sky->e == 0.0) /* the indicatrix is constant, 1 */
         return fmax(aur_sky_model_gradation(sky, direction[2]), 0.0);
     double across[3];
     aur_cross3(direction, sky->sun, across);
@@ -105,8 +105,8 @@ double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3
 
 typedef double one_variable(const void *data, double x);
 
-/* The double exponential rule (Takahasi and Mori 1974): functions that are smooth inside of the interval, and
- * whatever they do at its ends. */
+/* Double exponential quadrature (Takahasi and Mori 1974), for integrands that are smooth inside of the
+ * interval but may be singular at its ends. */
 static double integrate(one_variable *function, const void *data, double from, double to) {
     static const double STEP = 1.0 / 16.0;
     const double half = 0.5 * (to - from);
@@ -114,14 +114,15 @@ static double integrate(one_variable *function, const void *data, double from, d
     for (int i = -56; i <= 56; ++i) {
         const double t = STEP * (double)i, inner = 0.5 * AUR_PI * sinh(t), scale = cosh(inner);
         const double weight = 0.5 * AUR_PI * cosh(t) / (scale * scale);
-        /* By the distance from the nearer end, which is small. */
+        /* Evaluates by distance from the nearer end, which is accurate when small. */
         const double gap = half * exp(-fabs(inner)) / scale;
         sum += weight * function(data, i < 0 ? from + gap : to - gap);
     }
     return STEP * half * sum;
 }
 
-/* A circle about the sun, which has one indicatrix; an azimuth of 0 lies towards the zenith. */
+/* The integral along a circle about the sun, where the indicatrix is constant; azimuth 0 is towards the
+ * zenith. */
 typedef struct circle {
     const aur_sky_model *sky;
     double indicatrix, height, reach; /* cos Z is height + reach cos(azimuth) */
@@ -143,7 +144,7 @@ static double over_circle(const void *data, double angle) {
     return 2.0 * sin(angle) * integrate(on_circle, &at, 0.0, end);
 }
 
-/* Circles that lie above the horizon, and arcs of those that cross it. */
+/* Circles above the horizon, and arcs of circles that cross it. */
 double aur_sky_model_irradiance(const aur_sky_model *sky) {
     const double low = hypot(sky->sun[0], sky->sun[1]);
     const double elevation = atan2(sky->sun[2], low);

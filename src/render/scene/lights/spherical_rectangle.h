@@ -1,4 +1,4 @@
-/* Uniform points, by solid angle, of a rectangle seen from a point (Urena, Fajardo, King 2013: "An
+/* Uniform sampling, by solid angle, of a rectangle seen from a point (Urena, Fajardo, King 2013: "An
  * Area-Preserving Parametrization for Spherical Rectangles"). */
 #pragma once
 
@@ -11,7 +11,7 @@
 
 typedef struct aur_rectangle {
     aur_vector corner, x, y; /* x and y: unit, along the edges, perpendicular */
-    float width, height;     /* of the edges along x and y */
+    float width, height;     /* lengths of the edges along x and y */
 } aur_rectangle;
 
 typedef struct aur_spherical_rectangle {
@@ -20,48 +20,48 @@ typedef struct aur_spherical_rectangle {
     float solid_angle; /* steradians */
 } aur_spherical_rectangle;
 
-/* Rectangles seen under so many steradians or more, roughly, are drawn by solid angle; smaller ones by area,
- * which is faster and, weighed at the corners, as good. */
+/* Rectangles of about this solid angle (steradians) or more are sampled by solid angle. Smaller ones are
+ * sampled by area, which is faster and, with weights at the corners, as good. */
 static const float AUR_LEAST_RECTANGLE = 0.15f;
 
-/* False when the rectangle is seen under less. */
+/* False if the rectangle's solid angle is smaller. */
 bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
                                     aur_spherical_rectangle *seen);
 
-/* The point that u, v in [0,1) stand for, in parts of the rectangle's width and height. */
+/* The point for u, v in [0,1), as fractions of the rectangle's width and height. */
 void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u, float v, float *s,
                                     float *t);
 
-/* Points of a rectangle as a reference draws them: by solid angle or by area, nearly in proportion to the
+/* Sampling of a rectangle from a reference point: by solid angle or by area, nearly in proportion to the
  * cosine at the reference. */
 typedef struct aur_seen_rectangle {
     bool by_area;
-    aur_spherical_rectangle sphere; /* else */
+    aur_spherical_rectangle sphere; /* if not by solid angle */
     aur_bilinear weights;
 } aur_seen_rectangle;
 
 aur_seen_rectangle aur_rectangle_see(const aur_rectangle *rectangle, const aur_light_reference *reference);
-/* The point that uniform u, v stand for, in parts of width and height; returns its density, a steradian, or
- * where by_area over that of uniform points. */
+/* The point for uniform u, v, as fractions of width and height. Returns the pdf by solid angle, or, if
+ * by_area, relative to uniform area sampling. */
 float aur_seen_rectangle_draw(const aur_seen_rectangle *seen, float u, float v, float *s, float *t);
-/* The density of a point. */
+/* The pdf of a point. */
 float aur_seen_rectangle_density(const aur_seen_rectangle *seen, float s, float t);
 
-/* A light on a rectangle: what samples of it have in common. */
+/* A rectangular light: data shared by its samples. */
 typedef struct aur_rectangle_light {
     aur_rectangle rectangle;
-    aur_vector normal; /* of the side that shines */
+    aur_vector normal; /* normal of the emitting side */
     aur_vector radiance;
     float area, probability;
     float rounding; /* aur_triangle_rounding */
 } aur_rectangle_light;
 
-/* Samples of the light for sixteen points: by solid angle where the light is large enough, else by area. */
+/* Samples of the light for 16 reference points: by solid angle for large lights, else by area. */
 typedef void (*aur_rectangle_lanes_function)(const aur_rectangle_light *light,
                                              const aur_light_references *references, const float *u,
                                              const float *v, aur_light_lanes *drawn);
 
-/* By this processor's instructions. */
+/* The kernels for this processor. */
 typedef struct aur_rectangle_kernels {
     aur_rectangle_lanes_function lanes;
 } aur_rectangle_kernels;

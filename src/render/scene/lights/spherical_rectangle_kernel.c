@@ -1,17 +1,17 @@
-/* The arithmetic of spherical rectangles for one point, without branches and calls, so that loops over it
- * become vector code. Plain operations in one order without contraction: every instruction set gives the same
- * bits. */
+/* Arithmetic of spherical rectangles for one point, without branches and calls, so that loops over it
+ * vectorise. Operations are not contracted or reordered: all instruction sets give the same bits. */
 #include "render/scene/lights/arcs.h"
 #include "render/scene/lights/spherical_rectangle.h"
 #include "render/scene/patches.h"
 
-/* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */
+/* Clamps a number to [0, 1]. Branch-free: comparisons would not vectorise. */
 static inline float rectangle_part(float x) {
     const float positive = 0.5f * (x + fabsf(x));
     return 0.5f * (positive + 1.0f - fabsf(positive - 1.0f));
 }
 
-/* The nearest integer of a number below 2^22, as vector code has no floorf that leaves the flags alone. */
+/* The nearest integer of a number below 2^22: vector code has no floorf that preserves the exception flags.
+ */
 static inline float rectangle_nearest(float x) {
     return (x + 0x1.8p23f) - 0x1.8p23f;
 }
@@ -38,36 +38,36 @@ static inline void rectangle_turn(float angle, float *sine, float *cosine) {
     *cosine = sign * (c - odd * (c + s));
 }
 
-/* Where the rectangle lies as the point sees it. */
-typedef struct rectangle_place {
+/* The rectangle in a frame at the reference point. */
+typedef struct rectangle_view {
     float x0, y0, z0;
-    float height;  /* of the plane along the rectangle's own normal; z0 is below 0 */
-    float squared; /* distance of the middle */
-    float excess;  /* positive when it is drawn by solid angle */
-} rectangle_place;
+    float height;  /* of the rectangle's plane along its normal; z0 is negative */
+    float squared; /* distance of the centre */
+    float excess;  /* positive if it is sampled by solid angle */
+} rectangle_view;
 
-static inline rectangle_place rectangle_placed(const aur_rectangle *r, aur_vector normal, float px, float py,
-                                               float pz) {
+static inline rectangle_view rectangle_placed(const aur_rectangle *r, aur_vector normal, float px, float py,
+                                              float pz) {
     const float wx = r->corner.x - px, wy = r->corner.y - py, wz = r->corner.z - pz;
     const float x0 = wx * r->x.x + wy * r->x.y + wz * r->x.z;
     const float y0 = wx * r->y.x + wy * r->y.y + wz * r->y.z;
-    /* The rectangle's plane lies below the point in the frame of the derivation. */
+    /* The derivation's frame has the rectangle's plane below the point. */
     const float height = wx * normal.x + wy * normal.y + wz * normal.z;
     const float z0 = -fabsf(height);
     const float middle_x = x0 + 0.5f * r->width, middle_y = y0 + 0.5f * r->height;
     const float squared = middle_x * middle_x + middle_y * middle_y + z0 * z0;
-    return (rectangle_place){
+    return (rectangle_view){
         x0,     y0,      z0,
         height, squared, -z0 * r->width * r->height - AUR_LEAST_RECTANGLE * (squared * sqrtf(squared))};
 }
 
-/* The rectangle as the point sees it; its solid angle is 0 where it is drawn by area. */
+/* Sets up the rectangle for a reference point; its solid angle is 0 if it is sampled by area. */
 static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
                                                      float py, float pz) {
-    const rectangle_place at = rectangle_placed(r, normal, px, py, pz);
+    const rectangle_view at = rectangle_placed(r, normal, px, py, pz);
     const float x0 = at.x0, y0 = at.y0, z0 = at.z0, zz = z0 * z0;
     const float x1 = x0 + r->width, y1 = y0 + r->height;
-    /* z components of the normals of the four planes through the point and an edge. */
+    /* z components of the normals of the four planes through the reference point and an edge. */
     const float n0 = -y0 / sqrtf(zz + y0 * y0), n1 = x1 / sqrtf(zz + x1 * x1);
     const float n2 = y1 / sqrtf(zz + y1 * y1), n3 = -x0 / sqrtf(zz + x0 * x0);
     const float k = 2.0f * AUR_PI_F - aur_arc(-n2 * n3) - aur_arc(-n3 * n0);
@@ -76,7 +76,7 @@ static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur
         x0, x1, y0, y1, z0, n0, n2, k, angle * (0.5f + copysignf(0.5f, at.excess))};
 }
 
-/* Of a point, the v that rectangle_point makes it of. */
+/* The inverse of rectangle_point: the v of a point. */
 static inline float rectangle_rank(const aur_spherical_rectangle *seen, float s, float t) {
     const float x = seen->x0 + s * (seen->x1 - seen->x0), y = seen->y0 + t * (seen->y1 - seen->y0);
     const float squared = x * x + seen->z0 * seen->z0;
@@ -85,7 +85,7 @@ static inline float rectangle_rank(const aur_spherical_rectangle *seen, float s,
     return rectangle_part((y / sqrtf(squared + y * y) - h0) / (h1 - h0));
 }
 
-/* And the u: the part of the solid angle that lies to the left of it. */
+/* And its u: the fraction of the solid angle to the left of the point. */
 static inline float rectangle_strip(const aur_spherical_rectangle *seen, float s) {
     const float x = seen->x0 + s * (seen->x1 - seen->x0);
     const float n = x / sqrtf(x * x + seen->z0 * seen->z0);
@@ -111,15 +111,15 @@ static inline void rectangle_point(const aur_spherical_rectangle *seen, float u,
     *t = rectangle_part((y - seen->y0) / height);
 }
 
-/* What is positive of x; comparisons would become branches. */
+/* max(x, 0); comparisons would become branches. */
 static inline float rectangle_positive(float x) {
     return 0.5f * (x + fabsf(x));
 }
 
-/* What points are drawn in proportion to, at the rectangle's corners: the cosine at the reference's normal,
- * and by area also what the distance makes of it. No corner has less than a small part of the mean: the
- * cosine may be positive between corners where it is not. Without a normal all have the same. */
-static inline aur_bilinear rectangle_weights(const aur_rectangle *r, const rectangle_place *at,
+/* Sampling weights at the rectangle's corners: the cosine at the reference's normal, and for area sampling
+ * also the inverse square falloff. Each is at least a small fraction of the mean, as the cosine may be
+ * positive between corners where it is not. Without a normal all cosines are equal. */
+static inline aur_bilinear rectangle_weights(const aur_rectangle *r, const rectangle_view *at,
                                              aur_vector across, aur_vector facing, bool by_area) {
     const float nx = aur_vector_dot(facing, r->x), ny = aur_vector_dot(facing, r->y);
     const float up = at->height * aur_vector_dot(facing, across);
@@ -144,14 +144,14 @@ static inline aur_bilinear rectangle_weights(const aur_rectangle *r, const recta
 static void rectangle_lanes(const aur_rectangle_light *given, const aur_light_references *references,
                             const float *u, const float *v, aur_light_lanes *drawn) {
     const aur_lane_vectors *const reference = references->position, *const facing = references->normal;
-    const aur_rectangle_light light = *given; /* which the outputs cannot overlap */
+    const aur_rectangle_light light = *given; /* outputs must not alias these */
     const aur_rectangle *const r = &light.rectangle;
     aur_lane_numbers s = {0}, t = {0}, angle = {0}, moved_u, moved_v, density;
     const aur_vector normal = aur_vector_cross(r->x, r->y);
-    uint32_t any = 0; /* is drawn by solid angle */
+    uint32_t any = 0; /* sampled by solid angle */
     AUR_INDEPENDENT_LOOP
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const rectangle_place at =
+        const rectangle_view at =
             rectangle_placed(r, normal, reference->x[k], reference->y[k], reference->z[k]);
         const aur_bilinear weights =
             rectangle_weights(r, &at, normal, aur_lane_vector(facing, k), !(at.excess > 0.0f));
@@ -212,7 +212,7 @@ void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u
 aur_seen_rectangle aur_rectangle_see(const aur_rectangle *rectangle, const aur_light_reference *reference) {
     const aur_vector across = aur_vector_cross(rectangle->x, rectangle->y), p = reference->position;
     aur_seen_rectangle seen = {.by_area = !aur_spherical_rectangle_create(rectangle, p, &seen.sphere)};
-    const rectangle_place at = rectangle_placed(rectangle, across, p.x, p.y, p.z);
+    const rectangle_view at = rectangle_placed(rectangle, across, p.x, p.y, p.z);
     seen.weights = rectangle_weights(rectangle, &at, across, reference->normal, seen.by_area);
     return seen;
 }

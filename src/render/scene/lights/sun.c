@@ -1,4 +1,4 @@
-/* A disk of the sky, infinitely far: the sun, or any part of the sky up to all of it. */
+/* A disk of the sky, infinitely far: the sun, or any cap up to the whole sphere. */
 #include <math.h>
 
 #include "render/scene/emitter.h"

@@ -6,7 +6,7 @@
 
 aur_sun_disk aur_sun_disk_make(const double center[3], double half_angle) {
     const double half = sin(0.5 * half_angle * AUR_PI / 180.0);
-    /* A little more than the edge, so that directions drawn there are inside in spite of rounding. */
+    /* Slightly more than the edge, so that sampled directions are inside in spite of rounding. */
     aur_sun_disk disk = {.center = {center[0], center[1], center[2]},
                          .rise = 2.0 * half * half,
                          .reach = 4.0 * half * half + 5e-7 * half};
@@ -27,7 +27,7 @@ double aur_sun_disk_solid_angle(const aur_sun_disk *disk) {
     return 2.0 * AUR_PI * disk->rise;
 }
 
-/* 1 - cosine is u times that of the edge. */
+/* 1 - cosine is u times its value at the edge. */
 aur_vector aur_sun_disk_draw(const aur_sun_disk *disk, float u, float v) {
     const double low = (double)u * disk->rise;
     const float radius = (float)sqrt(fmax(low * (2.0 - low), 0.0)), azimuth = 2.0f * AUR_PI_F * v;

@@ -1,4 +1,4 @@
-/* A disk of the sky: directions about its centre. */
+/* A disk of the sky: directions within an angle of its centre. */
 #pragma once
 
 #include <stdbool.h>
@@ -7,7 +7,7 @@
 
 typedef struct aur_sun_disk {
     double center[3];     /* unit, in the world */
-    aur_vector across[2]; /* at right angles to it and each other */
+    aur_vector across[2]; /* orthonormal to it */
     double rise;          /* 1 - cosine of its half angle */
     double reach;         /* the squared distance between its centre and its edge on the unit sphere */
 } aur_sun_disk;
@@ -17,5 +17,5 @@ aur_sun_disk aur_sun_disk_make(const double center[3], double half_angle);
 bool aur_sun_disk_contains(const aur_sun_disk *disk, aur_vector direction);
 /* Steradians. */
 double aur_sun_disk_solid_angle(const aur_sun_disk *disk);
-/* A direction of the disk, uniform by solid angle; u and v in [0,1). */
+/* A direction in the disk, uniform by solid angle; u and v in [0,1). */
 aur_vector aur_sun_disk_draw(const aur_sun_disk *disk, float u, float v);

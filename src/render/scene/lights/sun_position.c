@@ -6,8 +6,8 @@
 
 static const double RADIAN = 180.0 / AUR_PI;
 
-/* Reads whole numbers with a mark between them and nothing after. Returns how many there are, 0 for anything
- * else. */
+/* Parses integers with a separator between them and nothing after. Returns their count, 0 for malformed text.
+ */
 static size_t read_fields(const char *text, char mark, size_t capacity, uint64_t *fields) {
     for (size_t i = 0; i < capacity; ++i) {
         text = aur_read_integer(text, 9999, &fields[i]);
@@ -93,7 +93,7 @@ static aur_result read_frame(const aur_sun_keys *keys, aur_parameters *parameter
     if (aur_parameters_find(parameters, "north") != NULL)
         for (int d = 0; d < 3; ++d)
             north[d] = keys->north[d];
-    else /* across the axis that `up` is nearest to */
+    else /* perpendicular to the axis nearest to `up` */
         north[fabs(up[2]) > fabs(up[1]) ? 1 : 2] = fabs(up[2]) > fabs(up[1]) ? 1.0 : -1.0;
     const double length = aur_normalize3(north), along = aur_dot3(north, up);
     for (int d = 0; d < 3; ++d)

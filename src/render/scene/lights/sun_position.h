@@ -1,4 +1,4 @@
-/* Where up, north and the sun are: keys that skies and suns share. */
+/* Up, north and the sun's position: parameters shared by skies and suns. */
 #pragma once
 
 #include "points/base/error.h"
@@ -13,7 +13,7 @@ typedef struct aur_sun_keys {
     double latitude, longitude, timezone;
 } aur_sun_keys;
 
-/* Rows for tables of keys; the struct has an aur_sun_keys called sun. */
+/* Rows for tables of parameters; the struct has a member `aur_sun_keys sun`. */
 #define AUR_SUN_KEYS(struct_)                                                                                \
     {AUR_KEY_OF_VECTOR(struct_, "up", sun.up, -AUR_REACH, AUR_REACH, "0 1 0", "to the zenith")},             \
         {AUR_KEY_OF_VECTOR(struct_, "north", sun.north, -AUR_REACH, AUR_REACH, "-z, or +y where z is up",    \
@@ -35,31 +35,31 @@ typedef struct aur_sun_keys {
 typedef struct aur_sun_position {
     double east[3], north[3], up[3]; /* unit vectors of the world */
     bool has_sun;
-    double sun[3];         /* unit: to the sun, by east, north and up */
-    double solar_distance; /* from the sun, in its mean distances; 1 without a date */
+    double sun[3];         /* unit direction to the sun: east, north, up */
+    double solar_distance; /* distance of the sun, relative to the mean; 1 without a date */
 } aur_sun_position;
 
 /* The last day of a month, 1 to 12 (Gregorian). */
 AUR_INTERNAL unsigned aur_days_of_month(long year, unsigned month);
-/* Whole days from noon of the first of January 2000 to that of the date (Fliegel and Van Flandern 1968), or
- * false for a day that there is not, and for years before 1950 and after 2050. */
+/* Days from noon of 1 January 2000 to noon of the date (Fliegel and Van Flandern 1968); false for an invalid
+ * date, and for years outside 1950 to 2050. */
 AUR_INTERNAL bool aur_days_since_2000(long year, unsigned month, unsigned day, double *days);
-/* The sun by east, north and up, at a time in days since noon of the first of January 2000 (UTC), of which
- * `hours` is the time of day; and how far it is, in its mean distances. Michalsky (1988): .01 degrees,
- * without refraction. */
+/* The direction of the sun (east, north, up), and its distance relative to the mean. Time is in days since
+ * noon of 1 January 2000 (UTC); `hours` is its time of day. Michalsky (1988): .01 degrees, without
+ * refraction. */
 AUR_INTERNAL double aur_sun_locate(double days, double hours, double latitude, double longitude,
                                    double sun[3]);
 
-/* Reads what the keys say. By date and time the position is that of Michalsky (1988), Solar Energy 40(3),
- * 227-235: to .01 degrees, without refraction. Errors: FORMAT (which key; both ways given; the sun below the
- * horizon by date and time). */
+/* Interprets the parameters. From date and time the position is by Michalsky (1988), Solar Energy 40(3),
+ * 227-235: accurate to .01 degrees, without refraction. Errors: FORMAT (names the parameter; both forms
+ * given; the sun below the horizon by date and time). */
 aur_result aur_sun_position_read(const aur_sun_keys *keys, aur_parameters *parameters,
                                  aur_sun_position *position, aur_error *error);
 
-/* A direction of the world by east, north and up, made a unit; and back. */
+/* Converts a world direction to a unit vector (east, north, up), and back. */
 void aur_sun_position_to_local(const aur_sun_position *position, aur_vector direction, double local[3]);
 aur_vector aur_sun_position_to_world(const aur_sun_position *position, const double local[3]);
 
-/* Refuses a thing that cannot do without the sun where no key says where it is. */
+/* An error if the plugin requires the sun but no parameter gives its position. */
 aur_result aur_sun_position_need(const aur_sun_position *position, const aur_parameters *parameters,
                                  aur_error *error);

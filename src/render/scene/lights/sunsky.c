@@ -1,4 +1,4 @@
-/* Mitsuba's `sunsky`: the clear sky of Hosek and Wilkie with its sun, one light of two parts. */
+/* Mitsuba's `sunsky`: the clear sky of Hosek and Wilkie with its sun, as one light with two parts. */
 #include <math.h>
 
 #include "points/base/vector3d.h"
@@ -17,7 +17,7 @@ typedef struct sunsky {
     aur_sky_dome dome;
     float sky_scale;
     aur_vector sun;   /* radiance of the disk */
-    float dome_share; /* of directions that are drawn */
+    float dome_share; /* probability of sampling the dome rather than the disk */
 } sunsky;
 
 typedef struct sunsky_keys {
@@ -31,7 +31,7 @@ typedef struct sunsky_keys {
     aur_transform to_world;
 } sunsky_keys;
 
-/* Those of the place and time, from which the sun's direction follows where it is not given. */
+/* The parameters of location and time, which determine the sun's direction unless it is given. */
 static const char *const time_keys[] = {"latitude", "longitude", "timezone", "year",  "month",
                                         "day",      "hour",      "minute",   "second"};
 
@@ -62,10 +62,9 @@ static const aur_key keys[] = {
                           "a rotation, from a frame whose z is up, -x north and -y east")},
 };
 
-/* --- reading */
+/* --- parameters */
 
-/* Mitsuba's frame shows the sky as a mirror does: its right-handed axes point to the south, to the west and
- * up. */
+/* Mitsuba's sky frame is mirrored: its right-handed axes point south, west and up. */
 static aur_result read_frame(const sunsky_keys *p, aur_parameters *parameters, aur_sun_position *position,
                              aur_error *error) {
     aur_transform to_local;
@@ -115,7 +114,7 @@ static aur_result find_sun(const sunsky_keys *p, aur_parameters *parameters, aur
     return AUR_OK;
 }
 
-/* Below the horizon there is neither sun nor light of it: black, as in Mitsuba. */
+/* With the sun below the horizon, sky and sun are black, as in Mitsuba. */
 static void set_radiance(const sunsky_keys *p, sunsky *self) {
     static const double MEAN_APERTURE = 0.5358;
     const aur_sun_position *const at = &self->position;
@@ -171,7 +170,7 @@ static float luminance(const void *data, const double direction[3]) {
     return self->sky_scale * aur_luminance(aur_hosek_wilkie_sky_radiance(&self->model, direction));
 }
 
-/* Directions are drawn from sky and sun in proportion to their light. */
+/* Sky and sun are sampled in proportion to their power. */
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     sunsky *const self = emitter->data;
     if (aur_sky_dome_create(&self->dome, luminance, self, 0.0f, error) != AUR_OK)
@@ -187,7 +186,7 @@ static const aur_sun_position *position_of(const aur_emitter *emitter) {
     return &((const sunsky *)emitter->data)->position;
 }
 
-/* --- drawing directions */
+/* --- sampling directions */
 
 static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
     const sunsky *const self = emitter->data;

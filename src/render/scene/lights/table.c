@@ -1,4 +1,4 @@
-/* Every light by name. One new light is one new file and one line here. */
+/* Every light by name. To add a light: one new file, and one line here. */
 #include <stddef.h>
 
 #include "render/scene/emitter.h"

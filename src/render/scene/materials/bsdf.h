@@ -128,8 +128,8 @@ typedef struct aur_bsdf_descriptor {
 struct aur_bsdf {
     const aur_bsdf_descriptor *descriptor;
     void *data;
-    size_t asked; /* bsdfs that may be evaluated for this one: itself and all inside, as often as they are
-                     named */
+    size_t evaluations; /* bsdfs that may be evaluated for this one: itself and all inside, as often as they
+                     are named */
     size_t lobe_count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY]; /* their coefficients are black */
     bool anisotropic; /* the frame's x axis matters: it is the direction of growing texture u */

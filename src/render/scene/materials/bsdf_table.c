@@ -46,21 +46,22 @@ const aur_table aur_bsdf_table = {
     .kind = "bsdf", .summary = "materials: how surfaces scatter light", AUR_TABLE_ROWS(rows)};
 
 /* A material that names another one twice, in a chain of such, is asked 2^n times. */
-enum { MOST_ASKED = 1 << 12 };
+enum { MOST_EVALUATIONS = 1 << 12 };
 
-static aur_result count_asked(const aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    bsdf->asked = 1;
+static aur_result count_evaluations(const aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    bsdf->evaluations = 1;
     for (size_t i = 0; i < parameters->count; ++i) {
         const aur_parameter *const item = &parameters->items[i];
         if (item->kind == AUR_PARAMETER_OBJECT && strcmp(item->object_kind, "bsdf") == 0)
-            bsdf->asked += ((const aur_bsdf *)item->object)->asked;
+            bsdf->evaluations += ((const aur_bsdf *)item->object)->evaluations;
     }
-    return bsdf->asked <= MOST_ASKED ? AUR_OK
-                                     : aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                                                   "bsdf '%s' has %zu bsdfs inside, counted as often as they "
-                                                   "are named, and at most %d can be "
-                                                   "rendered",
-                                                   parameters->plugin, bsdf->asked - 1, (int)MOST_ASKED - 1);
+    return bsdf->evaluations <= MOST_EVALUATIONS
+               ? AUR_OK
+               : aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                             "bsdf '%s' has %zu bsdfs inside, counted as often as they "
+                             "are named, and at most %d can be "
+                             "rendered",
+                             parameters->plugin, bsdf->evaluations - 1, (int)MOST_EVALUATIONS - 1);
 }
 
 /* What a material has from the textures and materials among its parameters. */
@@ -112,7 +113,7 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
     aur_bsdf *const bsdf = object;
     aur_result result = aur_colors_read(&bsdf->descriptor->row, parameters, bsdf->data, error);
     if (result == AUR_OK)
-        result = count_asked(parameters, bsdf, error);
+        result = count_evaluations(parameters, bsdf, error);
     if (result == AUR_OK)
         result = bsdf->descriptor->create(parameters, bsdf, error);
     if (result == AUR_OK && bsdf->lobe_count > AUR_BSDF_LOBE_CAPACITY)

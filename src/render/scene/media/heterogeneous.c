@@ -1,6 +1,6 @@
-/* Extinction that varies. Distances are drawn by delta tracking, transmittances are estimated by ratio
- * tracking (Woodcock and others 1965; Novak, Selle and Jarosz 2014), both against the largest extinction of
- * the cells of a coarse grid, which is the same for all channels. */
+/* Heterogeneous media. Distances are sampled by delta tracking, transmittance is estimated by ratio tracking
+ * (Woodcock et al. 1965; Novak, Selle and Jarosz 2014). The majorant is the largest extinction of any channel
+ * per cell of a coarse grid. */
 #include <stdlib.h>
 
 #include "points/base/parallel.h"
@@ -9,7 +9,7 @@
 
 typedef struct heterogeneous {
     double scale;
-    aur_volume_value albedo, extinction; /* extinction: without `scale` */
+    aur_volume_value albedo, extinction; /* extinction: before `scale` */
     aur_majorants majorants;
 } heterogeneous;
 
@@ -21,7 +21,7 @@ static const aur_key keys[] = {
 
 extern const aur_medium_descriptor aur_medium_homogeneous;
 
-/* What does not vary is homogeneous, and needs no tracking. */
+/* A constant medium is homogeneous, and needs no tracking. */
 static aur_result become_homogeneous(aur_parameters *parameters, aur_medium *medium, aur_error *error) {
     free(medium->data);
     medium->descriptor = &aur_medium_homogeneous;
@@ -52,16 +52,16 @@ static void release(void *data) {
     aur_majorants_release(&((heterogeneous *)data)->majorants);
 }
 
-/* Tentative collisions, one after another. */
+/* Iteration over tentative collisions. */
 typedef struct tracking {
     const heterogeneous *medium;
     const aur_ray *ray;
     aur_medium_walk *walk;
     uint32_t count;
     aur_majorant_walk cells;
-    float at, end;   /* in the cell */
+    float at, end;   /* distance in the cell */
     float majorant;  /* of the cell */
-    aur_vector real; /* extinction where the last collision is, over the majorant: at most 1 */
+    aur_vector real; /* extinction over majorant at the last collision: at most 1 */
     aur_vector position;
 } tracking;
 
@@ -71,18 +71,17 @@ static void begin(const heterogeneous *self, const aur_ray *ray, float distance,
     aur_majorant_walk_begin(&self->majorants, ray, distance, &t->cells);
 }
 
-/* One voxel of 1e20 makes free paths shorter than the spacing of floats, which a ray would never come out of.
- */
+/* A voxel of 1e20 would make free paths shorter than the float spacing, and the ray would never leave it. */
 enum { MOST_COLLISIONS = 1 << 20, COLLISIONS_BETWEEN = 1 << 14 };
 
-/* Whether the ray goes on after `count` collisions. */
+/* Whether the ray continues after `count` collisions. */
 static bool goes_on(tracking *t) {
     t->walk->cut = t->count >= MOST_COLLISIONS;
     t->walk->stopped = aur_parallel_stops();
     return !t->walk->cut && !t->walk->stopped;
 }
 
-/* The next collision, at the optical depth that u stands for; false where there is none before the end. */
+/* The next tentative collision, at the optical depth for u; false if there is none before the end. */
 static bool collide(tracking *t, float u) {
     if (++t->count % COLLISIONS_BETWEEN == 0 && !goes_on(t))
         return false;
@@ -112,7 +111,7 @@ static bool absorbs_only(const heterogeneous *self) {
     return self->albedo.volume == NULL && aur_vector_is_zero(self->albedo.constant);
 }
 
-/* The transmittance in the mean. Where little is left of the light, half of it ends. */
+/* An unbiased estimate of the transmittance, with Russian roulette at low transmittance. */
 static void pass(const aur_medium *medium, const aur_ray *ray, float distance, aur_medium_walk *walk) {
     static const float little = 0.1f, go_on = 0.5f;
     const heterogeneous *const self = medium->data;
@@ -142,16 +141,16 @@ static bool travel(const aur_medium *medium, const aur_ray *ray, float distance,
     tracking t;
     begin(self, ray, distance, walk, &t);
     for (; collide(&t, u); u = aur_draw_unit(&walk->hash)) {
-        const float own = *aur_channel(&t.real, walk->channel);
-        if (aur_draw_unit(&walk->hash) < own) {
-            const aur_vector share = {t.real.x / own, t.real.y / own, t.real.z / own};
+        const float reference = *aur_channel(&t.real, walk->channel);
+        if (aur_draw_unit(&walk->hash) < reference) {
+            const aur_vector share = {t.real.x / reference, t.real.y / reference, t.real.z / reference};
             walk->path = aur_vector_multiply(walk->path, share);
             walk->throughput = aur_vector_multiply(
                 walk->throughput, aur_vector_multiply(share, aur_volume_value_at(&self->albedo, t.position)));
             *way = t.at;
             return true;
         }
-        const float none = 1.0f - own;
+        const float none = 1.0f - reference;
         const aur_vector null = rest_of(t.real), share = {null.x / none, null.y / none, null.z / none};
         walk->throughput = aur_vector_multiply(walk->throughput, share);
         walk->path = aur_vector_multiply(walk->path, share);

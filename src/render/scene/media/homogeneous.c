@@ -1,10 +1,11 @@
-/* The same everywhere: distances are drawn from Beer and Lambert's law, and transmittances known by it. */
+/* Homogeneous media: distances are sampled from the exponential distribution, and transmittance is exact
+ * (Beer-Lambert law). */
 #include "render/scene/medium.h"
 
 typedef struct homogeneous {
     double scale;
     aur_volume_value albedo;
-    aur_vector extinction; /* an inverse length of the scene, `scale` included */
+    aur_vector extinction; /* an inverse length, with `scale` applied */
 } homogeneous;
 
 static const aur_key keys[] = {
@@ -15,7 +16,8 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(homogeneous, "scale", scale, 0.0, 1e30, "1", "factor of sigma_t")},
 };
 
-/* Extinction and albedo by scattering and absorption; false: they are given themselves. */
+/* Extinction and albedo from scattering and absorption coefficients; false: extinction and albedo are given
+ * directly. */
 static aur_result read_parts(aur_parameters *parameters, homogeneous *self, aur_volume_value *extinction,
                              bool *given, aur_error *error) {
     aur_volume_value scattering = {.volume = NULL}, absorption = {.volume = NULL};
@@ -65,9 +67,9 @@ static aur_result create(aur_parameters *parameters, aur_medium *medium, aur_err
     return result;
 }
 
-/* exp(-extinction * distance) of all channels over that of one. Its own is 1 to the bit. */
-static aur_vector relative_transmittance(aur_vector extinction, float own, float distance) {
-    const aur_vector more = {extinction.x - own, extinction.y - own, extinction.z - own};
+/* exp(-extinction * distance) of all channels over that of one, which becomes exactly 1. */
+static aur_vector relative_transmittance(aur_vector extinction, float reference, float distance) {
+    const aur_vector more = {extinction.x - reference, extinction.y - reference, extinction.z - reference};
     return (aur_vector){more.x == 0.0f ? 1.0f : expf(-more.x * distance),
                         more.y == 0.0f ? 1.0f : expf(-more.y * distance),
                         more.z == 0.0f ? 1.0f : expf(-more.z * distance)};
@@ -86,24 +88,24 @@ static bool travel(const aur_medium *medium, const aur_ray *ray, float distance,
                    aur_medium_walk *walk, float *way) {
     const homogeneous *const self = medium->data;
     aur_vector extinction = self->extinction;
-    /* What only absorbs needs no chance. */
+    /* Purely absorbing media need no random decision. */
     if (absorbs_only(self)) {
         absorb(self, distance, walk);
         return false;
     }
-    const float own = *aur_channel(&extinction, walk->channel);
-    const float drawn = own > 0.0f ? -log1pf(-u) / own : INFINITY;
+    const float reference = *aur_channel(&extinction, walk->channel);
+    const float drawn = reference > 0.0f ? -log1pf(-u) / reference : INFINITY;
     const bool scatters = drawn < distance;
-    const aur_vector passed = relative_transmittance(extinction, own, scatters ? drawn : distance);
+    const aur_vector passed = relative_transmittance(extinction, reference, scatters ? drawn : distance);
     walk->throughput = aur_vector_multiply(walk->throughput, passed);
     walk->path = aur_vector_multiply(walk->path, passed);
     if (!scatters) {
-        walk->light = aur_vector_scale(walk->light, own > 0.0f ? expf(own * distance) : 1.0f);
+        walk->light = aur_vector_scale(walk->light, reference > 0.0f ? expf(reference * distance) : 1.0f);
         return false;
     }
     *way = drawn;
     const aur_vector at = aur_vector_add_scaled(ray->origin, drawn, ray->direction);
-    const aur_vector share = {extinction.x / own, extinction.y / own, extinction.z / own};
+    const aur_vector share = {extinction.x / reference, extinction.y / reference, extinction.z / reference};
     walk->path = aur_vector_multiply(walk->path, share);
     walk->throughput = aur_vector_multiply(
         walk->throughput, aur_vector_multiply(aur_volume_value_at(&self->albedo, at), share));

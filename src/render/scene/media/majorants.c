@@ -1,4 +1,4 @@
-/* Cells are walked through as by Amanatides and Woo (1987). */
+/* Grid traversal by Amanatides and Woo (1987). */
 #include "render/scene/media/majorants.h"
 
 #include <stdlib.h>
@@ -10,8 +10,8 @@ aur_result aur_majorants_create(const aur_volume *volume, float scale, aur_major
     *majorants = (aur_majorants){.volume = volume};
     size_t count = 1;
     for (size_t k = 0; k < 3; ++k) {
-        const size_t wanted = (volume->voxels[k] + VOXELS_A_CELL - 1) / VOXELS_A_CELL;
-        majorants->cells[k] = wanted < MOST_CELLS ? wanted : MOST_CELLS;
+        const size_t requested = (volume->voxels[k] + VOXELS_A_CELL - 1) / VOXELS_A_CELL;
+        majorants->cells[k] = requested < MOST_CELLS ? requested : MOST_CELLS;
         count *= majorants->cells[k];
     }
     majorants->values = malloc(count * sizeof *majorants->values);
@@ -25,7 +25,7 @@ aur_result aur_majorants_create(const aur_volume *volume, float scale, aur_major
             lower[k] = (float)cell[k] / (float)cells[k];
             upper[k] = (float)(cell[k] + 1) / (float)cells[k];
         }
-        /* Interpolation rounds: a little more than the largest value. */
+        /* A little more than the largest value, as interpolation rounds. */
         majorants->values[i] = 1.00001f * scale * volume->descriptor->maximum_within(volume, lower, upper);
     }
     return AUR_OK;
@@ -41,7 +41,7 @@ void aur_majorant_walk_begin(const aur_majorants *majorants, const aur_ray *ray,
     const aur_vector along = aur_volume_local_direction(majorants->volume, ray->direction);
     const float origin[3] = {from.x, from.y, from.z}, direction[3] = {along.x, along.y, along.z};
     *walk = (aur_majorant_walk){.majorants = majorants, .end = distance};
-    /* The part of the ray in the unit cube. */
+    /* The interval of the ray in the unit cube. */
     for (size_t k = 0; k < 3; ++k) {
         if (direction[k] == 0.0f) {
             if (!(origin[k] >= 0.0f && origin[k] <= 1.0f))
@@ -81,6 +81,6 @@ bool aur_majorant_walk_next(aur_majorant_walk *walk, float *from, float *to, flo
     walk->next[k] += walk->step[k];
     walk->cell[k] += walk->way[k];
     if (walk->cell[k] < 0 || walk->cell[k] >= (ptrdiff_t)cells[k])
-        walk->end = -1.0f; /* that was the last cell */
+        walk->end = -1.0f; /* past the last cell */
     return true;
 }

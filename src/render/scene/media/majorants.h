@@ -1,4 +1,4 @@
-/* The largest extinction in each cell of a coarse grid: what tentative collisions are drawn by. */
+/* Majorants: the largest extinction in each cell of a coarse grid, for tracking. */
 #pragma once
 
 #include "render/scene/medium.h"
@@ -6,15 +6,15 @@
 typedef struct aur_majorants {
     const aur_volume *volume;
     size_t cells[3];
-    float *values; /* an inverse length of the scene, x fastest */
+    float *values; /* inverse lengths, x fastest */
 } aur_majorants;
 
-/* Of `volume` times `scale`; the volume is bounded. Errors: MEMORY. */
+/* From `volume` times `scale`; the volume is bounded. Errors: MEMORY. */
 aur_result aur_majorants_create(const aur_volume *volume, float scale, aur_majorants *majorants,
                                 aur_error *error);
 void aur_majorants_release(aur_majorants *majorants);
 
-/* A walk along a ray from cell to cell. */
+/* Traversal of the grid's cells along a ray. */
 typedef struct aur_majorant_walk {
     const aur_majorants *majorants;
     float position, end; /* distances along the ray */
@@ -26,5 +26,5 @@ typedef struct aur_majorant_walk {
 
 void aur_majorant_walk_begin(const aur_majorants *majorants, const aur_ray *ray, float distance,
                              aur_majorant_walk *walk);
-/* The next stretch of the ray in one cell; false at the end. */
+/* The next interval of the ray in one cell; false at the end. */
 bool aur_majorant_walk_next(aur_majorant_walk *walk, float *from, float *to, float *majorant);

@@ -1,4 +1,4 @@
-/* Every medium by name. One new medium is one new file and one line here. */
+/* Every medium by name. To add a medium: one new file, and one line here. */
 #include <stddef.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ MEDIA(DECLARE)
 #define ADDRESS(name) &aur_medium_##name.row,
 static const aur_row *const rows[] = {MEDIA(ADDRESS)};
 
-/* The keys that every medium takes. */
+/* Parameters of every medium. */
 typedef struct medium_keys {
     bool sample_emitters;
     const aur_parameter *phase;
@@ -35,7 +35,7 @@ const aur_table aur_medium_table = {.kind = "medium",
                                     AUR_TABLE_ROWS(rows),
                                     .common = &common};
 
-/* Its own row's keys are read by `create`: one of them may make another medium of it. */
+/* `create` reads the parameters of its row, and may select another type of medium by them. */
 static aur_result fill(aur_parameters *parameters, void *object, const void *context, aur_error *error) {
     (void)context;
     aur_medium *const medium = object;

@@ -46,7 +46,7 @@ static float evaluate(const aur_phase *phase, aur_vector position, float cosine)
 static float draw(const aur_phase *phase, aur_vector position, float u) {
     const blend *const self = phase->data;
     const float weight = weight_at(self, position);
-    /* What is left of u after the choice is uniform again; rounding must not make it 1. */
+    /* The rest of u is uniform after the choice; rounding must not make it 1. */
     static const float most = 0x1.fffffep-1f;
     if (u < weight)
         return aur_phase_draw(self->part[1], position, aur_smaller(u / weight, most));

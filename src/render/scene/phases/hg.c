@@ -13,7 +13,7 @@ static const aur_key keys[] = {
      .minimum_open = true, .maximum_open = true},
 };
 
-/* A number just inside of the range may have become 1 as a float. */
+/* A number just inside the range may have become 1 as a float. */
 static aur_result create(aur_parameters *parameters, aur_phase *phase, aur_error *error) {
     (void)parameters, (void)error;
     henyey_greenstein *const self = phase->data;
@@ -21,8 +21,8 @@ static aur_result create(aur_parameters *parameters, aur_phase *phase, aur_error
     return AUR_OK;
 }
 
-/* (1 - g)^2 + 2 g (1 - c) is 1 + g^2 - 2 g c without its cancellation where g and c are near 1, and likewise
- * where both are near -1. */
+/* (1 - g)^2 + 2 g (1 - c) equals 1 + g^2 - 2 g c without its cancellation for g and c near 1; likewise for
+ * both near -1. */
 static float evaluate(const aur_phase *phase, aur_vector position, float cosine) {
     (void)position;
     const float g = ((const henyey_greenstein *)phase->data)->g;
@@ -31,8 +31,8 @@ static float evaluate(const aur_phase *phase, aur_vector position, float cosine)
     return less * (1.0f + size) / (4.0f * AUR_PI_F * squared * sqrtf(squared));
 }
 
-/* The inverse of the distribution, for 1 - c, which keeps its digits where g is near 1: backward scattering
- * is forward scattering mirrored. */
+/* The inverse of the distribution for 1 - c, which stays accurate for g near 1: backward scattering is
+ * forward scattering mirrored. */
 static float draw(const aur_phase *phase, aur_vector position, float u) {
     (void)position;
     const float g = ((const henyey_greenstein *)phase->data)->g;

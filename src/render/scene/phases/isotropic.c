@@ -1,4 +1,4 @@
-/* Light goes on in all directions alike. */
+/* Isotropic scattering. */
 #include "render/scene/phase.h"
 
 static float evaluate(const aur_phase *phase, aur_vector position, float cosine) {

@@ -1,4 +1,4 @@
-/* Scattering by particles much smaller than the wavelength (Rayleigh 1871), of unpolarised light. */
+/* Scattering of unpolarised light by particles much smaller than the wavelength (Rayleigh 1871). */
 #include "render/scene/phase.h"
 
 static float evaluate(const aur_phase *phase, aur_vector position, float cosine) {
@@ -6,8 +6,8 @@ static float evaluate(const aur_phase *phase, aur_vector position, float cosine)
     return 3.0f / (16.0f * AUR_PI_F) * (1.0f + cosine * cosine);
 }
 
-/* The root of c^3 + 3 c = 8 u - 4, by Cardano's formula (Frisvad 2011). One of its two cube roots is near 0
- * where the other is large: it is found from that one. */
+/* The root of c^3 + 3 c = 8 u - 4, by Cardano's formula (Frisvad 2011). The smaller of the two cube roots is
+ * computed from the larger one, to avoid cancellation. */
 static float draw(const aur_phase *phase, aur_vector position, float u) {
     (void)phase, (void)position;
     const float half = 4.0f * u - 2.0f, size = fabsf(half);

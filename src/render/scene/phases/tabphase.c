@@ -1,5 +1,5 @@
-/* A phase function from a table: values at cosines in equal steps from -1 (backwards) to 1, linear between
- * them. They are scaled such that the whole is 1. */
+/* A tabulated phase function: values at equidistant cosines from -1 (backward) to 1, interpolated linearly
+ * and normalised. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,8 +9,8 @@
 typedef struct table {
     const char *values;
     size_t count;
-    float *densities; /* of the cosine, at the nodes: 2 pi times those of the direction */
-    float *sums;      /* their integral up to each node */
+    float *densities; /* pdf of the cosine at the nodes: 2 pi times the phase function */
+    float *sums;      /* cumulative distribution at the nodes */
 } table;
 
 static const aur_key keys[] = {
@@ -20,7 +20,7 @@ static const aur_key keys[] = {
 
 static aur_result parse(const aur_parameters *parameters, const aur_parameter *item, table *self,
                         aur_error *error) {
-    /* A number has a character, and one that divides it from the next. */
+    /* Each number takes at least two characters, with its separator. */
     const size_t most = strlen(item->text) / 2 + 1;
     double *const values = malloc(most * sizeof *values);
     self->densities = malloc(most * sizeof *self->densities);
@@ -76,7 +76,7 @@ static float evaluate(const aur_phase *phase, aur_vector position, float cosine)
     return (self->densities[i] + rest * (self->densities[i + 1] - self->densities[i])) / (2.0f * AUR_PI_F);
 }
 
-/* Finds the step in which the integral reaches u, and there the root of a quadratic. */
+/* Finds the interval in which the cumulative distribution reaches u, and solves a quadratic there. */
 static float draw(const aur_phase *phase, aur_vector position, float u) {
     (void)position;
     const table *const self = phase->data;
@@ -87,10 +87,10 @@ static float draw(const aur_phase *phase, aur_vector position, float u) {
     }
     const float step = 2.0f / (float)(self->count - 1);
     const float a = self->densities[low], slope = self->densities[low + 1] - a;
-    const float wanted = aur_larger(u - self->sums[low], 0.0f) / step;
-    /* a x + slope x^2 / 2 = wanted, in a form that has no difference where the slope is small. */
-    const float root = sqrtf(aur_larger(a * a + 2.0f * slope * wanted, 0.0f));
-    const float x = a + root > 0.0f ? 2.0f * wanted / (a + root) : 0.0f;
+    const float target = aur_larger(u - self->sums[low], 0.0f) / step;
+    /* Solves a x + slope x^2 / 2 = target in a form without cancellation for small slopes. */
+    const float root = sqrtf(aur_larger(a * a + 2.0f * slope * target, 0.0f));
+    const float x = a + root > 0.0f ? 2.0f * target / (a + root) : 0.0f;
     return aur_smaller(((float)low + aur_smaller(x, 1.0f)) * step - 1.0f, 1.0f);
 }
 

@@ -1,9 +1,9 @@
-/* Several cameras, whose images stand side by side on one film. */
+/* Several cameras, with their images side by side on one film. */
 #include <string.h>
 
 #include "render/scene/sensor.h"
 
-/* The loader has made the cameras inside, and gives them to the sensor. */
+/* The loader creates the nested cameras and passes them to this sensor. */
 static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
     (void)sensor;
     size_t count = 0;

@@ -1,5 +1,5 @@
-/* The irradiance of a shape: rays begin on its surface, over the film as the shape's own coordinates run, and
- * go to directions by the cosine, so that pi times their mean radiance is the irradiance. */
+/* The irradiance of a shape: rays start on its surface, with film coordinates as texture coordinates, in
+ * cosine-distributed directions. pi times their mean radiance is the irradiance. */
 #include "render/scene/materials/sampling.h"
 #include "render/scene/sensor.h"
 #include "render/scene/shape.h"

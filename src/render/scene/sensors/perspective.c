@@ -1,4 +1,4 @@
-/* The pinhole camera, and one with a lens. */
+/* The pinhole camera and the thin-lens camera. */
 #include <string.h>
 
 #include "points/base/text.h"
@@ -6,11 +6,11 @@
 #include "render/scene/sensor.h"
 
 typedef struct lens_keys {
-    double fov; /* degrees; 0: not given */
+    double fov; /* degrees; 0: default */
     aur_fov_axis fov_axis;
     double offset_x, offset_y;
     const aur_parameter *focal_length;
-    double aperture_radius, focus_distance; /* -1: not given */
+    double aperture_radius, focus_distance; /* -1: default */
 } lens_keys;
 
 #define LENS_KEYS                                                                                            \
@@ -38,7 +38,7 @@ static const aur_key thinlens_table[] = {
                      "of the plane that is sharp, scene units; must be given")},
 };
 
-/* "50mm" on 35 mm film, whose diagonal is that of 36 mm by 24 mm. */
+/* "50mm" on 35 mm film, for the diagonal of 36 mm by 24 mm. */
 static aur_result read_focal_length(const aur_parameters *parameters, const aur_parameter *item,
                                     aur_sensor *sensor, aur_error *error) {
     double length = 0.0;

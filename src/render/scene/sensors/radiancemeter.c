@@ -1,4 +1,4 @@
-/* The radiance along one ray: every pixel measures the same. */
+/* The radiance along one ray, the same in every pixel. */
 #include "points/base/vector3d.h"
 #include "render/scene/sensor.h"
 

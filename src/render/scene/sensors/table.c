@@ -1,4 +1,4 @@
-/* Every camera by name. One new camera is one new file and one line here. */
+/* Every camera by name. To add a camera: one new file, and one line here. */
 #include "render/scene/sensor.h"
 
 #define SENSORS(ROW)                                                                                         \
@@ -15,11 +15,11 @@ SENSORS(DECLARE)
 #define ADDRESS(name) &aur_sensor_##name.row,
 static const aur_row *const rows[] = {SENSORS(ADDRESS)};
 
-/* The keys that every sensor takes. */
+/* Parameters of every sensor. */
 typedef struct sensor_keys {
     aur_transform to_world;
     double near_clip, far_clip;
-    const aur_parameter *film, *sampler, *medium; /* for the loader */
+    const aur_parameter *film, *sampler, *medium; /* read by the loader */
 } sensor_keys;
 
 static const aur_key common_keys[] = {

@@ -3,7 +3,7 @@
 
 #include "render/scene/shape.h"
 
-/* `radius` is that at p0, and `inner` grows by the unit of length: that at p1 less it over the length. */
+/* `radius` is at p0. `inner` is the change of radius per unit length. */
 static double radius_at(const aur_shape *shape, double z) {
     return fmax(0.0, (double)shape->radius + z * (double)shape->inner);
 }
@@ -21,7 +21,7 @@ static void bounds(const aur_shape *shape, size_t primitive, double lower[3], do
     }
 }
 
-/* The roots of a t^2 + 2 b t + c in order; a may have either sign, or be 0. Returns how many. */
+/* The roots of a t^2 + 2 b t + c in ascending order, for any a including 0. Returns their number. */
 static size_t find_roots(double a, double b, double c, double roots[2]) {
     const double discriminant = b * b - a * c;
     if (!(discriminant >= 0.0))
@@ -50,7 +50,7 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     const size_t count = find_roots(dx * dx + dy * dy - grows * grows, ox * dx + oy * dy - reach * grows,
                                     ox * ox + oy * oy - reach * reach, roots);
     for (size_t i = 0; i < count; ++i) {
-        const double z = oz + roots[i] * dz; /* between the ends there is no second half of the cone */
+        const double z = oz + roots[i] * dz; /* between the ends there is no second nappe of the cone */
         *distance = roots[i];
         if (z >= 0.0 && z <= length && roots[i] > nearest && roots[i] < farthest)
             return true;
@@ -58,15 +58,15 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return false;
 }
 
-/* The part of the area that lies below a height, which is the second texture coordinate. */
+/* The fraction of the area below a height: the second texture coordinate. */
 static float area_below(const aur_shape *shape, float z) {
     const float first = shape->radius, last = first + shape->inner * shape->length;
     const float radius = first + shape->inner * z;
     return z / shape->length * (radius + first) / (last + first);
 }
 
-/* In doubles, and moved outwards onto the cone that rays meet, as the axes are rounded. */
-static aur_vector place_of(const aur_shape *shape, aur_vector outwards, float z) {
+/* Computed in doubles, and moved onto the cone that rays intersect, as the stored axes are rounded. */
+static aur_vector point_of(const aur_shape *shape, aur_vector outwards, float z) {
     const double radius = radius_at(shape, (double)z), height = z;
     const aur_vector along = shape->axis[2];
     const double way[3] = {radius * (double)outwards.x + height * (double)along.x,
@@ -86,7 +86,7 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
     const aur_vector normal =
         aur_vector_scale(aur_vector_add_scaled(outwards, -slope, shape->axis[2]), scale);
     aur_shape_point point = {.texture = {.u = aur_shape_azimuth(cosine, sine), .v = area_below(shape, z)}};
-    aur_round_point(place_of(shape, outwards, z), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+    aur_round_point(point_of(shape, outwards, z), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
                     aur_coordinate_sum(shape->center) + shape->radius + fabsf(z), &point);
     return point;
 }
@@ -109,12 +109,12 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
                                    shape->length * mean / size);
 }
 
-/* Uniform by area: the squared radius is uniform between the squares of those at the ends. */
+/* Uniform by area: the squared radius is uniform between its values at the ends. */
 static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     const float angle = 2.0f * AUR_PI_F * u;
     const float first = shape->radius, last = first + shape->inner * shape->length;
     const float radius = sqrtf(first * first + v * (last * last - first * first));
-    /* z / length = (radius - first) / (last - first), in a form that holds where both are alike */
+    /* z / length = (radius - first) / (last - first), in a form that is stable for equal radii */
     const float z = v * (last + first) / (radius + first) * shape->length;
     return point_at(shape, cosf(angle), sinf(angle), fminf(z, shape->length));
 }

@@ -1,8 +1,8 @@
 /* The cube [-1,1]^3, facing outwards. */
 #include "render/scene/shape.h"
 
-/* The signs of the coordinates of each face's corners, counter-clockwise from outside, beginning where
- * Mitsuba's texture coordinates are (0, 1). */
+/* The signs of the corner coordinates of each face, counter-clockwise from outside, starting at Mitsuba's
+ * texture coordinates (0, 1). */
 static const char *const corners[6][4] = {
     {"+--", "+-+", "--+", "---"}, {"++-", "-+-", "-++", "+++"}, {"+--", "++-", "+++", "+-+"},
     {"+-+", "+++", "-++", "--+"}, {"--+", "-++", "-+-", "---"}, {"++-", "+--", "---", "-+-"},

@@ -1,18 +1,18 @@
-/* Hair and other thin round things, as Mitsuba 3 has them. Embree finds the hits, from outside only. */
+/* Hair and other thin curves, as in Mitsuba 3. Embree intersects them, from outside only. */
 #include <stdlib.h>
 
 #include "points/base/array.h"
 #include "render/scene/shapes/mesh_file.h"
 
-/* --- the middle line of a segment */
+/* --- the centreline of a segment */
 
-/* What the middle line is at a place of a segment, and the changes of it by that place. */
+/* The centreline at a curve parameter, and its derivatives. */
 typedef struct middle_line {
-    aur_vector center, slope, bend; /* bend: the second derivative */
+    aur_vector center, slope, bend; /* second derivative */
     float radius, growth;
 } middle_line;
 
-/* Sums the points of a segment, weighted. */
+/* A weighted sum of the segment's control points. */
 static aur_vector sum_points(const aur_curves *curves, const float *point, const float *weight,
                              float *radius) {
     aur_vector sum = {0};
@@ -24,7 +24,7 @@ static aur_vector sum_points(const aur_curves *curves, const float *point, const
     return sum;
 }
 
-/* The uniform cubic B-spline (de Boor 1972), or a straight line. */
+/* The uniform cubic B-spline (de Boor 1972), or a linear segment. */
 static middle_line middle_at(const aur_curves *curves, size_t segment, float u) {
     const float v = 1.0f - u, sixth = 1.0f / 6.0f;
     const float spline[3][4] = {
@@ -56,9 +56,10 @@ static void bounds(const aur_shape *shape, size_t primitive, double lower[3], do
     }
 }
 
-/* Of a rounded cone: that of the sphere which touches it there. Of a spline, whose circles stand across the
- * middle line C: with the unit d from C to the point, d + a C' is perpendicular to the way on along the
- * curve, C' + r' d + r d', where d' C' = -d C'': so a = -r' / (C'^2 - r d C''). */
+/* The normal. For a rounded cone it is that of the sphere which touches it there. For a spline with
+ * centreline C, whose circles are perpendicular to it: with the unit d from C to the point, d + a C' is
+ * perpendicular to the tangent along the curve, C' + r' d + r d', where d' C' = -d C''. So a = -r' / (C'^2 -
+ * r d C''). */
 static aur_vector normal_of(const aur_curves *curves, const middle_line *middle, aur_vector away) {
     if (!curves->smooth)
         return away;
@@ -69,7 +70,7 @@ static aur_vector normal_of(const aur_curves *curves, const middle_line *middle,
     return aur_vector_normalize(aur_vector_add_scaled(away, -middle->growth / across, middle->slope));
 }
 
-/* Texture coordinates: around the middle line, counted from the direction across it and z, and along all
+/* Texture coordinates: around the centreline, from the direction perpendicular to it and z; and along all
  * segments of the shape. */
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
                     aur_vector tangents[2]) {
@@ -77,7 +78,7 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     const middle_line middle = middle_at(curves, hit->primitive, hit->u);
     const aur_vector away = aur_vector_normalize(aur_vector_subtract(position, middle.center));
     const aur_vector along = aur_vector_normalize(middle.slope);
-    const bool upright = along.x * along.x + along.y * along.y < 1e-11f; /* within rounding */
+    const bool upright = along.x * along.x + along.y * along.y < 1e-11f; /* up to rounding */
     const aur_vector side = upright ? (aur_vector){along.z < 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f}
                                     : aur_vector_normalize((aur_vector){-along.y, along.x, 0.0f});
     const float x = aur_vector_dot(away, side), y = aur_vector_dot(away, aur_vector_cross(along, side));
@@ -90,8 +91,8 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
                           .offset = aur_surface_offset(position, normal)};
     if (tangents == NULL)
         return;
-    /* C + r d, whose d turns with the middle line and, where that bends sideways, with the direction across
-     * it and z. */
+    /* Derivatives of C + r d. d rotates with the centreline and, where that bends sideways, with the
+     * direction perpendicular to it and z. */
     const aur_vector around = aur_vector_cross(along, away), slope = middle.slope, bend = middle.bend;
     const float squared = aur_vector_dot(slope, slope), flat = slope.x * slope.x + slope.y * slope.y;
     const float turn = upright ? 0.0f : along.z * (slope.x * bend.y - slope.y * bend.x) / flat;
@@ -107,30 +108,30 @@ static void equal_area(const aur_hit *hit, float coordinates[2]) {
     coordinates[1] = hit->u;
 }
 
-/* Of the side of a segment, without caps: the circumferences times the slope, at eight places. */
+/* Lateral area of a segment, without caps: circumference times slope, at eight parameters. */
 static double area(const aur_shape *shape, size_t primitive) {
-    enum { PLACES = 8 };
+    enum { SAMPLES = 8 };
     double sum = 0.0;
-    for (size_t i = 0; i < PLACES; ++i) {
-        const middle_line middle = middle_at(&shape->curves, primitive, ((float)i + 0.5f) / PLACES);
+    for (size_t i = 0; i < SAMPLES; ++i) {
+        const middle_line middle = middle_at(&shape->curves, primitive, ((float)i + 0.5f) / SAMPLES);
         sum += (double)middle.radius * hypot((double)aur_vector_length(middle.slope), (double)middle.growth);
     }
-    return 2.0 * AUR_PI * sum / PLACES;
+    return 2.0 * AUR_PI * sum / SAMPLES;
 }
 
 static const aur_curved curved = {bounds, NULL, surface, NULL, NULL, NULL, equal_area, area};
 
-/* --- their file */
+/* --- curve files */
 
 typedef struct reader {
     aur_mesh_file file;
     const aur_transform *to_world;
     aur_curves *curves;
     size_t place_capacity, point_capacity, segment_capacity;
-    size_t length; /* points of the curve that is being read */
+    size_t length; /* control points of the current curve */
 } reader;
 
-/* "x y z radius", with the segment that it ends. Only positions are moved by `to_world`. */
+/* Parses "x y z radius", and adds the segment that it completes. `to_world` transforms only positions. */
 static aur_result read_point(reader *self) {
     aur_curves *const curves = self->curves;
     if (!aur_array_reserve(&curves->places, &self->place_capacity, curves->point_count + 1,
@@ -157,7 +158,7 @@ static aur_result read_point(reader *self) {
     return AUR_OK;
 }
 
-/* Ends a curve, if one is being read: it must have a segment. */
+/* Ends the current curve, if any: it must have a segment. */
 static aur_result end_curve(reader *self) {
     const size_t needed = self->curves->smooth ? 4 : 2;
     if (self->length > 0 && self->length < needed)

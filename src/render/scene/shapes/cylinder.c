@@ -37,8 +37,8 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return false;
 }
 
-/* In doubles, and moved onto the surface that rays meet, as the axes are rounded. */
-static aur_vector place_of(const aur_shape *shape, aur_vector normal, float z) {
+/* Computed in doubles, and moved onto the surface that rays intersect, as the stored axes are rounded. */
+static aur_vector point_of(const aur_shape *shape, aur_vector normal, float z) {
     const aur_vector along = shape->axis[2];
     const double radius = shape->radius, height = z;
     const double way[3] = {radius * (double)normal.x + height * (double)along.x,
@@ -55,7 +55,7 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
     aur_vector normal = aur_vector_scale(shape->axis[0], cosine);
     normal = aur_vector_add_scaled(normal, sine, shape->axis[1]);
     aur_shape_point point = {.texture = {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length}};
-    aur_round_point(place_of(shape, normal, z), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+    aur_round_point(point_of(shape, normal, z), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
                     aur_coordinate_sum(shape->center) + shape->radius + fabsf(z), &point);
     return point;
 }
@@ -92,8 +92,8 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(cylinder_keys, "radius", radius, 1.0 / AUR_REACH, AUR_REACH, "1", "its radius")},
 };
 
-/* `to_world` may stretch a cylinder along its axis, beside what it may do to all round shapes: *scale is its
- * factor across the axis. */
+/* `to_world` may scale a cylinder along its axis, in addition to the similarity allowed for all round shapes.
+ * *scale is the factor across the axis. */
 static aur_result scale_across(const aur_shape_input *input, aur_vector way, double *scale,
                                aur_error *error) {
     aur_error even;
@@ -117,8 +117,8 @@ static aur_result scale_across(const aur_shape_input *input, aur_vector way, dou
                                      "it along its axis, but not across");
 }
 
-/* The axes turn with `to_world`, so that textures do, and are left-handed where it mirrors. `before` and
- * `way` point from end to end without `to_world` and with it. */
+/* The axes rotate with `to_world`, so that textures do, and are left-handed if it mirrors. `before` and `way`
+ * are the axis vectors before and after `to_world`. */
 static void set_axes(const aur_shape_input *input, aur_vector before, aur_vector way, aur_shape *shape) {
     const aur_frame frame = aur_frame_about(aur_vector_normalize(before));
     const aur_vector z = aur_vector_normalize(way);

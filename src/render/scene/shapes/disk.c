@@ -1,4 +1,4 @@
-/* The unit disk in the plane z = 0, facing +z, perhaps with a hole; an affine map makes it an ellipse. */
+/* The unit disk in the plane z = 0, facing +z, optionally with a hole; an affine map makes it an ellipse. */
 #include "render/scene/materials/sampling.h"
 #include "render/scene/shape.h"
 
@@ -14,7 +14,7 @@ static void bounds(const aur_shape *shape, size_t primitive, double lower[3], do
     }
 }
 
-/* Coordinates along the two (perhaps oblique) axes. */
+/* Coordinates along the two axes, which may be oblique. */
 static void local(const aur_shape *shape, const double way[3], double *x, double *y) {
     const aur_vector a = shape->axis[0], b = shape->axis[1];
     const double aa = aur_vector_dot(a, a), ab = aur_vector_dot(a, b), bb = aur_vector_dot(b, b);
@@ -39,8 +39,8 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return squared <= 1.0 && squared >= (double)shape->inner * (double)shape->inner;
 }
 
-/* In doubles, and moved onto the plane that rays meet, as the axes are rounded. */
-static aur_vector place_of(const aur_shape *shape, double x, double y) {
+/* Computed in doubles, and moved onto the plane that rays intersect, as the stored axes are rounded. */
+static aur_vector point_of(const aur_shape *shape, double x, double y) {
     const aur_vector a = shape->axis[0], b = shape->axis[1], z = shape->axis[2];
     const double way[3] = {x * (double)a.x + y * (double)b.x, x * (double)a.y + y * (double)b.y,
                            x * (double)a.z + y * (double)b.z};
@@ -53,7 +53,7 @@ static aur_vector place_of(const aur_shape *shape, double x, double y) {
 
 static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
     aur_shape_point point = {.texture = {.u = hypotf(x, y), .v = aur_shape_azimuth(x, y)}};
-    aur_round_point(place_of(shape, (double)x, (double)y),
+    aur_round_point(point_of(shape, (double)x, (double)y),
                     aur_vector_scale(shape->axis[2], shape->flipped ? -1.0f : 1.0f),
                     aur_coordinate_sum(shape->center) + aur_coordinate_sum(shape->axis[0]) +
                         aur_coordinate_sum(shape->axis[1]),

@@ -50,19 +50,19 @@ aur_result aur_shape_file_open(const aur_shape_input *input, const char *filenam
     }
     aur_result result =
         aur_xml_find_asset(input->document, aur_parameters_find(parameters, "filename")->location, filename,
-                           &file->own_path, error);
+                           &file->read_path, error);
     if (result == AUR_OK)
-        result = aur_file_read(file->own_path, LARGEST_FILE, &file->own_data, &file->size, error);
-    file->path = file->own_path;
-    file->data = file->own_data;
+        result = aur_file_read(file->read_path, LARGEST_FILE, &file->read_data, &file->size, error);
+    file->path = file->read_path;
+    file->data = file->read_data;
     if (result != AUR_OK)
         aur_shape_file_close(file);
     return result;
 }
 
 void aur_shape_file_close(aur_shape_file *file) {
-    free(file->own_path);
-    free(file->own_data);
+    free(file->read_path);
+    free(file->read_data);
 }
 
 aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {

@@ -1,27 +1,27 @@
-/* What shapes that are read from files have in common, most of them meshes. */
+/* Code shared by shapes that are read from files, mostly meshes. */
 #pragma once
 
 #include "render/scene/importers/meshes/text_scanner.h"
 #include "render/scene/shape.h"
 
-/* All of a file, closed by a zero byte. */
+/* The whole file, terminated by a zero byte. */
 typedef struct aur_shape_file {
     const char *path;
     size_t size;
     const char *data;
-    char *own_path, *own_data; /* for closing; NULL where they are a model's */
+    char *read_path, *read_data; /* for closing; NULL: memory of a model */
 } aur_shape_file;
 
-/* Finds and reads the file that the key "filename" names, beside the scene or within a model. */
+/* Finds and reads the file of the parameter "filename", in the search path or in a model. */
 aur_result aur_shape_file_open(const aur_shape_input *input, const char *filename, aur_shape_file *file,
                                aur_error *error);
 void aur_shape_file_close(aur_shape_file *file);
 
-/* A file that is being read. */
+/* A file being read. */
 struct aur_mesh_file {
-    aur_scanner scanner; /* at the file's first byte; `line` is that of errors, 0 for none */
+    aur_scanner scanner; /* at the file's first byte; `line` is for errors, 0: none */
     const char *path;
-    bool face_normals, flip_v; /* as the keys have them; the file may ask for flat triangles, too */
+    bool face_normals, flip_v; /* as the parameters give them; the file may also request flat triangles */
     uint64_t shape_index;
     aur_error *error;
 };
@@ -33,7 +33,7 @@ typedef struct aur_mesh_file_keys {
     uint64_t shape_index;
 } aur_mesh_file_keys;
 
-/* Rows that every such shape has, of a table of aur_mesh_file_keys. */
+/* Table rows shared by these shapes, for aur_mesh_file_keys. */
 #define AUR_MESH_FILE_KEYS                                                                                   \
     {AUR_KEY_OF_TEXT(aur_mesh_file_keys, "filename", filename, NULL,                                         \
                      "file, relative to the scene; required")},                                              \

@@ -1,10 +1,10 @@
-/* Meshes in files of other programs. */
+/* Meshes in file formats of other programs. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "render/scene/shapes/mesh_file.h"
 
-/* The values of faces become those of their triangles. */
+/* Expands per-face values to the triangles of the faces. */
 static bool spread_over_triangles(const aur_mesh_data *data, aur_mesh_attribute *attribute) {
     float *const values = malloc((attribute->width * data->triangle_count + 1) * sizeof *values);
     for (size_t i = 0; values != NULL && i < data->triangle_count; ++i)
@@ -67,7 +67,7 @@ static aur_result read_ply(aur_mesh_file *file, aur_shape *shape) {
 }
 
 static aur_result read_stl(aur_mesh_file *file, aur_shape *shape) {
-    file->face_normals = true; /* as facets have them there */
+    file->face_normals = true; /* flat shading, as STL facets have */
     return read_format(file, AUR_MESH_STL, shape);
 }
 

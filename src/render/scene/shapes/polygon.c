@@ -1,5 +1,4 @@
-/* A plane polygon, cut into triangles. One without area, or whose outline crosses itself, is a mesh of none.
- */
+/* A planar polygon, triangulated. A degenerate or self-intersecting one becomes an empty mesh. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +24,7 @@ static bool is_parallelogram(const double *v) {
     return gap <= 1e-7 * size;
 }
 
-/* Corners from number `first` on. */
+/* Corners from index `first` on. */
 static void put_corners(size_t count, size_t first, const double *corners, double *points) {
     for (size_t i = 0; i < 3 * count; ++i)
         points[i] = corners[(3 * first + i) % (3 * count)];
@@ -40,7 +39,7 @@ static aur_result make_mesh(const aur_shape_input *input, size_t count, const do
         return aur_fail_memory_at(error, input->parameters->location);
     aur_face_flaws_count(&shape->flaws, cut.flaw, 0);
     shape->parallelogram = count == 4 && cut.triangle_count == 2 && is_parallelogram(corners);
-    /* Where the outline begins matters to directional lights only, which are parallelograms. */
+    /* The start of the outline matters only for directional lights, which need parallelograms. */
     const size_t first = shape->parallelogram ? 0 : cut.first;
     const aur_result result = aur_mesh_allocate(&shape->mesh, count, cut.triangle_count,
                                                 AUR_MESH_POSITIONS_ONLY, input->parameters->location, error);
@@ -62,7 +61,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         return result;
     if (p.vertices == NULL)
         return aur_parameters_fail(input->parameters, error, AUR_ERROR_FORMAT, "it needs 'vertices'");
-    /* A number takes two characters at least. */
+    /* A number takes at least two characters. */
     const size_t capacity = strlen(p.vertices) / 2 + 1;
     double *const corners = malloc(capacity * sizeof *corners);
     aur_result made = corners != NULL ? AUR_OK : aur_fail_memory(error);

@@ -1,5 +1,5 @@
-/* Mitsuba's .serialized files: meshes as zlib streams, with their places at the end of the file (the format
- * is in Mitsuba 0.6's manual, "Serialized mesh loader"). */
+/* Mitsuba's .serialized files: meshes as zlib streams, with their offsets at the end of the file (see Mitsuba
+ * 0.6's manual, "Serialized mesh loader"). */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,12 +13,12 @@ enum {
     HAS_UVS = 0x0002,
     HAS_COLORS = 0x0008,
     FACE_NORMALS = 0x0010,
-    DOUBLE = 0x2000 /* without it, single precision, whatever 0x1000 says */
+    DOUBLE = 0x2000 /* if unset: single precision, regardless of 0x1000 */
 };
 
 typedef struct serialized {
     z_stream stream;
-    size_t left; /* compressed bytes not yet given to zlib */
+    size_t left; /* compressed bytes not yet passed to zlib */
     uint32_t flags;
     aur_mesh_file *file;
 } serialized;
@@ -94,12 +94,12 @@ static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) 
     aur_result result = inflate_bytes(self, &self->flags, sizeof self->flags);
     char letter = version == 4 ? 'x' : '\0';
     while (result == AUR_OK && letter != '\0')
-        result = inflate_bytes(self, &letter, 1); /* the name */
+        result = inflate_bytes(self, &letter, 1); /* skip the name */
     if (result == AUR_OK)
         result = inflate_bytes(self, counts, sizeof counts);
     if (result != AUR_OK)
         return result;
-    /* zlib makes at most 1032 bytes of one; a count that lies is found out before memory is asked for. */
+    /* zlib expands one byte to at most 1032: rejects false counts before allocating. */
     const uint64_t most = 1032 * ((uint64_t)compressed + 64) / 12;
     if (counts[0] > most || counts[1] > most)
         return aur_mesh_file_fail(file, "the counts of vertices or triangles cannot be right");
@@ -122,7 +122,7 @@ static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) 
                             : result;
 }
 
-/* The table at the end of the file has the place of each mesh, and their count last. */
+/* The table at the end of the file has the offset of each mesh, and finally their count. */
 static aur_result read_file(aur_mesh_file *file, aur_shape *shape) {
     const char *const data = file->scanner.at;
     const size_t size = (size_t)(file->scanner.end - data);

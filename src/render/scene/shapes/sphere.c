@@ -25,9 +25,9 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return aur_first_root(a, b, c, nearest, farthest, distance);
 }
 
-/* The point in the direction of this normal, before flipping, from the centre: in doubles, so that beside a
- * sphere that is far larger than what stands on it points are as exact as elsewhere. */
-static aur_vector place_of(const aur_shape *shape, aur_vector normal) {
+/* The point with this normal before flipping, relative to the centre. Computed in doubles, so that points are
+ * accurate on spheres much larger than other objects. */
+static aur_vector point_of(const aur_shape *shape, aur_vector normal) {
     const double n[3] = {normal.x, normal.y, normal.z};
     const double squared = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     const double scale = squared > 0.0 ? (double)shape->radius / sqrt(squared) : 0.0;
@@ -36,14 +36,14 @@ static aur_vector place_of(const aur_shape *shape, aur_vector normal) {
                         (float)((double)shape->center.z + scale * n[2])};
 }
 
-/* The point that has this unit normal before flipping. */
+/* The point with this unit normal before flipping. */
 static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]);
     aur_shape_point point = {
         .texture = {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
-    aur_round_point(place_of(shape, normal), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+    aur_round_point(point_of(shape, normal), aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
                     aur_coordinate_sum(shape->center) + shape->radius, &point);
     return point;
 }
@@ -55,7 +55,7 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     *point = point_at(shape, normal);
     if (tangents == NULL)
         return;
-    /* The axes are left-handed in a mirrored sphere. */
+    /* The axes of a mirrored sphere are left-handed. */
     const float x = aur_vector_dot(normal, shape->axis[0]), y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]), across = hypotf(x, y);
     const float around = 2.0f * AUR_PI_F * shape->radius, down = AUR_PI_F * shape->radius;
@@ -71,8 +71,8 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, aur_sample_sphere(u, v));
 }
 
-/* 1 - cos of the half angle under which the sphere is seen; 2 from inside. One that faces inwards is only
- * ever seen from inside, also from points of its own that rounding has put outside. */
+/* 1 - cos of the sphere's half angle; 2 from inside. A sphere that faces inwards is seen only from inside,
+ * even from its surface points that rounding moved outside. */
 static float seen_cap(const aur_shape *shape, aur_vector reference) {
     if (shape->flipped)
         return 2.0f;
@@ -86,7 +86,7 @@ static float pdf_seen(const aur_shape *shape, aur_vector reference) {
     return cap < 2.0f ? 1.0f / (2.0f * AUR_PI_F * cap) : 0.0f;
 }
 
-/* Draws a direction uniformly in the cone that the sphere fills. */
+/* Samples a direction uniformly in the cone that the sphere subtends. */
 static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, float v,
                         aur_shape_point *point, float *pdf) {
     const float cap = seen_cap(shape, reference);

@@ -1,4 +1,4 @@
-/* Every shape by name. One new shape is one new file and one line here. */
+/* Every shape by name. To add a shape: one new file, and one line here. */
 #include <stdlib.h>
 #include <string.h>
 

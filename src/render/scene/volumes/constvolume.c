@@ -1,9 +1,9 @@
-/* The same value everywhere. */
+/* A constant volume. */
 #include "render/scene/volume.h"
 
 typedef struct same {
     aur_vector value;
-    aur_transform to_world; /* changes nothing */
+    aur_transform to_world; /* has no effect */
 } same;
 
 static const aur_key keys[] = {

@@ -1,6 +1,6 @@
-/* A grid of values in the unit cube, read from a file as Mitsuba writes it: "VOL", the version 3, a type (1:
- * floats), the counts along x, y and z, the channels (1 or 3), a box of six floats, and the values, x running
- * fastest and the channels of a value together. All numbers are little-endian, integers of 4 bytes. */
+/* A grid of values in the unit cube, in Mitsuba's file format: "VOL", the version 3, a type (1: floats), the
+ * counts along x, y and z, the number of channels (1 or 3), a bounding box of six floats, and the values, x
+ * fastest and channels interleaved. All numbers are little-endian; integers have 4 bytes. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ typedef struct grid {
     int32_t size[3];
     int32_t channels;
     char *file;
-    const float *values; /* in `file` */
+    const float *values; /* offset in `file` */
 } grid;
 
 static const aur_key keys[] = {
@@ -41,7 +41,7 @@ static int32_t integer_at(const char *file, size_t offset) {
     return value;
 }
 
-/* What is wrong with a file, or NULL. */
+/* Describes what is wrong with a file, or NULL. */
 static const char *check(const char *file, size_t bytes, grid *self) {
     if (bytes < HEAD || memcmp(file, "VOL", 3) != 0)
         return "not a .vol file";
@@ -70,7 +70,7 @@ static const char *check(const char *file, size_t bytes, grid *self) {
     return NULL;
 }
 
-/* From the unit cube of the grid to the scene. */
+/* From the grid's unit cube to the scene. */
 static aur_result place(const aur_parameters *parameters, grid *self, aur_volume *volume, aur_error *error) {
     aur_transform to_grid = aur_transform_identity();
     if (self->use_grid_bbox) {
@@ -117,7 +117,7 @@ static void release(void *data) {
     free(((grid *)data)->file);
 }
 
-/* Which voxel of `count` stands at an index that may be outside. */
+/* Clamps or wraps a voxel index that may be out of range. */
 static size_t wrapped(grid_wrap wrap, int32_t index, int32_t count) {
     if (index >= 0 && index < count)
         return (size_t)index;
@@ -146,7 +146,7 @@ static aur_vector evaluate(const aur_volume *volume, aur_vector position) {
     size_t low[3], high[3];
     float share[3];
     for (size_t k = 0; k < 3; ++k) {
-        /* Far outside it does not matter where: the index must fit an integer. */
+        /* Clamps the position, so that the index fits an integer. */
         const float middle = self->filter == FILTER_TRILINEAR ? 0.5f : 0.0f;
         const float scaled = at[k] * (float)self->size[k] - middle;
         const float cell = floorf(aur_smaller(aur_larger(scaled, -1e6f), 1e6f));
@@ -172,7 +172,7 @@ static float maximum_within(const aur_volume *volume, const float lower[3], cons
     const grid *const self = volume->data;
     int32_t first[3], last[3];
     for (size_t k = 0; k < 3; ++k) {
-        /* A little more, since positions are rounded. */
+        /* With a margin, since positions are rounded. */
         const float count = (float)self->size[k], middle = self->filter == FILTER_TRILINEAR ? 0.5f : 0.0f;
         first[k] = (int32_t)floorf(lower[k] * count - middle - 0.01f);
         last[k] = (int32_t)floorf(upper[k] * count - middle + 0.01f) + (self->filter == FILTER_TRILINEAR);

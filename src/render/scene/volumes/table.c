@@ -1,4 +1,4 @@
-/* Every volume by name. One new volume is one new file and one line here. */
+/* Every volume by name. To add a volume: one new file, and one line here. */
 #include <stddef.h>
 #include <string.h>
 

@@ -1,11 +1,11 @@
-/* A volume as a texture: its value at the point of the surface, whatever the texture coordinates are. */
+/* A volume used as a texture: its value at the surface point; texture coordinates are ignored. */
 #include <string.h>
 
 #include "render/scene/materials/texture.h"
 #include "render/scene/volume.h"
 
 typedef struct volume_texture {
-    const aur_parameter *item; /* read, and of no use afterwards */
+    const aur_parameter *item; /* read, not used afterwards */
     const aur_volume *volume;
 } volume_texture;
 
@@ -29,7 +29,7 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
                                    "it needs a <volume> with the name 'volume'");
     self->volume = self->item->object;
     texture->maximum = self->volume->maximum;
-    const float mean = 0.5f * (self->volume->minimum + self->volume->maximum); /* a guess, as good as any */
+    const float mean = 0.5f * (self->volume->minimum + self->volume->maximum); /* an arbitrary guess */
     texture->mean = (aur_vector){mean, mean, mean};
     texture->attributes.position = true;
     return AUR_OK;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A point and its place on a curve through all cells of the plane (Morton 1966). */
+/* A point with its index on a space-filling Z-order curve (Morton 1966). */
 typedef struct entry {
     uint64_t code;
     uint32_t point;
@@ -28,7 +28,7 @@ size_t aur_corner_tree_size(size_t count) {
            padded(count * sizeof(entry));
 }
 
-/* The low 32 bits with a gap after each. */
+/* Spreads the low 32 bits, with a zero bit after each. */
 static uint64_t spread(uint64_t x) {
     static const uint64_t masks[] = {0x0000ffff0000ffff, 0x00ff00ff00ff00ff, 0x0f0f0f0f0f0f0f0f,
                                      0x3333333333333333, 0x5555555555555555};
@@ -108,7 +108,7 @@ void aur_corner_tree_remove(aur_corner_tree *tree, uint32_t point) {
         --tree->left[node];
 }
 
-/* Whether the box is wholly to the right of a side of the triangle, beyond doubt. */
+/* Whether the box lies entirely to the right of a triangle side, even with rounding. */
 static bool is_apart(const aur_corner_query *query, const double box[4]) {
     for (size_t i = 0; i < 3; ++i) {
         const double *const a = query->corners[i], *const b = query->corners[(i + 1) % 3];

@@ -12,7 +12,7 @@ static aur_result (*const readers[AUR_MESH_FORMAT_COUNT])(aur_mesh_reader *) = {
     [AUR_MESH_STL] = aur_stl_read,
     [AUR_MESH_OFF] = aur_off_read};
 
-/* --- triangles */
+/* --- triangulation */
 
 typedef struct cutter {
     aur_mesh_reader *reader;
@@ -33,7 +33,7 @@ static bool put_triangle(cutter *self, size_t face, const uint32_t *corners, con
     return true;
 }
 
-/* Triangles stay as they are: those without area do no harm. */
+/* Triangles are copied unchanged: degenerate ones do no harm. */
 static bool cut_face(cutter *self, size_t face, size_t first, size_t count) {
     static const uint32_t whole[3] = {0, 1, 2};
     aur_mesh_data *const data = self->reader->data;
@@ -55,7 +55,7 @@ static bool cut_face(cutter *self, size_t face, size_t first, size_t count) {
     return true;
 }
 
-/* Faces become triangles. Where all of them are, the corners are what is wanted. */
+/* Triangulates all faces. If all are triangles, the corner list is used directly. */
 static aur_result cut_faces(aur_mesh_reader *reader) {
     aur_mesh_data *const data = reader->data;
     if (reader->end_count == 0) {
@@ -75,12 +75,12 @@ static aur_result cut_faces(aur_mesh_reader *reader) {
     return good ? AUR_OK : aur_fail_memory(reader->error);
 }
 
-/* --- the whole */
+/* --- entry points */
 
 aur_result aur_mesh_read(const aur_mesh_source *source, aur_mesh_data *data, aur_error *error) {
     *data = (aur_mesh_data){0};
-    const aur_mesh_format told = aur_mesh_format_of_bytes(source->size, source->data);
-    const aur_mesh_format format = told < AUR_MESH_FORMAT_COUNT ? told : source->format;
+    const aur_mesh_format detected = aur_mesh_format_of_bytes(source->size, source->data);
+    const aur_mesh_format format = detected < AUR_MESH_FORMAT_COUNT ? detected : source->format;
     aur_mesh_reader reader = {.source = source,
                               .scanner = {source->data, source->data + source->size, 1},
                               .data = data,

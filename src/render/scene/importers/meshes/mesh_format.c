@@ -1,4 +1,4 @@
-/* Which format a mesh file has. */
+/* Identification of mesh file formats. */
 #include <string.h>
 #include <strings.h>
 
@@ -20,7 +20,7 @@ static bool is_binary_stl(size_t size, const char *data) {
            size == AUR_STL_HEAD + AUR_STL_FACET * (size_t)aur_stl_count(data);
 }
 
-/* Whether `solid` and `facet` stand where ascii STL has them: a name may be between. */
+/* Whether `solid` and `facet` begin the text as in ascii STL, possibly with a name between. */
 static bool is_ascii_stl(const char *text) {
     if (strncasecmp(text, "solid", 5) != 0)
         return false;

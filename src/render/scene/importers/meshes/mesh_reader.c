@@ -21,7 +21,7 @@ aur_result aur_mesh_reader_fail(const aur_mesh_reader *reader, const char *forma
                        (size_t)(reader->scanner.at - reader->source->data));
 }
 
-/* --- what is read */
+/* --- reading faces */
 
 aur_result aur_mesh_reader_add_vertex(aur_mesh_reader *reader, const double point[3]) {
     aur_mesh_data *const data = reader->data;
@@ -72,7 +72,7 @@ aur_result aur_mesh_reader_end_face(aur_mesh_reader *reader, size_t line) {
     return AUR_OK;
 }
 
-/* --- what is the same */
+/* --- merging duplicates */
 
 static uint64_t hash_bytes(const unsigned char *bytes, size_t size) {
     uint64_t hash = size;

@@ -1,4 +1,4 @@
-/* What the readers of mesh files share. */
+/* Helpers shared by the readers of mesh files. */
 #pragma once
 
 #include "render/scene/importers/meshes/mesh_data.h"
@@ -8,10 +8,10 @@
 
 typedef struct aur_mesh_reader {
     const aur_mesh_source *source;
-    aur_scanner scanner; /* at the file's first byte; `line` is that of errors, 0 in binary files */
+    aur_scanner scanner; /* at the file's first byte; `line` is for errors, 0 in binary files */
     aur_mesh_data *data;
     aur_error *error;
-    /* Faces as they are read: their corners one after the other, and where those of each end. */
+    /* Faces being read: concatenated corners, and the end offset of each face. */
     size_t corner_count, corner_capacity;
     uint32_t *corners;
     size_t end_count, end_capacity, line_capacity;
@@ -23,34 +23,34 @@ aur_result aur_ply_read(aur_mesh_reader *reader);
 aur_result aur_stl_read(aur_mesh_reader *reader);
 aur_result aur_off_read(aur_mesh_reader *reader);
 
-/* Binary STL: 80 bytes, a count of facets, and those. */
+/* Binary STL: 80 bytes of header, the facet count, then the facets. */
 enum { AUR_STL_HEAD = 84, AUR_STL_FACET = 50 };
 static inline uint32_t aur_stl_count(const char *data) {
     const unsigned char *const n = (const unsigned char *)data + 80;
     return n[0] | (uint32_t)n[1] << 8 | (uint32_t)n[2] << 16 | (uint32_t)n[3] << 24;
 }
 
-/* A FORMAT error at the line, or at the byte. */
+/* A FORMAT error at the line, or at the byte offset. */
 aur_result aur_mesh_reader_fail(const aur_mesh_reader *reader, const char *format, ...) AUR_PRINTF(2, 3);
 
 aur_result aur_mesh_reader_add_vertex(aur_mesh_reader *reader, const double point[3]);
-/* Corners of the face that comes next, and its end. `line` is 0 in binary files. */
+/* Appends corners to the current face, then ends it. `line` is 0 in binary files. */
 aur_result aur_mesh_reader_add_corners(aur_mesh_reader *reader, size_t count, const uint32_t *vertices);
 aur_result aur_mesh_reader_add_corner(aur_mesh_reader *reader, uint32_t vertex);
 aur_result aur_mesh_reader_end_face(aur_mesh_reader *reader, size_t line);
 
-/* After how many corners a face ends. */
+/* The end offset of each face in the corner list. */
 static inline size_t aur_mesh_reader_end(const aur_mesh_reader *reader, size_t face) {
     return reader->end_count > 0 ? reader->ends[face] : 3 * (face + 1);
 }
 
-/* Gives vertices that are the same the same number: key[i * width] ... of item i. *unique, of malloc, gets
- * the first item of each number and *numbers those of the items. */
+/* Gives equal vertices the same number. The key of item i is key[i * width ...]. *unique (malloc'ed) gets the
+ * first item of each number, and *numbers the number of each item. */
 aur_result aur_mesh_reader_merge(const aur_mesh_reader *reader, size_t count, size_t key_size,
                                  const void *keys, uint32_t **numbers, uint32_t **unique,
                                  size_t *unique_count);
 
-/* Whether a coordinate can be used: finite, and at most 1e30. */
+/* Whether a coordinate is valid: finite, and at most 1e30 in magnitude. */
 static inline bool aur_mesh_is_usable(double value) {
     return value >= -1e30 && value <= 1e30;
 }

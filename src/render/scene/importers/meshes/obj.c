@@ -1,4 +1,4 @@
-/* Wavefront OBJ: v, vt, vn and f, with groups and the names of materials. */
+/* Wavefront OBJ: v, vt, vn and f, with groups and material names. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "render/scene/importers/meshes/mesh_reader.h"
 
 typedef struct number_list {
-    size_t count, capacity, width; /* in groups of `width` */
+    size_t count, capacity, width; /* `width` numbers per item */
     float *values;
 } number_list;
 
@@ -20,13 +20,14 @@ enum { VERTEX, TEXTURE, NORMAL };
 
 typedef struct obj {
     aur_mesh_reader *reader;
-    number_list lists[3]; /* that of vertices is in the mesh */
-    number_list colors;   /* of vertices, 1 where a line has none; empty: no line has any */
-    /* Those of the reader, up to the last one that is more than a vertex. */
+    number_list lists[3]; /* vertex positions are in the mesh */
+    number_list colors;   /* one per vertex, 1 if the line has none; empty: no line has any */
+    /* Corners read, up to the last one that has more than a vertex index. */
     size_t corner_count, corner_capacity;
     corner *corners;
-    aur_mesh_span span; /* of the next face */
-    /* The largest index of each kind, which may stand before what it names; the line of it. */
+    aur_mesh_span span; /* group and material of the next face */
+    /* The largest index of each kind, with its line: checked at the end, as indices may precede their
+     * definitions. */
     uint32_t largest[3];
     size_t largest_line[3];
 } obj;
@@ -37,7 +38,7 @@ static size_t count_of(const obj *self, size_t kind) {
 
 /* --- numbers */
 
-/* `least` numbers at least, and at most `width`; those that are missing are 0. */
+/* Reads `least` to `width` numbers; missing ones are 0. */
 static aur_result read_numbers(obj *self, size_t width, size_t least, double *values) {
     aur_scanner *const scanner = &self->reader->scanner;
     for (size_t i = 0; i < width; ++i) {
@@ -63,7 +64,7 @@ static aur_result read_list(obj *self, number_list *list, size_t least) {
     return AUR_OK;
 }
 
-/* "v x y z r g b": three more numbers are a colour, one alone is a weight. */
+/* "v x y z r g b": three extra numbers are a colour, one is a weight. */
 static aur_result read_color(obj *self) {
     aur_scanner *const scanner = &self->reader->scanner;
     double color[3];
@@ -96,7 +97,7 @@ static aur_result read_vertex(obj *self) {
 
 static const char *const kind_names[] = {"vertex", "texture coordinate", "normal"};
 
-/* Indices count from 1, negative ones from the last. Others may name what comes later in the file. */
+/* Indices count from 1, negative ones from the last item. Positive ones may refer to later items. */
 static aur_result read_index(obj *self, size_t kind, uint32_t *index) {
     int64_t number;
     if (!aur_scan_integer(&self->reader->scanner, &number))
@@ -114,7 +115,7 @@ static aur_result read_index(obj *self, size_t kind, uint32_t *index) {
     return AUR_OK;
 }
 
-/* "v", "v/t", "v//n" or "v/t/n"; what follows a slash may be missing. */
+/* "v", "v/t", "v//n" or "v/t/n"; indices after a slash may be missing. */
 static aur_result read_corner(obj *self, corner *result) {
     aur_scanner *const scanner = &self->reader->scanner;
     *result = (corner){{AUR_MESH_NO_INDEX, AUR_MESH_NO_INDEX, AUR_MESH_NO_INDEX}};
@@ -135,7 +136,7 @@ static aur_result read_corner(obj *self, corner *result) {
                : aur_mesh_reader_fail(self->reader, "a face needs indices such as 1, 1/1 or 1/1/1");
 }
 
-/* A name for each one that comes, the same for the same; the last is tried first. */
+/* The index of a name in the list of distinct names; the last one is compared first. */
 static aur_result find_name(obj *self, aur_mesh_names *names, aur_word word, uint32_t *index) {
     for (size_t i = names->count; i-- > 0;)
         if (aur_word_is(word, names->items[i])) {
@@ -186,7 +187,7 @@ static aur_result begin_face(obj *self) {
     return AUR_OK;
 }
 
-/* Makes corners of the reader's vertices. */
+/* Converts the reader's vertex indices to corners. */
 static aur_result fill_corners(obj *self) {
     const aur_mesh_reader *const reader = self->reader;
     if (!aur_array_reserve(&self->corners, &self->corner_capacity, reader->corner_count, sizeof(corner)))
@@ -207,7 +208,7 @@ static aur_result add_corner(obj *self, const corner *c) {
     return result;
 }
 
-/* Reads numbers of vertices as long as nothing else is in the line. */
+/* Reads plain vertex indices while the line has nothing else. */
 static aur_result read_vertices(obj *self) {
     enum { MOST = 8, MOST_DIGITS = 9 };
     aur_scanner *const scanner = &self->reader->scanner;
@@ -250,14 +251,14 @@ static aur_result read_face(obj *self) {
 
 /* --- lines */
 
-/* The keywords of the format: the first are read, lines of the others are skipped. */
+/* Keywords of the format: those first in the list are read, the others skipped. */
 static const char *const keywords[] = {
     "v",    "vt",         "vn",        "f",     "g",     "o",    "usemtl", "mtllib", "s",        "l",
     "p",    "vp",         "cstype",    "deg",   "end",   "curv", "curv2",  "surf",   "parm",     "trim",
     "hole", "scrv",       "sp",        "con",   "bmat",  "step", "mg",     "bevel",  "c_interp", "d_interp",
     "lod",  "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh"};
 
-/* Most lines are told by one letter. */
+/* Most keywords are identified by one letter. */
 static bool take_letter(aur_scanner *scanner, char letter) {
     const bool is = scanner->at[0] == letter && aur_is_blank(scanner->at[1]);
     scanner->at += is;
@@ -287,7 +288,7 @@ static aur_result read_line(obj *self) {
     case 7:
         return read_library(self);
     case sizeof keywords / sizeof keywords[0]:
-        /* Any file may be named by a scene, so that its words are not quoted. */
+        /* A scene may name any file, so error messages do not quote its contents. */
         return aur_mesh_reader_fail(self->reader, "the line begins with no keyword of an OBJ file");
     default:
         return AUR_OK;
@@ -318,9 +319,9 @@ static aur_result read_all(obj *self) {
     return AUR_OK;
 }
 
-/* --- vertices of corners */
+/* --- vertices from corners */
 
-/* The values of the corners' kind as those of vertices, 0 where a corner has none. */
+/* Rearranges texture coordinates or normals from corners to vertices; 0 where a corner has none. */
 static bool copy_values(const obj *self, size_t kind, size_t count, const uint32_t *unique, float **values) {
     const number_list *const list = &self->lists[kind];
     if (list->count == 0)
@@ -368,7 +369,7 @@ static aur_result split_vertices(obj *self) {
     return result;
 }
 
-/* --- the whole */
+/* --- entry point */
 
 static aur_result put_colors(obj *self) {
     aur_mesh_data *const data = self->reader->data;
@@ -390,7 +391,7 @@ aur_result aur_obj_read(aur_mesh_reader *reader) {
                 .colors = {.width = 3},
                 .span = {.material = AUR_MESH_NO_MATERIAL}};
     aur_result result = read_all(&self);
-    /* Without texture coordinates and normals the file's own vertices serve. */
+    /* Without texture coordinates and normals, the file's vertices are used directly. */
     if (result == AUR_OK && (self.lists[TEXTURE].count > 0 || self.lists[NORMAL].count > 0))
         result = split_vertices(&self);
     if (result == AUR_OK)

@@ -1,5 +1,5 @@
-/* OFF of Geomview: vertices with colours, normals and texture coordinates, and polygons. Colours of faces are
- * left out. */
+/* OFF of Geomview: vertices with colours, normals and texture coordinates, and polygons. Face colours are
+ * ignored. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +13,10 @@ typedef struct off {
     bool normals, colors, textures, weights;
     size_t normal_capacity, color_capacity, uv_capacity, color_count;
     float *color_values;
-    float largest; /* of the colours: beyond 1 they are bytes */
+    float largest; /* largest colour value: above 1, colours are bytes */
 } off;
 
-/* Over ends of lines and comments, to what comes next. */
+/* Skips line ends and comments. */
 static void skip_to_word(aur_scanner *scanner) {
     while (scanner->at < scanner->end && aur_scan_line_done(scanner))
         aur_scan_next_line(scanner);
@@ -32,7 +32,7 @@ static aur_result read_count(off *self, const char *what, size_t *count) {
     return AUR_OK;
 }
 
-/* "[ST][C][N][4]OFF", right before the counts in some files, and missing in others. */
+/* "[ST][C][N][4]OFF". It may share a line with the counts, or be missing. */
 static aur_result read_header(off *self) {
     aur_scanner *const scanner = &self->reader->scanner;
     skip_to_word(scanner);
@@ -91,7 +91,7 @@ static aur_result read_vertex(off *self) {
     for (size_t i = 0; i < 3 && result == AUR_OK && self->colors; ++i)
         self->largest = fmaxf(self->largest, self->color_values[3 * (data->vertex_count - 1) + i]);
     if (result == AUR_OK && self->textures) {
-        /* The last two of the line: colours may have an alpha before them. */
+        /* The last two numbers of the line, as colours may include alpha. */
         const char *const start = reader->scanner.at;
         double ignored;
         size_t left = 0;
@@ -122,7 +122,7 @@ static aur_result read_face(off *self, size_t face) {
     }
     if (result == AUR_OK)
         result = aur_mesh_reader_end_face(reader, line);
-    aur_scan_next_line(&reader->scanner); /* over its colour */
+    aur_scan_next_line(&reader->scanner); /* skip the colour */
     return result;
 }
 
@@ -150,7 +150,7 @@ aur_result aur_off_read(aur_mesh_reader *reader) {
         result = read_count(&self, "the number of vertices", &vertices);
     if (result == AUR_OK)
         result = read_count(&self, "the number of faces", &faces);
-    aur_scan_next_line(&reader->scanner); /* over the number of edges */
+    aur_scan_next_line(&reader->scanner); /* skip the number of edges */
     for (size_t i = 0; i < vertices && result == AUR_OK; ++i)
         result = read_vertex(&self);
     for (size_t i = 0; i < faces && result == AUR_OK; ++i)

@@ -1,4 +1,4 @@
-/* Stanford PLY: ascii and both binary forms; elements that a mesh has no use for are left out. */
+/* Stanford PLY: ascii and both binary forms. Elements other than vertices and faces are ignored. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,7 +51,7 @@ static double read_binary(const char *at, aur_ply_type type, bool big) {
     }
 }
 
-/* False: the text has another form, or the file ends. */
+/* False: the text is malformed or ends early. */
 static inline bool next_binary(aur_ply *self, aur_ply_type type, double *value) {
     aur_scanner *const scanner = &self->reader->scanner;
     if (self->format == AUR_PLY_ASCII || (size_t)(scanner->end - scanner->at) < type_sizes[type])
@@ -131,7 +131,7 @@ static aur_result read_row(aur_ply *self, const aur_ply_element *element, size_t
     return result;
 }
 
-/* --- the usual rows of large files, in the machine's order of bytes */
+/* --- fast path: the usual rows of large files, in native byte order */
 
 static bool is_native(const aur_ply *self) {
     return self->format == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? AUR_PLY_BIG : AUR_PLY_LITTLE);
@@ -145,7 +145,7 @@ static bool has_floats(const aur_ply *self, const aur_ply_element *element) {
     return all;
 }
 
-/* False: what is special about the row is still to be read. */
+/* False: the row needs the general reader. */
 static bool take_floats(aur_ply *self, const aur_ply_element *element, size_t index) {
     aur_scanner *const scanner = &self->reader->scanner;
     const size_t count = element->property_count;
@@ -187,7 +187,7 @@ static bool take_face(aur_ply *self, aur_result *result) {
 }
 
 static aur_result read_rows(aur_ply *self, const aur_ply_element *element) {
-    /* Without properties there are no bytes, however many rows there are said to be. */
+    /* Without properties rows have no bytes, whatever the count. */
     if (element->property_count == 0)
         return AUR_OK;
     const bool floats = has_floats(self, element), lists = has_short_lists(self, element);
@@ -198,9 +198,9 @@ static aur_result read_rows(aur_ply *self, const aur_ply_element *element) {
     return result;
 }
 
-/* --- the whole */
+/* --- entry point */
 
-/* A count that lies is found out before memory is asked for: the fewest bytes of its rows must be there. */
+/* Rejects false counts before allocating: the file must have the minimum bytes for all rows. */
 static aur_result check_count(const aur_ply *self, const aur_ply_element *element) {
     size_t least = self->format == AUR_PLY_ASCII;
     for (size_t p = 0; p < element->property_count && self->format != AUR_PLY_ASCII; ++p)
@@ -213,7 +213,7 @@ static aur_result check_count(const aur_ply *self, const aur_ply_element *elemen
                                 element->name, left);
 }
 
-/* Room for roles that vertices have, from `first` on. */
+/* Allocates arrays for the vertex roles from `first` on. */
 static aur_result make_room(aur_ply *self, aur_ply_role first, size_t width, size_t size, void *values) {
     void **const array = values;
     *array = calloc(width * self->vertices->count + 1, size);

@@ -1,4 +1,4 @@
-/* What stands in the header of a PLY file. */
+/* The header of a PLY file. */
 #pragma once
 
 #include "render/scene/importers/meshes/mesh_reader.h"
@@ -17,7 +17,7 @@ typedef enum aur_ply_type {
     AUR_PLY_TYPE_COUNT
 } aur_ply_type;
 
-/* What a property is for; all but INDICES are of vertices. */
+/* The use of a property; all but INDICES belong to vertices. */
 typedef enum aur_ply_role {
     AUR_PLY_X,
     AUR_PLY_Y,
@@ -28,7 +28,7 @@ typedef enum aur_ply_role {
     AUR_PLY_U,
     AUR_PLY_V,
     AUR_PLY_INDICES,
-    AUR_PLY_OTHER, /* of an attribute, or left out */
+    AUR_PLY_OTHER, /* part of an attribute, or ignored */
     AUR_PLY_ROLE_COUNT
 } aur_ply_role;
 
@@ -37,7 +37,7 @@ typedef struct aur_ply_property {
     bool list;
     aur_ply_type count_type, type;
     aur_ply_role role;
-    /* The value of row i goes to one of them, [stride * i]; both NULL: it is left out. */
+    /* The value of row i is stored in one of these, at [stride * i]; both NULL: ignored. */
     double *doubles;
     float *values;
     size_t stride;
@@ -62,6 +62,7 @@ typedef struct aur_ply {
 
 /* Reads the header, up to the first value. */
 aur_result aur_ply_read_header(aur_ply *self);
-/* Makes attributes of what properties are left: "r", "g" and "b" are the colour, and names that end in _0 _1
- * _2, _1 _2 _3, _x _y _z or _r _g _b have their beginning as name, as in Mitsuba. Errors: MEMORY. */
+/* Groups the remaining properties into attributes, as Mitsuba does: "r", "g" and "b" are the colour; names
+ * that end in _0 _1 _2, _1 _2 _3, _x _y _z or _r _g _b form an attribute named by their prefix. Errors:
+ * MEMORY. */
 aur_result aur_ply_find_attributes(aur_ply *self);

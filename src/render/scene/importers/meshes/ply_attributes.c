@@ -1,4 +1,4 @@
-/* Attributes of PLY files. */
+/* Vertex and face attributes of PLY files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static bool find_color(aur_ply_element *element, set *found) {
     return found->properties[0] != NULL && found->properties[1] != NULL && found->properties[2] != NULL;
 }
 
-/* Names with the beginning of the first one, and the ends of a kind. */
+/* Finds properties with the first one's prefix and this set of suffixes. */
 static bool find_ends(aur_ply_element *element, const aur_ply_property *first, set *found) {
     static const char *const kinds[] = {"0123", "1234", "xyzw", "rgba"};
     const char *const last = strrchr(first->name, '_');

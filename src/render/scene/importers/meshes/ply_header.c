@@ -99,8 +99,8 @@ static aur_result read_property(aur_ply *self) {
     return AUR_OK;
 }
 
-/* The byte after the header's last line end: one that ends in a carriage return alone may have binary numbers
- * that begin with a line feed after it. */
+/* Offset after the last line end of the header. If that is a lone carriage return, a following line feed
+ * belongs to the binary data. */
 static void end_header(aur_scanner *scanner, bool returns_alone) {
     while (scanner->at < scanner->end && !aur_is_line_end(*scanner->at))
         ++scanner->at;

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The version of nodes that are not in the ring any more. */
+/* Version number of removed nodes. */
 #define GONE UINT32_MAX
 
-enum { ATTEMPTS = 5 }; /* for each node: one at first, and up to four when one is removed */
+enum { ATTEMPTS = 5 }; /* per node: one initially, up to four when a node is removed */
 
 static double distance(const aur_ring *r, uint32_t a, uint32_t b) {
     return hypot(r->point[a][0] - r->point[b][0], r->point[a][1] - r->point[b][1]);
@@ -15,7 +15,7 @@ static double distance(const aur_ring *r, uint32_t a, uint32_t b) {
 
 /* --- ears */
 
-/* On which side of the line from a to b node p lies: 1 on its left, 0 on the line. */
+/* Orientation of node p relative to the line from a to b: 1 left, 0 on the line. */
 static int side_of(const aur_ring *r, uint32_t a, uint32_t b, uint32_t p) {
     const double area = aur_ring_turn(r, a, b, p);
     if (r->leniency == AUR_LENIENCY_ROUNDED && fabs(area) <= r->slack * distance(r, a, b))
@@ -29,7 +29,7 @@ static bool same_point(const aur_ring *r, uint32_t a, uint32_t b) {
     return r->point[a][0] == r->point[b][0] && r->point[a][1] == r->point[b][1];
 }
 
-/* Whether a side of the outline goes from node p to the left of the line from a to b. */
+/* Whether an outline edge goes from node p to the left of the line from a to b. */
 static bool leaves_left(const aur_ring *r, uint32_t a, uint32_t b, uint32_t p) {
     return side_of(r, a, b, r->previous[p]) > 0 || side_of(r, a, b, r->next[p]) > 0;
 }
@@ -38,7 +38,7 @@ static bool goes_between(const aur_ring *r, const uint32_t t[3], uint32_t q) {
     return side_of(r, t[0], t[1], q) > 0 && side_of(r, t[1], t[2], q) > 0;
 }
 
-/* Whether node p keeps the triangle t from being cut off at its middle corner. */
+/* Whether node p prevents cutting off triangle t as an ear at its middle corner. */
 static bool blocks(const aur_ring *r, const uint32_t t[3], uint32_t p) {
     if (p == t[0] || p == t[1] || p == t[2] || same_point(r, p, t[0]) || same_point(r, p, t[2]))
         return false;
@@ -69,7 +69,7 @@ static bool is_free(const aur_ring *r, const uint32_t t[3]) {
     return true;
 }
 
-/* --- the aur_ring */
+/* --- the ring */
 
 static void enqueue(aur_ring *r, uint32_t node) {
     r->queue[r->tail++] = (aur_ring_attempt){node, ++r->version[node]};
@@ -85,7 +85,7 @@ static void remove_node(aur_ring *r, uint32_t node) {
     aur_corner_tree_remove(&r->tree, node);
 }
 
-/* Whether the outline turns back at the node, or stands still. */
+/* Whether the outline reverses direction at the node, or has a zero-length edge there. */
 static bool is_spike(const aur_ring *r, uint32_t node) {
     const uint32_t a = r->previous[node], c = r->next[node];
     if (same_point(r, a, node) || same_point(r, node, c))
@@ -97,7 +97,7 @@ static bool is_spike(const aur_ring *r, uint32_t node) {
     return (r->point[a][d] > p[d]) == (r->point[c][d] > p[d]);
 }
 
-/* Removes spikes at a node and what becomes of them, and queues what is left about it. */
+/* Removes spikes at a node, and those that this creates; queues the neighbours. */
 static void settle(aur_ring *r, uint32_t node) {
     while (r->left >= 3 && is_spike(r, node)) {
         const uint32_t before = r->previous[node], after = r->next[node];
@@ -117,7 +117,7 @@ void aur_ring_take(aur_ring *r, const uint32_t t[3]) {
     ++r->triangle_count;
 }
 
-/* Cuts off the node if that can be done. */
+/* Cuts off the node if it is an ear. */
 static bool try_node(aur_ring *r, uint32_t node) {
     const uint32_t t[3] = {r->previous[node], node, r->next[node]};
     const double area = aur_ring_turn(r, t[0], t[1], t[2]);
@@ -135,7 +135,8 @@ static bool try_node(aur_ring *r, uint32_t node) {
     return true;
 }
 
-/* Cuts until nothing is left. What cannot be cut strictly is cut leniently, until it can be again. */
+/* Cuts ears until none is left. If no ear passes the strict test, one is cut by the lenient test before the
+ * strict one is used again. */
 bool aur_ring_cut(aur_ring *r) {
     for (r->leniency = AUR_LENIENCY_NONE; r->leniency <= AUR_LENIENCY_ROUNDED;) {
         r->head = r->tail = 0;
@@ -159,7 +160,7 @@ bool aur_ring_cut(aur_ring *r) {
 
 /* --- memory */
 
-/* The next `count` items of the memory, which may be NULL for counting bytes. */
+/* Reserves `count` items of the buffer, which may be NULL to count bytes. */
 static void *take(char *memory, size_t *at, size_t count, size_t size) {
     void *const taken = memory != NULL ? memory + *at : NULL;
     *at += (count * size + 15) / 16 * 16;
@@ -192,9 +193,9 @@ void aur_ring_place(aur_ring *ring, size_t count, void *memory) {
     (void)lay_out(ring, count, memory);
 }
 
-/* --- corners on sides */
+/* --- corners that lie on edges */
 
-/* Moves corners that are within the slack of earlier ones there. */
+/* Snaps corners to earlier ones within the slack. */
 static void merge_points(aur_ring *r) {
     for (uint32_t i = 0; i < r->count; ++i) {
         const double *const corners[3] = {r->point[i], r->point[i], r->point[i]};
@@ -208,8 +209,8 @@ static void merge_points(aur_ring *r) {
     }
 }
 
-/* How far along the side from a to b corner p lies, 0 where it is not on it. */
-static double place_on(const aur_ring *r, uint32_t a, uint32_t b, uint32_t p) {
+/* Parameter of corner p along the edge from a to b; 0 if it is not on the edge. */
+static double parameter_on(const aur_ring *r, uint32_t a, uint32_t b, uint32_t p) {
     if (same_point(r, p, a) || same_point(r, p, b) || side_of(r, a, b, p) != 0)
         return 0.0;
     const double *const u = r->point[a], *const v = r->point[b], *const w = r->point[p];
@@ -225,7 +226,7 @@ static int compare_sides(const void *left, const void *right) {
     return (a->node > b->node) - (a->node < b->node);
 }
 
-/* Adds a node for each place on the side from corner a to b at which corners lie. */
+/* Adds a node for each position on the edge from corner a to b where corners lie. */
 static void split_side(aur_ring *r, size_t corner_count, uint32_t a, uint32_t b) {
     const double *const corners[3] = {r->point[a], r->point[b], r->point[b]};
     aur_corner_query query;
@@ -233,7 +234,7 @@ static void split_side(aur_ring *r, size_t corner_count, uint32_t a, uint32_t b)
     size_t found = 0;
     uint32_t p;
     while (aur_corner_query_next(&query, &p)) {
-        const double along = place_on(r, a, b, p);
+        const double along = parameter_on(r, a, b, p);
         if (along > 0.0 && found < aur_ring_capacity(corner_count) - r->count)
             r->sides[found++] = (aur_ring_side){along, along, p};
     }
@@ -283,15 +284,15 @@ void aur_ring_link(aur_ring *r, size_t count, const double (*points)[2], bool tu
 
 /* --- crossings */
 
-/* Whether p and q lie on both sides of the line through a and b, each by more than `slack`. */
+/* Whether p and q lie on opposite sides of the line through a and b, each farther than `slack`. */
 static bool parts(const aur_ring *r, uint32_t a, uint32_t b, uint32_t p, uint32_t q) {
     const double least = r->slack * distance(r, a, b), first = aur_ring_turn(r, a, b, p),
                  second = aur_ring_turn(r, a, b, q);
     return (first > least && second < -least) || (first < -least && second > least);
 }
 
-/* Whether the outline crosses itself. Looks at no more pairs of sides than a fixed share of them; those that
- * are left out are of outlines of many thousand corners. */
+/* Whether the outline crosses itself. Tests at most a fixed share of all pairs of edges, which limits only
+ * outlines of many thousand corners. */
 bool aur_ring_crosses_itself(const aur_ring *r) {
     size_t pairs = 256 * r->count + 65536;
     aur_ring_side *const sides = r->sides;

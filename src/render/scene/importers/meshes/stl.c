@@ -1,4 +1,4 @@
-/* STL, ascii and binary. Normals of facets are left out: the order of corners tells them. */
+/* STL, ascii and binary. Facet normals are ignored: the winding determines them. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -21,8 +21,7 @@ static double read_float(const char *at) {
     return (double)value;
 }
 
-/* Writers that do not know the count beforehand leave it 0, or all ones: then there are as many facets as
- * bytes for them. */
+/* Some writers leave the count 0 or all ones: the file size then determines it. */
 static aur_result read_binary(aur_mesh_reader *reader) {
     const aur_mesh_source *const source = reader->source;
     reader->scanner.line = 0;
@@ -107,9 +106,9 @@ static aur_result read_ascii(aur_mesh_reader *reader) {
                : aur_mesh_reader_fail(reader, "the file ends within a facet");
 }
 
-/* --- the whole */
+/* --- entry point */
 
-/* Corners at one place become one vertex. */
+/* Merges corners with equal coordinates into one vertex. */
 static aur_result merge_vertices(aur_mesh_reader *reader) {
     aur_mesh_data *const data = reader->data;
     for (size_t i = 0; i < 3 * data->vertex_count; ++i)
@@ -120,7 +119,8 @@ static aur_result merge_vertices(aur_mesh_reader *reader) {
                                                     data->points, &numbers, &unique, &count);
     for (size_t i = 0; i < reader->corner_count && result == AUR_OK; ++i)
         reader->corners[i] = numbers[reader->corners[i]];
-    for (size_t i = 0; i < count; ++i) /* in order, so that none is overwritten before it moves */
+    for (size_t i = 0; i < count;
+         ++i) /* in ascending order, so that no corner is overwritten before it is copied */
         memmove(&data->points[3 * i], &data->points[3 * (size_t)unique[i]], 3 * sizeof *data->points);
     data->vertex_count = count;
     free(numbers);
@@ -130,7 +130,7 @@ static aur_result merge_vertices(aur_mesh_reader *reader) {
 
 aur_result aur_stl_read(aur_mesh_reader *reader) {
     const aur_mesh_source *const source = reader->source;
-    /* Binary files may begin with "solid", too. */
+    /* Binary files may begin with "solid" too. */
     const bool ascii = aur_mesh_format_of_bytes(source->size, source->data) == AUR_MESH_STL &&
                        !(source->size >= AUR_STL_HEAD &&
                          source->size == AUR_STL_HEAD + AUR_STL_FACET * (size_t)aur_stl_count(source->data));

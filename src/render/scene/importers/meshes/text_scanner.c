@@ -53,7 +53,7 @@ aur_word aur_scan_rest(aur_scanner *scanner) {
 }
 
 size_t aur_word_find(aur_word word, size_t count, const char *const *names) {
-    /* The first character tells most words apart without a call. */
+    /* Compare the first characters before calling memcmp. */
     const char first = word.length > 0 ? *word.text : '\0';
     size_t i = 0;
     while (i < count && (*names[i] != first || strlen(names[i]) != word.length ||

@@ -7,7 +7,7 @@
 #include "points/base/vector3d.h"
 #include "render/scene/importers/meshes/ring.h"
 
-/* --- the order of corners */
+/* --- canonical order of corners */
 
 static int compare_points(const double *a, const double *b) {
     for (int d = 0; d < 3; ++d)
@@ -16,10 +16,10 @@ static int compare_points(const double *a, const double *b) {
     return 0;
 }
 
-/* Corners one after the other, forwards or backwards from the last one. */
+/* Corners in order, forwards or backwards from the last one. */
 typedef struct reading {
     size_t count;
-    const uint32_t *corners; /* those that are not the same as the one before */
+    const uint32_t *corners; /* corners that differ from their predecessor */
     const double (*points)[3];
     bool backwards;
 } reading;
@@ -33,7 +33,7 @@ static int compare_at(const reading *a, size_t i, const reading *b, size_t k) {
     return compare_points(a->points[corner_at(a, i)], b->points[corner_at(b, k)]);
 }
 
-/* Where the reading begins that comes first of all (Shiloach 1981). */
+/* Start of the lexicographically smallest rotation (Shiloach 1981). */
 static size_t least_start(const reading *r) {
     size_t i = 0, k = 1, same = 0;
     while (i < r->count && k < r->count && same < r->count) {
@@ -52,8 +52,8 @@ static size_t least_start(const reading *r) {
     return i < k ? i : k;
 }
 
-/* The corners from the one that comes first, in the direction that comes first; tells whether it is
- * backwards. */
+/* Rotates and, if smaller, reverses the corners to the lexicographically smallest order. Returns whether it
+ * is reversed. */
 static bool order_corners(size_t count, const uint32_t *corners, const double (*points)[3], uint32_t *order) {
     const reading ways[2] = {{count, corners, points, false}, {count, corners, points, true}};
     const size_t starts[2] = {least_start(&ways[0]), least_start(&ways[1])};
@@ -66,13 +66,13 @@ static bool order_corners(size_t count, const uint32_t *corners, const double (*
     return way == 1;
 }
 
-/* --- the plane */
+/* --- projection to a plane */
 
 typedef struct face {
     size_t count;
     const double (*points)[3];
     uint32_t *order;
-    double normal[3], area, size, height; /* height: the largest distance from the plane */
+    double normal[3], area, size, height; /* height: the largest distance of a corner from the plane */
 } face;
 
 static void find_plane(face *f) {
@@ -102,9 +102,10 @@ static void find_plane(face *f) {
     }
 }
 
-/* --- the whole */
+/* --- entry points */
 
-/* A convex face of four corners: along its shorter diagonal; of equal ones along that of the first corner. */
+/* A convex quadrilateral is split along its shorter diagonal; if both are equal, along that of the first
+ * corner. */
 static bool cut_four(const face *f, aur_ring *r) {
     double squares[2] = {0.0, 0.0};
     if (f->count != 4)
@@ -125,7 +126,7 @@ static bool cut_four(const face *f, aur_ring *r) {
     return true;
 }
 
-/* Projects the face along the axis nearest to its normal; tells whether it turns to the right then. */
+/* Projects the face along the axis nearest to its normal. Returns whether the result is clockwise. */
 static bool project(const face *f, double (*points)[2]) {
     int axis = 0;
     for (int d = 1; d < 3; ++d)
@@ -151,7 +152,7 @@ static bool cut_face(const face *f, const double (*points)[2], bool turned, aur_
     return false;
 }
 
-/* Triangles of corners, turning as the outline does. */
+/* Triangles of corner indices, with the winding of the outline. */
 static void number_corners(const face *f, bool turned, aur_ring *r) {
     for (size_t i = 0; i < r->triangle_count; ++i) {
         uint32_t *const t = &r->triangles[3 * i];
@@ -167,12 +168,12 @@ static size_t corner_bytes(size_t count, size_t size) {
     return (count * size + 15) / 16 * 16;
 }
 
-static bool reserve(aur_triangulator *self, size_t wanted) {
-    if (wanted <= self->capacity)
+static bool reserve(aur_triangulator *self, size_t needed) {
+    if (needed <= self->capacity)
         return true;
     free(self->memory);
-    self->memory = malloc(wanted);
-    self->capacity = self->memory != NULL ? wanted : 0;
+    self->memory = malloc(needed);
+    self->capacity = self->memory != NULL ? needed : 0;
     return self->memory != NULL;
 }
 

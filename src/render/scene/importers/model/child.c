@@ -21,7 +21,7 @@
 
 extern char **environ;
 
-/* Sanitizers reserve more address space than any limit leaves. */
+/* Sanitizers reserve more address space than any limit allows. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define LIMITS_MEMORY false
@@ -35,8 +35,8 @@ extern char **environ;
 #endif
 
 enum {
-    TICK = 100,           /* ms: how long nobody looks whether the work was cancelled */
-    MEMORY_PER_BYTE = 100 /* lists of numbers in text, as assimp has them while it reads */
+    TICK = 100,           /* ms between checks for cancellation */
+    MEMORY_PER_BYTE = 100 /* factor of memory per byte of input: assimp parses text into lists of numbers */
 };
 static const double seconds_at_first = 10.0, seconds_per_byte = 2.0 / (1 << 20);
 static const uint64_t memory_least = UINT64_C(1) << 30;
@@ -58,11 +58,11 @@ void aur_child_grant(aur_child *child, uint64_t bytes) {
     struct rlimit limit;
     if (!LIMITS_MEMORY || child->pid == 0 || prlimit(child->pid, RLIMIT_AS, NULL, &limit) != 0)
         return;
-    /* At most what this process may have, which is a limit of the child's too. */
-    struct rlimit own;
-    const rlim_t wanted = (rlim_t)aur_child_memory(child);
-    const rlim_t most_here = getrlimit(RLIMIT_AS, &own) == 0 ? own.rlim_cur : RLIM_INFINITY;
-    limit.rlim_cur = wanted < most_here ? wanted : most_here;
+    /* The limit requested, at most this process's limit, which the child inherits. */
+    struct rlimit current;
+    const rlim_t requested = (rlim_t)aur_child_memory(child);
+    const rlim_t most_here = getrlimit(RLIMIT_AS, &current) == 0 ? current.rlim_cur : RLIM_INFINITY;
+    limit.rlim_cur = requested < most_here ? requested : most_here;
     if (limit.rlim_cur > limit.rlim_max)
         limit.rlim_cur = limit.rlim_max;
     (void)prlimit(child->pid, RLIMIT_AS, &limit, NULL);
@@ -81,7 +81,7 @@ static bool is_cancelled(const aur_progress *progress) {
     return progress->function != NULL && progress->function(progress->user, "reading the model", 0, 1) != 0;
 }
 
-/* Whether the child may go on. */
+/* Whether the child may continue. */
 static bool may_go_on(aur_child *child) {
     child->cancelled = child->cancelled || is_cancelled(&child->progress);
     child->overdue = child->overdue || seconds_used(child) > seconds_allowed(child);
@@ -91,16 +91,16 @@ static bool may_go_on(aur_child *child) {
 
 /* --- start */
 
-/* As a process begins: no signal blocked or ignored, the socket as standard input, no output. */
+/* Resets the process state: no signals blocked or ignored, the socket as standard input, no output. */
 static int spawn(pid_t *pid, const char *program, int socket) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t none, all;
     sigemptyset(&none);
     sigfillset(&all);
-    char own_id[24];
-    snprintf(own_id, sizeof own_id, "%ld", (long)getpid());
-    char *const arguments[] = {(char *)program, own_id, NULL};
+    char parent_id[24];
+    snprintf(parent_id, sizeof parent_id, "%ld", (long)getpid());
+    char *const arguments[] = {(char *)program, parent_id, NULL};
     int code = posix_spawn_file_actions_init(&actions);
     if (code != 0)
         return code;
@@ -130,7 +130,7 @@ aur_result aur_child_start(aur_child *child, const char *program, const aur_prog
                          .socket = -1,
                          .progress = *progress,
                          .status = -1};
-    if (is_cancelled(progress)) /* from now on a stop is heard */
+    if (is_cancelled(progress)) /* cancellation is checked from here on */
         return aur_fail(error, AUR_ERROR_CANCELLED, "interrupted");
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -152,7 +152,7 @@ aur_result aur_child_start(aur_child *child, const char *program, const aur_prog
                     "cannot start the program '%s': %s", program, strerror(code));
 }
 
-/* --- bytes */
+/* --- transfer */
 
 static double now(void) {
     struct timespec time;
@@ -160,7 +160,7 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Waits until the socket is ready, or the child has failed (false). */
+/* Waits until the socket is ready; false if the child has failed. */
 static bool wait_ready(aur_child *child, short events) {
     struct pollfd ready = {.fd = child->socket, .events = events};
     for (;;) {
@@ -179,7 +179,7 @@ static bool wait_ready(aur_child *child, short events) {
     }
 }
 
-/* One piece after another, by `move`: send or receive. */
+/* Transfers the buffer in pieces by `move`: send or receive. */
 static bool move_bytes(aur_child *child, size_t size, char *data, short events) {
     for (size_t done = 0; done < size;) {
         if (child->socket < 0 || !wait_ready(child, events))
@@ -229,13 +229,14 @@ bool aur_child_receive_all(aur_child *child, uint64_t size, char **data) {
 
 /* --- end */
 
-/* A child that has closed its socket is about to end: its status says why. */
+/* A child that has closed its socket is about to exit: use its exit status. */
 static bool has_ended(aur_child *child) {
     int status;
     const pid_t ended = waitpid(child->pid, &status, WNOHANG);
     if (ended == 0 || (ended < 0 && errno == EINTR))
         return false;
-    child->status = ended == child->pid ? status : -1; /* somebody else has waited for it, or nobody may */
+    child->status =
+        ended == child->pid ? status : -1; /* another thread has reaped it, or children are not waitable */
     child->pid = 0;
     return true;
 }

@@ -20,11 +20,11 @@ typedef struct message {
 } message;
 
 typedef struct conversation {
-    aur_child *child; /* of rank 0; NULL on others */
+    aur_child *child; /* on rank 0; NULL on others */
     const aur_model_source *source;
     aur_model_files *files;
-    size_t first; /* file of this model */
-    size_t requests, notes, pictures;
+    size_t first; /* number of this model's first file */
+    size_t requests, notes, images;
     aur_named_files named;
     uint64_t received; /* bytes */
     aur_nodes *nodes;
@@ -32,7 +32,7 @@ typedef struct conversation {
     aur_error *error;
 } conversation;
 
-/* --- messages, which rank 0 shares with the others */
+/* --- messages, which rank 0 broadcasts */
 
 static aur_result receive_here(conversation *self, message *got) {
     aur_import_header header = {0};
@@ -51,7 +51,7 @@ static aur_result receive_here(conversation *self, message *got) {
     return AUR_OK;
 }
 
-/* The errors of one rank are those of all. */
+/* An error on one rank is reported on all. */
 static aur_result agree(aur_error *error, aur_result result) {
     aur_error failure = {0};
     const aur_result heard = aur_io_agree(sizeof result, &result, &failure);
@@ -84,20 +84,20 @@ static aur_result send(conversation *self, aur_import_kind kind, uint32_t value,
     return agree(self->error, result);
 }
 
-/* --- what the program asks for */
+/* --- requests of the program */
 
 static aur_result answer_open(conversation *self, const message *got) {
     const aur_model_source *const source = self->source;
     char *data = NULL, *used = NULL;
     size_t size = source->size;
-    const bool own = strcmp(got->data, source->name) == 0;
+    const bool is_model = strcmp(got->data, source->name) == 0;
     aur_result result =
-        own ? AUR_OK : aur_named_read_part(&self->named, got->data, &used, &size, &data, self->error);
-    const bool found = own || data != NULL;
+        is_model ? AUR_OK : aur_named_read_part(&self->named, got->data, &used, &size, &data, self->error);
+    const bool found = is_model || data != NULL;
     if (result == AUR_OK && found && self->child != NULL)
         aur_child_grant(self->child, size);
     if (result == AUR_OK)
-        result = send(self, AUR_IMPORT_ANSWER, found, found ? size : 0, own ? source->data : data);
+        result = send(self, AUR_IMPORT_ANSWER, found, found ? size : 0, is_model ? source->data : data);
     free(data);
     free(used);
     return result;
@@ -105,14 +105,14 @@ static aur_result answer_open(conversation *self, const message *got) {
 
 static aur_result answer_find(conversation *self, const message *got) {
     char *used;
-    aur_result result = aur_named_find_picture(&self->named, got->data, &used, self->error);
+    aur_result result = aur_named_find_image(&self->named, got->data, &used, self->error);
     if (result == AUR_OK)
         result = send(self, AUR_IMPORT_ANSWER, used != NULL, used != NULL ? strlen(used) : 0, used);
     free(used);
     return result;
 }
 
-/* --- what it gives */
+/* --- results of the program */
 
 static aur_result add_part(conversation *self, message *got) {
     aur_model_files *const files = self->files;
@@ -130,10 +130,10 @@ static aur_result add_part(conversation *self, message *got) {
     return AUR_OK;
 }
 
-static aur_result take_picture(conversation *self, message *got) {
+static aur_result take_image(conversation *self, message *got) {
     char name[32];
-    snprintf(name, sizeof name, "image %zu", ++self->pictures);
-    const bool good = aur_named_is_picture(&self->named, name, got->size, got->data);
+    snprintf(name, sizeof name, "image %zu", ++self->images);
+    const bool good = aur_named_is_image(&self->named, name, got->size, got->data);
     const aur_result result = good ? add_part(self, got) : AUR_OK;
     return result == AUR_OK ? send(self, AUR_IMPORT_ANSWER, good, 0, NULL) : result;
 }
@@ -156,9 +156,9 @@ static aur_result take_scene(conversation *self, const message *got) {
                                        : AUR_OK;
 }
 
-/* --- the conversation */
+/* --- the protocol */
 
-/* Texts of the program may hold what the file holds. */
+/* Texts from the program may contain whatever the file contains. */
 static void clean_text(message *got) {
     for (size_t i = 0; i < got->size; ++i)
         if ((unsigned char)got->data[i] < 32 || got->data[i] == 127)
@@ -182,8 +182,8 @@ static aur_result take(conversation *self, message *got, bool *over) {
         return got->kind == AUR_IMPORT_OPEN ? answer_open(self, got) : answer_find(self, got);
     case AUR_IMPORT_MESH:
         return add_part(self, got);
-    case AUR_IMPORT_PICTURE:
-        return take_picture(self, got);
+    case AUR_IMPORT_IMAGE:
+        return take_image(self, got);
     case AUR_IMPORT_NOTE:
         clean_text(got);
         if (++self->notes <= MOST_NOTES)
@@ -243,7 +243,7 @@ aur_result aur_model_converse(aur_child *child, const aur_model_source *source, 
     return result;
 }
 
-/* --- the program */
+/* --- starting the program */
 
 enum { PATH_CAPACITY = 4096 };
 

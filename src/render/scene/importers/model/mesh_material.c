@@ -13,25 +13,25 @@ static double share(double value) {
 
 aur_result aur_mesh_material_find(aur_mtl_material *material, aur_named_files *named, aur_error *error) {
     for (size_t i = 0; i < AUR_MTL_MAP_COUNT; ++i) {
-        aur_mtl_picture *const picture = &material->pictures[i];
+        aur_mtl_image *const image = &material->images[i];
         char *used = NULL;
         const aur_result result =
-            picture->name != NULL ? aur_named_find_picture(named, picture->name, &used, error) : AUR_OK;
+            image->name != NULL ? aur_named_find_image(named, image->name, &used, error) : AUR_OK;
         if (result != AUR_OK) {
             free(used);
             return result;
         }
-        free(picture->name);
-        picture->name = used;
+        free(image->name);
+        image->name = used;
     }
     return AUR_OK;
 }
 
 static bool has(const aur_mtl_material *material, aur_mtl_map map) {
-    return material->pictures[map].name != NULL;
+    return material->images[map].name != NULL;
 }
 
-/* How an image becomes a <texture>. */
+/* How an image is converted to a <texture>. */
 typedef struct use {
     aur_mtl_map map;
     const char *name, *channel;
@@ -41,18 +41,18 @@ typedef struct use {
 
 static void add_texture(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
                         const use *how) {
-    const aur_mtl_picture *const picture = &material->pictures[how->map];
+    const aur_mtl_image *const image = &material->images[how->map];
     aur_xml_node *const texture = aur_node_object(nodes, parent, "texture", "bitmap");
     aur_node_set(nodes, texture, "name", "%s", how->name);
-    aur_node_property(nodes, texture, "string", "filename", "%s", picture->name);
+    aur_node_property(nodes, texture, "string", "filename", "%s", image->name);
     aur_node_property(nodes, texture, "boolean", "raw", "%s", how->raw ? "true" : "false");
     aur_node_property(nodes, texture, "string", "channel", "%s", how->channel);
-    aur_node_property(nodes, texture, "string", "wrap_mode", "%s", picture->clamped ? "clamp" : "repeat");
+    aur_node_property(nodes, texture, "string", "wrap_mode", "%s", image->clamped ? "clamp" : "repeat");
     aur_node_property(nodes, texture, "vector", "factor", "%.9g %.9g %.9g", how->factor[0], how->factor[1],
                       how->factor[2]);
 }
 
-/* A colour: by its image, times a factor, or alone. */
+/* A colour: an image times a factor, or a constant. */
 static void add_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
                       const use *how) {
     if (has(material, how->map))
@@ -62,7 +62,7 @@ static void add_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_mate
                           how->factor[2]);
 }
 
-/* A share of the light: by its image, times a factor, or a number. */
+/* A weight in [0, 1]: an image times a factor, or a number. */
 static void add_share(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl_material *material,
                       const use *how) {
     if (has(material, how->map))
@@ -83,14 +83,15 @@ static void add_base_color(aur_nodes *nodes, aur_xml_node *parent, const aur_mtl
         aur_node_property(nodes, texture, "string", "name", "vertex_color");
         return;
     }
-    /* Many files have a texture with a black colour, or no colour. */
+    /* Many files have a texture together with a black or missing colour. */
     const bool none = isnan(material->diffuse[0]) || !(base.factor[0] + base.factor[1] + base.factor[2] > 0);
     for (size_t i = 0; i < 3 && textured && none; ++i)
         base.factor[i] = 1.0;
     add_color(nodes, parent, material, &base);
 }
 
-/* Blinn's exponent, where a material has no roughness: alpha^2 = 2 / (n + 2), and alpha is its square. */
+/* Converts Blinn's exponent if a material has no roughness: alpha^2 = 2 / (n + 2), and alpha is the roughness
+ * squared. */
 static double roughness_of(const aur_mtl_material *material) {
     const double exponent = or_else(material->shininess, 0.0);
     return share(or_else(material->roughness, exponent > 0.0 ? pow(2.0 / (exponent + 2.0), 0.25) : 1.0));

@@ -16,7 +16,7 @@ typedef struct mesh_model {
     aur_mesh_data data;
     aur_named_files named;
     aur_mtl_library library;
-    uint32_t *numbers; /* of vertices in the part that is written, or NONE */
+    uint32_t *numbers; /* index of each vertex in the part being written, or NONE */
     uint32_t *used;    /* vertices of that part */
 } mesh_model;
 
@@ -46,7 +46,7 @@ static aur_result add_shape(mesh_model *self, const char *type, const aur_mtl_ma
                             bool colored) {
     aur_xml_node *const shape = aur_node_object(self->nodes, self->parent, "shape", type);
     aur_node_property(self->nodes, shape, "string", "filename", "*%zu", self->files->count - 1);
-    if (self->data.normals == NULL) /* 30 degrees, as VTK and Blender have it */
+    if (self->data.normals == NULL) /* 30 degrees, as in VTK and Blender */
         aur_node_property(self->nodes, shape, "float", "crease_angle", "30");
     aur_mesh_material_add(material, colored, self->nodes, shape);
     if (aur_mesh_material_emits(material)) {
@@ -59,7 +59,7 @@ static aur_result fail_empty(const mesh_model *self) {
     return aur_fail_at(self->error, self->source->location, AUR_ERROR_FORMAT, "this model has no triangle");
 }
 
-/* --- PLY, STL and OFF: the file as it is */
+/* --- PLY, STL and OFF: the file is used unchanged */
 
 static aur_result add_whole(mesh_model *self, const char *type) {
     const aur_model_source *const source = self->source;
@@ -75,7 +75,7 @@ static aur_result add_whole(mesh_model *self, const char *type) {
     return result == AUR_OK ? add_shape(self, type, grey, has_colors(&self->data, &index)) : result;
 }
 
-/* --- OBJ: a part for each material */
+/* --- OBJ: one part per material */
 
 static aur_result read_libraries(mesh_model *self) {
     aur_result result = AUR_OK;
@@ -92,7 +92,7 @@ static aur_result read_libraries(mesh_model *self) {
     return result;
 }
 
-/* The number of each span's material among those of the mesh; the last is that of faces without one. */
+/* Material of each span; the last one is for faces without a material. */
 static size_t material_of(const aur_mesh_data *data, size_t face, size_t *span) {
     while (*span + 1 < data->span_count && data->spans[*span + 1].first_face <= face)
         ++*span;
@@ -100,7 +100,7 @@ static size_t material_of(const aur_mesh_data *data, size_t face, size_t *span) 
     return material == AUR_MESH_NO_MATERIAL ? data->materials.count : material;
 }
 
-/* Sorts the triangles by materials: order[firsts[m]] ... order[firsts[m + 1] - 1]. */
+/* Sorts the triangles by material: order[firsts[m]] ... order[firsts[m + 1] - 1]. */
 static bool sort_triangles(const aur_mesh_data *data, size_t *firsts, uint32_t *order) {
     size_t span = 0;
     uint32_t *const materials = malloc((data->triangle_count + 1) * sizeof *materials);
@@ -139,7 +139,7 @@ static char *append_vertex(char *at, const aur_mesh_data *data, size_t vertex, c
     at = append(at, &data->points[3 * vertex], 3 * sizeof(double));
     if (data->normals != NULL)
         at = append(at, &data->normals[3 * vertex], 3 * sizeof(float));
-    if (data->uvs != NULL) /* OBJ counts v from below */
+    if (data->uvs != NULL) /* OBJ counts v upwards from the bottom */
         at = append(at, (float[2]){data->uvs[2 * vertex], 1.0f - data->uvs[2 * vertex + 1]},
                     2 * sizeof(float));
     if (colors != NULL)
@@ -147,7 +147,7 @@ static char *append_vertex(char *at, const aur_mesh_data *data, size_t vertex, c
     return at;
 }
 
-/* Some triangles as a PLY file; coordinates keep the digits of doubles. */
+/* Writes triangles as a PLY file; coordinates are stored as doubles. */
 static char *write_ply(mesh_model *self, size_t count, const uint32_t *triangles, size_t *size) {
     const aur_mesh_data *const data = &self->data;
     const size_t vertices = number_vertices(self, count, triangles);
@@ -230,7 +230,7 @@ static void warn_of_flaws(const mesh_model *self) {
                         aur_face_flaw_text(flaw));
 }
 
-/* --- the whole */
+/* --- entry point */
 
 static aur_result add_model(mesh_model *self, aur_mesh_format format) {
     static const char *const types[AUR_MESH_FORMAT_COUNT] = {"obj", "ply", "stl", "off"};
@@ -264,8 +264,8 @@ aur_result aur_model_from_mesh(const aur_model_source *source, aur_mesh_format f
     aur_result result = aur_mesh_read(&mesh, &self.data, nodes->error);
     if (result != AUR_OK)
         return result;
-    const aur_mesh_format told = aur_mesh_format_of_bytes(source->size, source->data);
-    result = add_model(&self, told < AUR_MESH_FORMAT_COUNT ? told : format);
+    const aur_mesh_format detected = aur_mesh_format_of_bytes(source->size, source->data);
+    result = add_model(&self, detected < AUR_MESH_FORMAT_COUNT ? detected : format);
     free(self.numbers);
     free(self.used);
     aur_mtl_release(&self.library);

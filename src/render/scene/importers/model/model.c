@@ -8,7 +8,7 @@
 #include "points/base/text.h"
 #include "render/scene/importers/model/import.h"
 
-/* Of what assimp reads, the forms that others than their own program write. */
+/* The formats of assimp that programs other than their original one write. */
 bool aur_model_is_name(const char *path) {
     static const char *const endings[] = {".glb", ".gltf", ".obj", ".fbx", ".dae",
                                           ".stl", ".ply",  ".off", ".3ds"};

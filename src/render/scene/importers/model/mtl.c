@@ -40,7 +40,7 @@ void aur_mtl_release(aur_mtl_library *library) {
     for (size_t i = 0; i < library->count; ++i) {
         free(library->materials[i].name);
         for (size_t map = 0; map < AUR_MTL_MAP_COUNT; ++map)
-            free(library->materials[i].pictures[map].name);
+            free(library->materials[i].images[map].name);
     }
     free(library->materials);
     *library = (aur_mtl_library){0};
@@ -58,7 +58,7 @@ static void read_number(aur_scanner *scanner, double *value) {
         *value = number;
 }
 
-/* One number is grey. */
+/* A single number is grey. */
 static void read_color(aur_scanner *scanner, double color[3]) {
     double values[3];
     size_t count = 0;
@@ -68,11 +68,11 @@ static void read_color(aur_scanner *scanner, double color[3]) {
         color[i] = fmax(values[count == 3 ? i : 0], 0.0);
 }
 
-/* Skips an option of a map, whose name begins with a minus, and its values. */
-static void skip_option(aur_scanner *scanner, aur_mtl_picture *picture) {
+/* Skips an option of a map, which begins with a minus, and its values. */
+static void skip_option(aur_scanner *scanner, aur_mtl_image *image) {
     static const struct {
         const char *name;
-        size_t words, numbers; /* at most so many numbers */
+        size_t words, numbers; /* maximum count of numbers */
     } options[] = {{"-o", 0, 3},       {"-s", 0, 3},      {"-t", 0, 3},   {"-mm", 0, 2}, {"-blendu", 1, 0},
                    {"-blendv", 1, 0},  {"-boost", 0, 1},  {"-bm", 0, 1},  {"-cc", 1, 0}, {"-clamp", 1, 0},
                    {"-imfchan", 1, 0}, {"-texres", 1, 0}, {"-type", 1, 0}};
@@ -81,28 +81,28 @@ static void skip_option(aur_scanner *scanner, aur_mtl_picture *picture) {
         if (!is_word(name, options[i].name))
             continue;
         if (options[i].words > 0 && is_word(aur_scan_word(scanner), "on") && is_word(name, "-clamp"))
-            picture->clamped = true;
+            image->clamped = true;
         double number;
         for (size_t k = 0; k < options[i].numbers && aur_scan_double(scanner, &number); ++k)
             continue;
     }
 }
 
-static bool read_picture(aur_scanner *scanner, aur_mtl_picture *picture) {
+static bool read_image(aur_scanner *scanner, aur_mtl_image *image) {
     aur_scan_blanks(scanner);
     while (*scanner->at == '-') {
-        skip_option(scanner, picture);
+        skip_option(scanner, image);
         aur_scan_blanks(scanner);
     }
     const aur_word word = aur_scan_rest(scanner);
     if (word.length == 0)
         return true;
-    free(picture->name);
-    picture->name = strndup(word.text, word.length);
-    for (char *c = picture->name; c != NULL && *c != '\0'; ++c) /* of Windows */
+    free(image->name);
+    image->name = strndup(word.text, word.length);
+    for (char *c = image->name; c != NULL && *c != '\0'; ++c) /* Windows paths */
         if (*c == '\\')
             *c = '/';
-    return picture->name != NULL;
+    return image->name != NULL;
 }
 
 static bool read_material_line(aur_scanner *scanner, aur_word word, aur_mtl_material *material) {
@@ -112,7 +112,7 @@ static bool read_material_line(aur_scanner *scanner, aur_word word, aur_mtl_mate
         [AUR_MTL_METAL] = {"map_Pm", NULL},   [AUR_MTL_NORMAL] = {"norm", "map_Kn"}};
     for (size_t map = 0; map < AUR_MTL_MAP_COUNT; ++map)
         if (is_word(word, maps[map][0]) || (maps[map][1] != NULL && is_word(word, maps[map][1])))
-            return read_picture(scanner, &material->pictures[map]);
+            return read_image(scanner, &material->images[map]);
     double transparency = NAN;
     if (is_word(word, "Kd"))
         read_color(scanner, material->diffuse);
@@ -130,7 +130,8 @@ static bool read_material_line(aur_scanner *scanner, aur_word word, aur_mtl_mate
         read_number(scanner, &material->metal);
     else if (is_word(word, "Tr"))
         read_number(scanner, &transparency);
-    /* Some programs, as MeshLab, write "Tr 1" for a whole surface: nobody means one that is not there. */
+    /* Some programs, such as MeshLab, write "Tr 1" for opaque surfaces: fully transparent is never intended.
+     */
     if (!isnan(transparency))
         material->opacity = transparency == 1.0 ? 1.0 : 1.0 - transparency;
     return true;

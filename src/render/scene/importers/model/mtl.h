@@ -18,17 +18,17 @@ typedef enum aur_mtl_map {
     AUR_MTL_MAP_COUNT
 } aur_mtl_map;
 
-typedef struct aur_mtl_picture {
-    char *name; /* with slashes; NULL: none */
+typedef struct aur_mtl_image {
+    char *name; /* with forward slashes; NULL: none */
     bool clamped;
-} aur_mtl_picture;
+} aur_mtl_image;
 
-/* NAN: not given. */
+/* NAN: unspecified. */
 typedef struct aur_mtl_material {
     char *name;
     double diffuse[3], specular[3], emission[3];
     double shininess, opacity, roughness, metal;
-    aur_mtl_picture pictures[AUR_MTL_MAP_COUNT];
+    aur_mtl_image images[AUR_MTL_MAP_COUNT];
 } aur_mtl_material;
 
 typedef struct aur_mtl_library {
@@ -36,11 +36,11 @@ typedef struct aur_mtl_library {
     aur_mtl_material *materials;
 } aur_mtl_library;
 
-/* Adds the materials of a file; lines that are not known, or not as they should be, are skipped. A zero byte
- * follows the text. Errors: MEMORY. */
+/* Adds the materials of a file; unrecognised and malformed lines are skipped. The text ends with a zero byte.
+ * Errors: MEMORY. */
 aur_result aur_mtl_read(aur_mtl_library *library, size_t size, const char *text, aur_error *error);
-/* A material of no file, or NULL where memory is out. */
+/* A default material that belongs to no file, or NULL if out of memory. */
 aur_mtl_material *aur_mtl_add(aur_mtl_library *library, const char *name, size_t length);
-/* The first one of the name, or NULL. */
+/* The first material of that name, or NULL. */
 aur_mtl_material *aur_mtl_find(const aur_mtl_library *library, const char *name);
 void aur_mtl_release(aur_mtl_library *library);

@@ -12,7 +12,7 @@
 enum { NAMES_SHOWN = 5 };
 #define LARGEST_PART ((size_t)1 << 34)
 
-/* Adds a name, once; it may hold what the file holds. */
+/* Adds a name once; it may contain whatever the file contains. */
 static void list(aur_name_list *self, const char *format, ...) AUR_PRINTF(2, 3);
 static void list(aur_name_list *self, const char *format, ...) {
     char text[300];
@@ -52,28 +52,28 @@ aur_result aur_named_read_part(aur_named_files *self, const char *name, char **u
     return result;
 }
 
-bool aur_named_is_picture(aur_named_files *self, const char *name, size_t size, const char *data) {
+bool aur_named_is_image(aur_named_files *self, const char *name, size_t size, const char *data) {
     const bool good = aur_image_format_of(size, data) != NULL;
     if (!good)
-        list(&self->unknown_pictures, "%s", name);
+        list(&self->unknown_images, "%s", name);
     return good;
 }
 
-/* Only their names tell these files. */
+/* These formats are identified by file extension only. */
 static bool is_targa(const char *name) {
     const char *const dot = strrchr(name, '.');
     return dot != NULL && strcasecmp(dot, ".tga") == 0;
 }
 
-aur_result aur_named_find_picture(aur_named_files *self, const char *name, char **used, aur_error *error) {
+aur_result aur_named_find_image(aur_named_files *self, const char *name, char **used, aur_error *error) {
     char *data, quoted[300];
     size_t size;
     const aur_result result = aur_named_read(self, name, used, &size, &data, error);
     snprintf(quoted, sizeof quoted, "'%s'", name);
     if (result == AUR_OK && data == NULL)
-        list(&self->missing_pictures, "%s", quoted);
+        list(&self->missing_images, "%s", quoted);
     if (result != AUR_OK || data == NULL ||
-        (!is_targa(*used) && !aur_named_is_picture(self, quoted, size, data))) {
+        (!is_targa(*used) && !aur_named_is_image(self, quoted, size, data))) {
         free(*used);
         *used = NULL;
     }
@@ -92,8 +92,8 @@ static void warn_of(const aur_named_files *self, const aur_name_list *names, con
 void aur_named_warn(const aur_named_files *self) {
     warn_of(self, &self->renamed, "file is found under another name", "files are found under other names");
     warn_of(self, &self->missing, "file cannot be found", "files cannot be found");
-    warn_of(self, &self->missing_pictures, "texture is left out: its image cannot be found",
+    warn_of(self, &self->missing_images, "texture is left out: its image cannot be found",
             "textures are left out: their images cannot be found");
-    warn_of(self, &self->unknown_pictures, "texture is left out: its image is of an unknown format",
+    warn_of(self, &self->unknown_images, "texture is left out: its image is of an unknown format",
             "textures are left out: their images are of unknown formats");
 }

@@ -1,4 +1,4 @@
-/* Daylight and lamps that options add to a scene. */
+/* Daylight and luminaires added to a scene by options. */
 #include <math.h>
 #include <string.h>
 
@@ -9,11 +9,11 @@
 typedef struct sky_form {
     const char *model;
     size_t cie_type;
-    double direct, diffuse; /* of perez */
+    double direct, diffuse; /* irradiances of perez */
     bool needs_sun;
 } sky_form;
 
-/* `count` numbers with commas between. */
+/* Parses `count` comma-separated numbers. */
 static bool read_list(const char *text, size_t count, double *numbers) {
     for (size_t i = 0; i < count && text != NULL; ++i) {
         text = aur_read_double(text, AUR_NUMBER_FINITE, &numbers[i]);
@@ -47,7 +47,7 @@ static aur_result read_model(const char *text, sky_form *form, aur_error *error)
                     text);
 }
 
-/* A day and a time that exist, such as 2026-06-21T12:00, from 1950 to 2050. */
+/* A valid day and time such as 2026-06-21T12:00, from 1950 to 2050. */
 static bool is_time(const char *text) {
     static const uint64_t most[6] = {2050, 12, 31, 23, 59, 59};
     uint64_t n[6];
@@ -64,8 +64,8 @@ static bool is_time(const char *text) {
     return *text == '\0' && n[0] >= 1950 && n[1] >= 1 && n[2] >= 1 && n[2] <= length;
 }
 
-/* Where the sun is: properties of skies and suns. Date and location are checked for skies without sun too. */
-static aur_result add_place(aur_nodes *nodes, aur_xml_node *emitter, const aur_scene_sky *sky, bool sun) {
+/* Adds the sun's position to skies and suns. Date and location are validated for skies without a sun too. */
+static aur_result add_location(aur_nodes *nodes, aur_xml_node *emitter, const aur_scene_sky *sky, bool sun) {
     static const char *const names[3] = {"latitude", "longitude", "timezone"};
     double numbers[3] = {0.0};
     if (sky->date != NULL && !is_time(sky->date))
@@ -107,7 +107,7 @@ static aur_xml_node *add_emitter(aur_nodes *nodes, const char *type, const aur_s
     return emitter;
 }
 
-/* A shape that was a light becomes black, as lights are, unless it names a material. */
+/* Removes a shape's emitter. The shape stays black, as emitters are, unless it names a material. */
 static void darken_shape(aur_nodes *nodes, aur_xml_node *shape) {
     aur_xml_node *last = NULL;
     bool lit = false, made_of = false;
@@ -158,16 +158,16 @@ aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_
                           sky->illuminance > 0.0 ? sky->illuminance : 1e4);
     }
     aur_node_property(nodes, emitter, "rgb", "ground_albedo", "%.17g", sky->ground_albedo);
-    result = add_place(nodes, emitter, sky, form.needs_sun);
+    result = add_location(nodes, emitter, sky, form.needs_sun);
     if (result != AUR_OK || !(form.direct > 0.0))
         return result;
     aur_xml_node *const sun = add_emitter(nodes, "sun", sky, z_up);
     aur_node_property(nodes, sun, "rgb", "irradiance", "%.17g", form.direct);
-    return add_place(nodes, sun, sky, true);
+    return add_location(nodes, sun, sky, true);
 }
 
-/* The lamp shines along its own -z, with C 0 along +x. */
-aur_result aur_nodes_add_lamp(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up) {
+/* The luminaire points along its local -z, with C 0 along +x. */
+aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up) {
     double z[3] = {-lamp->aim[0], -lamp->aim[1], -lamp->aim[2]}, x[3] = {1.0, 0.0, 0.0}, y[3];
     if (!(aur_normalize3(z) > 0.0))
         z[z_up ? 2 : 1] = 1.0;

@@ -100,7 +100,7 @@ aur_xml_node *aur_node_add(aur_nodes *nodes, aur_xml_node *parent, const char *t
     return node;
 }
 
-/* `value`: in the arena, or NULL where memory is out. */
+/* `value`: in the arena; NULL: out of memory. */
 static void set(aur_nodes *nodes, aur_xml_node *node, const char *name, const char *value) {
     const bool is_id = strcmp(name, "id") == 0 && strcmp(node->tag, "ref") != 0;
     if (value == NULL)
@@ -137,7 +137,7 @@ void aur_node_set(aur_nodes *nodes, aur_xml_node *node, const char *name, const 
 
 void aur_node_set_numbers(aur_nodes *nodes, aur_xml_node *node, const char *name, size_t count,
                           const double *numbers) {
-    enum { LONGEST = 25 }; /* of "%.17g", and a blank */
+    enum { LONGEST = 25 }; /* for "%.17g" and a blank */
     char few[16 * LONGEST + 1];
     if (nodes->result != AUR_OK)
         return;

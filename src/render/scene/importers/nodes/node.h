@@ -1,5 +1,5 @@
-/* The tree of a scene's elements, as Mitsuba's XML names them, whatever file they come from: the XML reader
- * (xml/), Radiance's (rad/) and those of models (model/) add nodes to it; the loader reads it. */
+/* The element tree of a scene, in the vocabulary of Mitsuba's XML, for all file formats. The readers of XML
+ * (xml/), Radiance (rad/) and models (model/) add nodes; the loader reads them. */
 #pragma once
 
 #include <aureole-render/scene.h>
@@ -12,31 +12,32 @@
 
 typedef struct aur_xml_variable {
     const char *name, *value; /* in the arena */
-    bool used;                /* something in the scene asked for it */
-    bool defined;             /* by -D */
+    bool used;                /* referenced in the scene */
+    bool defined;             /* defined by -D */
 } aur_xml_variable;
 
 typedef struct aur_xml_variables {
     aur_arena *arena; /* of the document */
     size_t count, capacity;
-    aur_xml_variable *items;  /* the longest names first; freed by the caller */
-    size_t substituted_bytes; /* that values have taken beyond the $names they stand for */
+    aur_xml_variable *items;  /* longest names first; freed by the caller */
+    size_t substituted_bytes; /* total growth of texts by substitution */
 } aur_xml_variables;
 
-/* Adds what -D defines. Errors: ARGUMENT, MEMORY. */
+/* Adds the definitions of -D. Errors: ARGUMENT, MEMORY. */
 aur_result aur_xml_variables_define(aur_xml_variables *variables, const aur_scene_options *options,
                                     aur_error *error);
-/* A <default>: ignored when the name has a value. */
+/* A <default>: ignored if the name already has a value. */
 aur_result aur_xml_variables_default(aur_xml_variables *variables, const char *name, const char *value,
                                      aur_location location, aur_error *error);
-/* The value of a variable, which is given a default. *value is in the arena. Errors: MEMORY. */
+/* The value of a variable; defines it as `otherwise` if it has none. *value is in the arena. Errors: MEMORY.
+ */
 aur_result aur_xml_variables_get(aur_xml_variables *variables, const char *name, const char *otherwise,
                                  aur_location location, const char **value, aur_error *error);
-/* `text` with every $name replaced, in the arena. Errors: NAME for a name that has no value, FORMAT when the
- * values of all texts are too long, MEMORY. */
+/* `text` with every $name replaced, in the arena. Errors: NAME for an undefined name, FORMAT if all
+ * substitutions together are too long, MEMORY. */
 aur_result aur_xml_variables_substitute(aur_xml_variables *variables, const char *text, aur_location location,
                                         char **result, aur_error *error);
-/* An error for the first -D that nothing used. */
+/* An error for the first unused -D. */
 aur_result aur_xml_variables_finish(const aur_xml_variables *variables, const char *file, aur_error *error);
 
 typedef struct aur_xml_attribute {
@@ -54,7 +55,7 @@ struct aur_xml_node {
     aur_xml_attribute *attributes;
     aur_xml_node *first_child, *last_child, *next;
     aur_xml_node *target; /* of a <ref> without an id: aur_node_refer */
-    /* The loader's: what the node has become. */
+    /* State of the loader: the object built from the node. */
     aur_xml_state state;
     void *object;
 };
@@ -69,7 +70,7 @@ typedef struct aur_xml_tree {
     aur_arena arena; /* holds the nodes and all texts */
     aur_xml_node *root;
     size_t id_count, id_capacity;
-    aur_xml_id *ids; /* sorted when all files are read */
+    aur_xml_id *ids; /* sorted after all files are read */
 } aur_xml_tree;
 
 void aur_xml_tree_release(aur_xml_tree *tree);
@@ -81,75 +82,75 @@ const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
 
 enum { AUR_XML_MOST_NAMES = 5 };
 
-/* What attributes an element may have; the first `required` of them must be given. */
+/* Attributes that an element may have; the first `required` ones are mandatory. */
 typedef struct aur_xml_rule {
     const char *tag;
     size_t required;
-    const char *names[AUR_XML_MOST_NAMES + 1]; /* ends with NULL */
+    const char *names[AUR_XML_MOST_NAMES + 1]; /* NULL-terminated */
 } aur_xml_rule;
 
-/* Errors: NAME for an attribute that the rule does not name, FORMAT for one that is missing. */
+/* Errors: NAME for an unexpected attribute, FORMAT for a missing one. */
 aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur_error *error);
 
 /* A FORMAT error at the node. */
 aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) AUR_PRINTF(3, 4);
 
-/* An error for a tag that is none of the `count` known here. */
+/* An error for a tag that is not among the `count` expected ones. */
 aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
                             aur_error *error);
 
-/* --- adding: pieces, for the XML reader. NULL and false: no memory. */
+/* --- adding pieces, for the XML reader. NULL and false mean out of memory. */
 
-/* A node outside of the tree, with room for attributes. `tag` must last as long as the tree. */
+/* A node outside of the tree, with room for attributes. `tag` must outlive the tree. */
 aur_xml_node *aur_xml_node_create(aur_xml_tree *tree, const char *tag, aur_location location,
                                   size_t attribute_capacity);
 void aur_xml_node_append(aur_xml_node *parent, aur_xml_node *node);
 bool aur_xml_tree_add_id(aur_xml_tree *tree, const char *id, aur_xml_node *node);
 
-/* --- adding: whole elements, for importers */
+/* --- adding complete elements, for importers */
 
-/* Where and how an importer adds. After the first failure all functions do nothing and return NULL, and NULL
- * nodes are allowed: check `result` at the end. Tags and names of attributes must last as long as the tree;
- * values are copied, and $names in them are not replaced. */
+/* State of an importer that adds nodes. After the first failure all functions do nothing and return NULL, and
+ * NULL nodes are allowed: check `result` at the end. Tags and attribute names must outlive the tree. Values
+ * are copied; $names in them are not replaced. */
 typedef struct aur_nodes {
     aur_xml_tree *tree;
     aur_xml_variables *variables;
-    aur_location location; /* of what is added next; the file's name lasts as long as the tree */
+    aur_location location; /* of the next nodes; the file name must outlive the tree */
     aur_result result;
     aur_error *error;
 } aur_nodes;
 
-/* <tag> as the last child of `parent`, or the root where that is NULL. */
+/* <tag> as the last child of `parent`; NULL: of the root. */
 aur_xml_node *aur_node_add(aur_nodes *nodes, aur_xml_node *parent, const char *tag);
 /* <tag type="..."> */
 aur_xml_node *aur_node_object(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *type);
 /* <tag name="..." value="..."> */
 void aur_node_property(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *name,
                        const char *format, ...) AUR_PRINTF(5, 6);
-/* The same with `count` numbers, each with all digits of a double. */
+/* The same with `count` numbers, printed with full double precision. */
 void aur_node_numbers(aur_nodes *nodes, aur_xml_node *parent, const char *tag, const char *name, size_t count,
                       const double *numbers);
-/* One more attribute; an `id` can be referred to. Numbers have a decimal point under every locale. Errors:
- * FORMAT for more than three attributes. */
+/* Adds an attribute; `id` makes the node a target of <ref>. Numbers use a decimal point in every locale.
+ * Errors: FORMAT for more than three attributes. */
 void aur_node_set(aur_nodes *nodes, aur_xml_node *node, const char *name, const char *format, ...)
     AUR_PRINTF(4, 5);
 void aur_node_set_numbers(aur_nodes *nodes, aur_xml_node *node, const char *name, size_t count,
                           const double *numbers);
 /* <ref> to another node. */
 void aur_node_refer(aur_nodes *nodes, aur_xml_node *parent, aur_xml_node *target);
-/* The value of $name: that of -D, or of a <default> above, or else `otherwise`; NULL after a failure. */
+/* The value of $name: from -D, an earlier <default>, or `otherwise`; NULL after a failure. */
 const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *otherwise);
 
-/* --- placing */
+/* --- transforming */
 
-/* Moves shapes, light sources and cameras from `first` to the last one beside it, by a step at the end of
- * their transforms. Errors: MEMORY. */
+/* Appends a step to the transforms of shapes, light sources and cameras, for `first` and all following
+ * siblings. Errors: MEMORY. */
 void aur_nodes_place(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement, bool z_up);
 
 /* --- daylight */
 
-/* Adds the sky of options->sky, and the sun, as the last children of the tree's root; `z_up`: where up is
- * when nothing says so. Errors: ARGUMENT for a model, date or place that cannot be read; MEMORY. */
+/* Adds the sky and sun of options->sky as the last children of the root. `z_up` selects the default up axis.
+ * Errors: ARGUMENT for an invalid model, date or location; MEMORY. */
 aur_result aur_nodes_add_sky(aur_nodes *nodes, const aur_scene_sky *sky, bool z_up);
-/* Adds a lamp in the same place. Errors: MEMORY. */
-aur_result aur_nodes_add_lamp(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up);
+/* Adds a luminaire in the same way. Errors: MEMORY. */
+aur_result aur_nodes_add_luminaire(aur_nodes *nodes, const aur_scene_lamp *lamp, bool z_up);

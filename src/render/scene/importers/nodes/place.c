@@ -1,4 +1,4 @@
-/* Moving all that one file of a scene has. */
+/* Transforming everything that one file adds to a scene. */
 #include <math.h>
 #include <string.h>
 
@@ -25,8 +25,8 @@ static motion motion_of(const aur_scene_placement *placement, bool z_up) {
 }
 
 static bool is_named(const aur_xml_node *node, const char *tag, const char *name) {
-    const char *const own = aur_xml_attribute_value(node, "name");
-    return strcmp(node->tag, tag) == 0 && own != NULL && strcmp(own, name) == 0;
+    const char *const value = aur_xml_attribute_value(node, "name");
+    return strcmp(node->tag, tag) == 0 && value != NULL && strcmp(value, name) == 0;
 }
 
 /* The value of <point name="position"> or <vector name="direction">. */
@@ -39,7 +39,7 @@ static void move_value(aur_nodes *nodes, aur_xml_node *node, const motion *by, b
         for (size_t d = 0; d < 3; ++d)
             to[d] = by->m[4 * d] * from[0] + by->m[4 * d + 1] * from[1] + by->m[4 * d + 2] * from[2] +
                     (point ? by->m[4 * d + 3] : 0.0);
-        node->attribute_count = 0; /* and has room for as many */
+        node->attribute_count = 0; /* and has capacity for it */
         aur_node_set(nodes, node, "name", "%s", point ? "position" : "direction");
         aur_node_set_numbers(nodes, node, "value", 3, to);
         return;

@@ -7,7 +7,7 @@
 #include "points/base/array.h"
 #include "points/base/names.h"
 
-/* A few kilobytes of <default>s that double each other must not become an endless scene. */
+/* Limits growth: a few kilobytes of <default>s that double each other must not make an endless scene. */
 enum { MOST_SUBSTITUTED = 1 << 26 };
 
 static aur_xml_variable *find(const aur_xml_variables *variables, const char *name) {
@@ -53,10 +53,10 @@ aur_result aur_xml_variables_default(aur_xml_variables *variables, const char *n
                                      aur_location location, aur_error *error) {
     if (name[0] == '\0')
         return aur_fail_at(error, location, AUR_ERROR_FORMAT, "<default>: the name is empty");
-    aur_xml_variable *const known = find(variables, name);
-    if (known == NULL)
+    aur_xml_variable *const existing = find(variables, name);
+    if (existing == NULL)
         return add(variables, name, value, false, error);
-    known->used = true;
+    existing->used = true;
     return AUR_OK;
 }
 
@@ -71,7 +71,7 @@ aur_result aur_xml_variables_get(aur_xml_variables *variables, const char *name,
     return AUR_OK;
 }
 
-/* The variable whose name `text` begins with. */
+/* The variable whose name is the longest prefix of `text`. */
 static aur_xml_variable *match(const aur_xml_variables *variables, const char *text) {
     for (size_t i = 0; i < variables->count; ++i)
         if (strncmp(variables->items[i].name, text, strlen(variables->items[i].name)) == 0)
@@ -98,7 +98,7 @@ static aur_result fail_undefined(const aur_xml_variables *variables, const char 
                        "$%s is not defined: give it a <default>, or a value by -D %s=...", name, name);
 }
 
-/* Puts the text with its $names replaced into `out`, if it is given, and its length into *length. */
+/* Writes the text with $names replaced to `out`, if not NULL, and its length to *length. */
 static aur_result write_text(const aur_xml_variables *variables, const char *text, aur_location location,
                              char *out, size_t *length, aur_error *error) {
     const char *const start = text;

@@ -56,13 +56,13 @@ bool aur_rad_is_text(size_t size, const char *data) {
            (find_row(type) != NULL || aur_rad_is_modifier(type) || aur_rad_is_word(type, "alias"));
 }
 
-/* --- reading */
+/* --- parsing */
 
 static aur_result read_count(aur_rad *self, const char *what, size_t *count) {
     aur_rad_word word;
     uint64_t value = 0;
     aur_rad_next_word(self, &word);
-    /* There cannot be more words than bytes. */
+    /* The file size bounds the number of words. */
     const char *const after =
         word.length > 0 ? aur_read_integer(word.text, (uint64_t)(self->end - word.text), &value) : NULL;
     if (after != word.text + word.length)
@@ -119,8 +119,8 @@ static aur_result fail_modifier(const aur_rad *self, aur_rad_word name) {
                         (int)name.length, name.text);
 }
 
-/* What a surface is made of; surfaces of `void` are not there. An unsupported material is reported once, at
- * its own place. */
+/* The material of a surface; surfaces of `void` are omitted. An unsupported material is reported once, at its
+ * own line. */
 static aur_result find_modifier(const aur_rad *self, aur_rad_word name, aur_rad_material *found) {
     *found = (aur_rad_material){.nothing = true};
     if (aur_rad_is_word(name, "void"))
@@ -159,7 +159,7 @@ static aur_result add_material(aur_rad *self, aur_rad_material material) {
     return AUR_OK;
 }
 
-/* A modifier that is not supported, as the error says: only a surface that uses it makes that matter. */
+/* Stores the error of an unsupported modifier: it is raised only when a surface uses it. */
 static aur_result add_unsupported(aur_rad *self, const aur_rad_primitive *item) {
     aur_error *const copy = aur_arena_allocate(self->scene->arena, sizeof *copy);
     if (copy == NULL)
@@ -168,26 +168,26 @@ static aur_result add_unsupported(aur_rad *self, const aur_rad_primitive *item) 
     return add_material(self, (aur_rad_material){.name = item->name, .unsupported = copy});
 }
 
-/* `void alias NAME KNOWN`: another name. */
+/* `void alias NAME TARGET`: another name for a modifier. */
 static aur_result read_alias(aur_rad *self, const aur_rad_primitive *item) {
-    aur_rad_word known;
+    aur_rad_word target;
     aur_result result = self->scene->diffuse ? AUR_OK : need_void(self, item);
-    if (result == AUR_OK && !aur_rad_next_word(self, &known))
-        result = aur_rad_fail_end(self, "the name of a material", known);
+    if (result == AUR_OK && !aur_rad_next_word(self, &target))
+        result = aur_rad_fail_end(self, "the name of a material", target);
     if (result != AUR_OK)
         return result;
     aur_rad_material material = {.nothing = true};
-    if (!aur_rad_is_word(known, "void")) {
-        const aur_rad_material *const found = aur_rad_find_material(self, known);
+    if (!aur_rad_is_word(target, "void")) {
+        const aur_rad_material *const found = aur_rad_find_material(self, target);
         if (found == NULL)
-            return fail_modifier(self, known);
+            return fail_modifier(self, target);
         material = *found;
     }
     material.name = item->name;
     return add_material(self, material);
 }
 
-/* Whether the modifier of a material changes nothing: none, or another material. */
+/* Whether a material's modifier has no effect: none, or another material. */
 static bool is_plain(const aur_rad *self, aur_rad_word name) {
     const aur_rad_material *const under = aur_rad_find_material(self, name);
     return aur_rad_is_word(name, "void") || (under != NULL && under->unsupported == NULL);
@@ -197,14 +197,14 @@ static aur_result read_material(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material = {.name = item->name};
     const aur_rad_material *const under = aur_rad_find_material(self, item->modifier);
     const bool emits = item->row->emits,
-               patterned = under != NULL && (under->sky != NULL || under->lamp != NULL) && !under->emits;
+               patterned = under != NULL && (under->sky != NULL || under->luminaire != NULL) && !under->emits;
     const bool plain = is_plain(self, item->modifier) && (emits || !patterned);
     aur_result result = plain || (self->scene->diffuse && !emits) ? AUR_OK : need_void(self, item);
     if (result == AUR_OK && !plain)
         ++self->scene->diffuse_count;
     if (result == AUR_OK && emits && patterned) {
         material.sky = under->sky;
-        material.lamp = under->lamp;
+        material.luminaire = under->luminaire;
     }
     if (result == AUR_OK)
         result = item->row->add(self, item, &material);
@@ -222,8 +222,7 @@ static aur_result fail_type(const aur_rad *self, aur_rad_word type) {
     return aur_rad_fail(self, type.line, AUR_ERROR_UNSUPPORTED, "'%s' is not read%s", name, hint);
 }
 
-/* Notes what is not read, and goes on to the next thing. What refers to a thing that is not there may do so
- * because that was left out. */
+/* Records an ignored primitive and continues. A later reference to an undefined name may be a consequence. */
 static aur_result leave_out(aur_rad *self, aur_result result) {
     aur_error *const last = self->scene->left_out;
     if (result == AUR_ERROR_NAME && last->result != AUR_OK)
@@ -235,8 +234,8 @@ static aur_result leave_out(aur_rad *self, aur_result result) {
     return AUR_OK;
 }
 
-/* A modifier without a row: what it has that is diffuse, where that is asked for. A pattern or texture then
- * changes nothing: it is what it modifies. */
+/* A modifier without a table row. With --diffuse, its diffuse part is used; patterns and textures are
+ * replaced by what they modify. */
 static aur_result read_modifier(aur_rad *self, const aur_rad_primitive *item) {
     const aur_rad_material *mixed = NULL, *const under = aur_rad_find_material(self, item->modifier);
     aur_rad_material material = {.name = item->name};
@@ -256,18 +255,18 @@ static aur_result read_modifier(aur_rad *self, const aur_rad_primitive *item) {
                                            : result;
 }
 
-/* A surface, in the file's pose. */
+/* Adds a surface, transformed by the file's pose. */
 static aur_result read_surface(aur_rad *self, const aur_rad_primitive *item) {
     aur_rad_material material;
-    const aur_rad_word own = self->pose.modifier;
-    const aur_result result = find_modifier(self, own.length > 0 ? own : item->modifier, &material);
+    const aur_rad_word override = self->pose.modifier;
+    const aur_result result = find_modifier(self, override.length > 0 ? override : item->modifier, &material);
     if (result != AUR_OK || (material.nothing && strcmp(item->row->name, "instance") != 0))
         return result;
-    return material.lamp != NULL ? aur_rad_add_lamp(self, item, &material)
-                                 : item->row->add(self, item, &material);
+    return material.luminaire != NULL ? aur_rad_add_luminaire(self, item, &material)
+                                      : item->row->add(self, item, &material);
 }
 
-/* What a primitive becomes whose arguments have been read. */
+/* Converts a primitive whose arguments have been read. */
 static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
     if (item->row == NULL)
         return aur_rad_is_modifier(item->type) ? read_modifier(self, item) : fail_type(self, item->type);
@@ -284,8 +283,8 @@ static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
     const aur_result result = read_material(self, item);
     if (result != AUR_ERROR_UNSUPPORTED)
         return result;
-    /* With --diffuse a pattern changes nothing: it is what it modifies. An illum with one is the window that
-     * it stands for. */
+    /* With --diffuse a pattern is replaced by what it modifies. An illum with a pattern is replaced by its
+     * window. */
     const bool pattern =
                    aur_rad_is_word(item->type, "brightfunc") || aur_rad_is_word(item->type, "brightdata"),
                window = aur_rad_is_word(item->type, "illum") && item->string_count > 0;
@@ -309,14 +308,14 @@ static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
         return read_alias(self, &item);
     item.row = find_row(item.type);
     const aur_result result = read_arguments(self, &item);
-    if (result != AUR_OK) /* nobody knows where the next thing begins */
+    if (result != AUR_OK) /* the end of the arguments is uncertain */
         return item.row == NULL && !aur_rad_is_modifier(item.type) ? fail_type(self, item.type) : result;
     return leave_out(self, use_primitive(self, &item));
 }
 
 /* --- commands */
 
-/* The words of a command's line, the exclamation mark taken off the first. */
+/* The words of a command line, without the exclamation mark of the first. */
 static aur_result read_line(aur_rad *self, aur_rad_word command, size_t *count) {
     aur_rad_word word = {command.text + 1, command.length - 1, command.line};
     *count = 0;
@@ -354,11 +353,11 @@ static aur_result take_files(aur_rad *self, size_t first, size_t count, const ch
                : aur_rad_fail(self, self->words[0].line, AUR_ERROR_FORMAT, "included file not found");
 }
 
-/* A surface that a generator makes stands in all poses of the command. */
+/* A generator's surface is instantiated in all poses of the command. */
 static aur_result take_surface(aur_rad *self, const char *type, aur_rad_word modifier, size_t count,
                                double *numbers) {
     double copy[3 * 1024];
-    const aur_rad_pose own = self->pose;
+    const aur_rad_pose saved = self->pose;
     aur_rad_primitive item = {.modifier = modifier,
                               .type = {type, strlen(type), modifier.line},
                               .name = self->words[2],
@@ -367,22 +366,22 @@ static aur_result take_surface(aur_rad *self, const char *type, aur_rad_word mod
     item.row = find_row(item.type);
     aur_result result = AUR_OK;
     for (size_t i = 0; i < self->pose_count && result == AUR_OK; ++i) {
-        self->pose = aur_rad_pose_multiply(&own, &self->poses[i]);
+        self->pose = aur_rad_pose_multiply(&saved, &self->poses[i]);
         memcpy(copy, numbers, count * sizeof *copy);
         result = leave_out(self, use_primitive(self, &item));
     }
-    self->pose = own;
+    self->pose = saved;
     return result;
 }
 
-/* Where the first `|` stands, or the end. */
+/* Index of the first `|`, or the end. */
 static size_t find_pipe(const aur_rad *self, size_t at, size_t count) {
     while (at < count && !aur_rad_is_word(self->words[at], "|"))
         ++at;
     return at;
 }
 
-/* `| xform OPTIONS ...` after a command whose poses are known. */
+/* `| xform OPTIONS ...` after a command with known poses. */
 static aur_result read_pipes(aur_rad *self, size_t at, size_t count) {
     aur_result result = AUR_OK;
     while (at < count && result == AUR_OK) {
@@ -399,8 +398,9 @@ static aur_result read_pipes(aur_rad *self, size_t at, size_t count) {
     return result;
 }
 
-/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...`, `!genprism ...` and `!genrev ...`, each with
- * pipes into xform: `command` is the word with the exclamation mark, `!` alone where a blank follows. */
+/* `!cat FILE ...`, `!xform OPTIONS FILE ...`, `!genbox ...`, `!genprism ...` and `!genrev ...`, each
+ * optionally piped into xform. `command` is the word with the exclamation mark, or `!` alone if a blank
+ * follows. */
 static aur_result read_command(aur_rad *self, aur_rad_word command) {
     size_t count = 0, used = 0;
     aur_result result = read_line(self, command, &count);
@@ -415,21 +415,22 @@ static aur_result read_command(aur_rad *self, aur_rad_word command) {
     self->nodes->location.line = command.line;
     if (result == AUR_OK && includes)
         return take_files(self, 1 + used, end, moves ? "xform" : "cat");
-    bool known = true;
+    bool recognised = true;
     if (result == AUR_OK)
-        result = aur_rad_generate(self, end, self->words, take_surface, &known);
+        result = aur_rad_generate(self, end, self->words, take_surface, &recognised);
     self->pose_count = 0;
-    return known ? result
-                 : aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
-                                "the command '%.*s' is not run, only cat, xform, genbox, genprism and genrev "
-                                "are: write what it makes into a file and include that",
-                                name.length > 40 ? 40 : (int)name.length, name.text);
+    return recognised
+               ? result
+               : aur_rad_fail(self, command.line, AUR_ERROR_UNSUPPORTED,
+                              "the command '%.*s' is not run, only cat, xform, genbox, genprism and genrev "
+                              "are: write what it makes into a file and include that",
+                              name.length > 40 ? 40 : (int)name.length, name.text);
 }
 
 aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *parent, size_t size,
                         const char *data, aur_rad **rad) {
     aur_rad *const self = *rad = calloc(1, sizeof *self);
-    /* With a zero byte after it, at which numbers end. */
+    /* Adds a zero byte, which terminates numbers. */
     char *const text = malloc(size + 1);
     if (self == NULL || text == NULL) {
         free(self);
@@ -452,7 +453,7 @@ aur_result aur_rad_open(aur_rad_scene *scene, aur_nodes *nodes, aur_xml_node *pa
     return AUR_OK;
 }
 
-/* The file that is to be included next, in which pose. */
+/* The next file to include, with its pose. */
 static aur_result include_next(aur_rad *self, const char **included) {
     const size_t pose = self->next / self->file_count;
     const aur_rad_word word = self->words[self->next++ % self->file_count];

@@ -1,4 +1,4 @@
-/* Arguments of the built-in generators of surfaces. */
+/* Arguments of the built-in surface generators. */
 #include "render/scene/importers/rad/rad_reader.h"
 
 aur_result aur_rad_generator_numbers(aur_rad_generator *self, const char *what, size_t count,

@@ -1,4 +1,4 @@
-/* Files of LBNL WINDOW: matrices of a BSDF between the directions of Klems' bases. */
+/* BSDF files of LBNL WINDOW: matrices between directions of Klems bases. */
 #include <expat.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ enum { MOST_BASES = 8, MOST_BANDS = 64, MOST_PATCHES = 4096, LONGEST_NAME = 64 }
 
 #define PI 3.14159265358979323846
 
-/* Directions by bands of elevation, each cut into equal patches. */
+/* Elevation bands of a basis, each divided into equal patches. */
 typedef struct basis {
     char name[LONGEST_NAME];
     size_t bands;
@@ -29,15 +29,15 @@ typedef struct block {
 
 typedef struct bsdf_file {
     XML_Parser parser;
-    char *text; /* of the element that is open */
+    char *text; /* of the open element */
     size_t length, capacity;
     size_t basis_count;
     basis bases[MOST_BASES];
     bool visible;
     block block;
-    double sums[2]; /* reflected, through */
+    double sums[2]; /* reflected, transmitted */
     size_t counts[2];
-    const char *wrong; /* NULL: nothing */
+    const char *wrong; /* NULL: none */
     bool short_of_memory;
 } bsdf_file;
 
@@ -76,7 +76,7 @@ static void XMLCALL on_text(void *user, const XML_Char *text, int length) {
     self->text[self->length] = '\0';
 }
 
-/* The matrix: numbers split by blanks or commas. */
+/* Matrix elements: numbers separated by blanks or commas. */
 static void read_values(bsdf_file *self) {
     block *const to = &self->block;
     for (const char *at = self->text; self->length > 0;) {
@@ -97,7 +97,7 @@ static void read_values(bsdf_file *self) {
     }
 }
 
-/* Projected solid angles of the patches of a basis, whose sum is pi; returns how many. */
+/* Projected solid angles of the patches of a basis, which sum to pi. Returns the number of patches. */
 static size_t weigh(const bsdf_file *self, const char *name, double *weights) {
     const basis *found = NULL;
     for (size_t i = 0; i < self->basis_count; ++i)

@@ -1,5 +1,5 @@
-/* Expressions of Radiance (calcomp) in one variable, t: + - * / ^, brackets, numbers, PI, and its functions.
- */
+/* Expressions of Radiance (calcomp) in one variable, t: + - * / ^, parentheses, numbers, PI and built-in
+ * functions. */
 #include <math.h>
 #include <string.h>
 
@@ -45,7 +45,7 @@ static double take_modulo(const double *x) {
     return fmod(x[0], x[1]);
 }
 
-/* Functions of one argument, of two, and of several. */
+/* Functions with one, two and more arguments. */
 static const struct {
     const char *name;
     size_t arguments;
@@ -144,7 +144,7 @@ static double read_term(expression *self) {
     return value;
 }
 
-/* A sign binds closer than a power, as in calcomp. */
+/* Unary minus binds tighter than a power, as in calcomp. */
 static double read_power(expression *self) {
     if (++self->depth > DEEPEST)
         return fail(self, AUR_ERROR_FORMAT, "nested too deeply", 0, "");

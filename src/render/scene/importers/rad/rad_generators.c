@@ -1,4 +1,4 @@
-/* What the commands genbox, genprism and genrev make, without running them. */
+/* Built-in equivalents of the commands genbox, genprism and genrev. */
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ typedef struct box {
     bool rounded, inverted;
 } box;
 
-/* A corner, drawn in by the bevel along the axes of `inset`; bit i of both is axis i. */
+/* A corner, inset by the bevel along the axes of `inset`; bit i of both masks is axis i. */
 static void box_point(const box *self, unsigned corner, unsigned inset, double point[3]) {
     for (unsigned i = 0; i < 3; ++i) {
         const double in = (inset >> i & 1u) != 0 ? self->bevel : 0.0;
@@ -20,7 +20,7 @@ static void box_point(const box *self, unsigned corner, unsigned inset, double p
     }
 }
 
-/* A polygon that faces along `outward`, or against it where the box is inverted. */
+/* A polygon that faces along `outward`, or against it if the box is inverted. */
 static aur_result add_face(const aur_rad_generator *self, const box *made, size_t count, double (*corners)[3],
                            const double outward[3]) {
     double a[3], b[3], normal[3];
@@ -39,7 +39,7 @@ static aur_result add_face(const aur_rad_generator *self, const box *made, size_
     return self->take(self->rad, "polygon", self->words[1], 3 * count, corners[0]);
 }
 
-/* The face on the upper or lower side of an axis. */
+/* The face on the lower or upper side of an axis. */
 static aur_result add_side(const aur_rad_generator *self, const box *made, unsigned axis, unsigned upper) {
     const unsigned e = (axis + 1) % 3, f = (axis + 2) % 3;
     static const unsigned turns[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -50,7 +50,7 @@ static aur_result add_side(const aur_rad_generator *self, const box *made, unsig
     return add_face(self, made, 4, corners, outward);
 }
 
-/* What lies between two faces: the edge along an axis, at a corner of the plane across it. */
+/* The bevel between two faces: along an edge, at a corner of the plane across it. */
 static aur_result add_edge(const aur_rad_generator *self, const box *made, unsigned axis, unsigned turn) {
     const unsigned e = (axis + 1) % 3, f = (axis + 2) % 3;
     const unsigned corner = (turn & 1u) << e | (turn >> 1 & 1u) << f;
@@ -99,7 +99,7 @@ static aur_result read_box(aur_rad_generator *self, box *made) {
                                                segments ? &ignored : &made->bevel);
             made->rounded = made->rounded || rounds;
             continue;
-        } else if (!aur_rad_is_word(word, "-s")) { /* -n, -s: what is round is round here */
+        } else if (!aur_rad_is_word(word, "-s")) { /* -n, -s: rounded parts are exact */
             return aur_rad_generator_fail(self);
         }
         ++self->at;
@@ -124,7 +124,7 @@ static aur_result generate_box(aur_rad_generator *self) {
 }
 
 aur_result aur_rad_generate(aur_rad *self, size_t count, const aur_rad_word *words, aur_rad_take *take,
-                            bool *known) {
+                            bool *recognised) {
     static const struct {
         const char *name;
         aur_result (*generate)(aur_rad_generator *self);
@@ -139,6 +139,6 @@ aur_result aur_rad_generate(aur_rad *self, size_t count, const aur_rad_word *wor
                           : aur_rad_fail(self, words[0].line, AUR_ERROR_FORMAT,
                                          "%s: a material, a name and sizes expected", rows[i].name);
     }
-    *known = false;
+    *recognised = false;
     return AUR_OK;
 }

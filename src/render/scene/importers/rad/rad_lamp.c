@@ -1,4 +1,4 @@
-/* Measured lamps as ies2rad writes them: brightdata by directions of source.cal on a light. */
+/* Photometric luminaires as ies2rad writes them: brightdata by directions of source.cal on a light. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,11 +12,11 @@ enum { MOST_ANGLES = 4096 };
 
 static const double PI = 3.14159265358979323846;
 
-/* Radiance by direction: values[planes][angles], times `factor`; of flat ones over the cosine too. */
-struct aur_rad_lamp {
+/* Radiance by direction: `factor` times values[planes][angles], divided by the cosine for flat sources. */
+struct aur_rad_luminaire {
     bool flat;
     double factor;
-    double turn[3][3]; /* columns are the axes of the lamp's frame in the world */
+    double turn[3][3]; /* columns: axes of the luminaire's frame in the world */
     size_t plane_count, angle_count;
     double *planes, *angles, *values; /* in the scene's arena */
 };
@@ -31,7 +31,7 @@ static bool next_number(aur_rad *reading, double *number) {
     return aur_rad_next_word(reading, &word) && aur_rad_number(word, number);
 }
 
-/* One dimension of the file: begin, end and count, of which 0 0 is followed by the places. */
+/* One dimension of the file: begin, end and count. If begin and end are 0, the coordinates follow. */
 static double *read_angles(aur_rad *self, aur_rad *reading, size_t *count) {
     double begin, end, number;
     if (!next_number(reading, &begin) || !next_number(reading, &end) || !next_number(reading, &number) ||
@@ -47,29 +47,30 @@ static double *read_angles(aur_rad *self, aur_rad *reading, size_t *count) {
     return angles;
 }
 
-static bool read_values(aur_rad *self, aur_rad *reading, struct aur_rad_lamp *lamp, size_t dimensions) {
+static bool read_values(aur_rad *self, aur_rad *reading, struct aur_rad_luminaire *luminaire,
+                        size_t dimensions) {
     static double zero[1];
     double number = 0.0;
-    lamp->plane_count = 1;
-    lamp->planes = zero;
+    luminaire->plane_count = 1;
+    luminaire->planes = zero;
     if (!next_number(reading, &number) || number != (double)dimensions)
         return false;
     if (dimensions == 2)
-        lamp->planes = read_angles(self, reading, &lamp->plane_count);
-    lamp->angles = read_angles(self, reading, &lamp->angle_count);
-    if (lamp->planes == NULL || lamp->angles == NULL)
+        luminaire->planes = read_angles(self, reading, &luminaire->plane_count);
+    luminaire->angles = read_angles(self, reading, &luminaire->angle_count);
+    if (luminaire->planes == NULL || luminaire->angles == NULL)
         return false;
-    const size_t count = lamp->plane_count * lamp->angle_count;
-    lamp->values = aur_arena_allocate(self->scene->arena, count * sizeof *lamp->values);
-    for (size_t i = 0; i < count && lamp->values != NULL; ++i)
-        if (!next_number(reading, &lamp->values[i]))
+    const size_t count = luminaire->plane_count * luminaire->angle_count;
+    luminaire->values = aur_arena_allocate(self->scene->arena, count * sizeof *luminaire->values);
+    for (size_t i = 0; i < count && luminaire->values != NULL; ++i)
+        if (!next_number(reading, &luminaire->values[i]))
             return false;
-    return lamp->values != NULL;
+    return luminaire->values != NULL;
 }
 
-/* The file's pose and that of the pattern, without their scales. */
+/* Combines the rotations of the file's pose and the pattern's; scales are ignored. */
 static aur_result take_turn(aur_rad *self, const aur_rad_primitive *item, size_t first,
-                            struct aur_rad_lamp *lamp) {
+                            struct aur_rad_luminaire *luminaire) {
     size_t used = 0;
     aur_result result = aur_rad_read_xform(self, item->string_count - first, item->strings + first, &used);
     if (result == AUR_OK && (used + first < item->string_count || self->pose_count != 1))
@@ -80,14 +81,14 @@ static aur_result take_turn(aur_rad *self, const aur_rad_primitive *item, size_t
             result = fail(self, item, "the mirror image of a lamp is not read");
         for (size_t i = 0; i < 3; ++i)
             for (size_t k = 0; k < 3; ++k)
-                lamp->turn[i][k] = pose.m[4 * i + k] / pose.scale;
+                luminaire->turn[i][k] = pose.m[4 * i + k] / pose.scale;
     }
     self->pose_count = 0;
     return result;
 }
 
-/* brightdata: flatcorr or corr, FILE, source.cal, [src_phi, src_phi2 or src_phi4] src_theta, options of
- * xform; one number, the factor. */
+/* brightdata: flatcorr or corr, FILE, source.cal, [src_phi, src_phi2 or src_phi4] src_theta, xform options;
+ * one number, the factor. */
 aur_result aur_rad_add_distribution(aur_rad *self, const aur_rad_primitive *item,
                                     aur_rad_material *material) {
     const size_t count = item->string_count;
@@ -99,35 +100,37 @@ aur_result aur_rad_add_distribution(aur_rad *self, const aur_rad_primitive *item
                              !aur_rad_is_word(item->strings[4], "src_theta"))))
         return fail(self, item,
                     "only corr and flatcorr by angles of source.cal are read, as ies2rad writes them");
-    struct aur_rad_lamp *const lamp = aur_arena_allocate(self->scene->arena, sizeof *lamp);
-    if (lamp == NULL)
+    struct aur_rad_luminaire *const luminaire = aur_arena_allocate(self->scene->arena, sizeof *luminaire);
+    if (luminaire == NULL)
         return aur_fail_memory(self->error);
-    *lamp = (struct aur_rad_lamp){.flat = flat, .factor = item->number_count > 0 ? item->numbers[0] : 1.0};
+    *luminaire =
+        (struct aur_rad_luminaire){.flat = flat, .factor = item->number_count > 0 ? item->numbers[0] : 1.0};
     char *text;
     size_t size;
     aur_result result = aur_rad_read_file(self, item->strings[1], &text, &size);
     if (result != AUR_OK)
         return result == AUR_ERROR_OPEN ? AUR_ERROR_UNSUPPORTED : result; /* it may be unused */
     aur_rad reading = {.at = text, .end = text + size, .line = 1};
-    if (!read_values(self, &reading, lamp, dimensions))
+    if (!read_values(self, &reading, luminaire, dimensions))
         result = aur_rad_fail(self, item->strings[1].line, AUR_ERROR_FORMAT,
                               "'%.*s':%zu: a table of %zu dimensions expected", (int)item->strings[1].length,
                               item->strings[1].text, reading.line, dimensions);
     free(text);
     if (result == AUR_OK)
-        result = take_turn(self, item, 3 + dimensions, lamp);
-    material->lamp = lamp;
+        result = take_turn(self, item, 3 + dimensions, luminaire);
+    material->luminaire = luminaire;
     return result;
 }
 
-/* The opening: its middle, area, and sizes along the lamp's x and y; `round` or not. */
+/* The opening: centre, area, and sizes along the luminaire's x and y; `round` for ellipses. */
 typedef struct opening {
     double middle[3], area, sizes[2];
     bool round;
 } opening;
 
-/* A rectangle along the lamp's axes. */
-static bool measure_rectangle(const struct aur_rad_lamp *lamp, const aur_rad_primitive *item, opening *made) {
+/* A rectangle along the luminaire's axes. */
+static bool measure_rectangle(const struct aur_rad_luminaire *luminaire, const aur_rad_primitive *item,
+                              opening *made) {
     const double *const p = item->numbers;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, twice[3] = {0.0};
     const size_t count = item->number_count / 3;
@@ -139,8 +142,8 @@ static bool measure_rectangle(const struct aur_rad_lamp *lamp, const aur_rad_pri
             made->middle[d] += p[3 * i + d] / (double)count;
         }
         for (size_t k = 0; k < 2; ++k) {
-            const double along = p[3 * i] * lamp->turn[0][k] + p[3 * i + 1] * lamp->turn[1][k] +
-                                 p[3 * i + 2] * lamp->turn[2][k];
+            const double along = p[3 * i] * luminaire->turn[0][k] + p[3 * i + 1] * luminaire->turn[1][k] +
+                                 p[3 * i + 2] * luminaire->turn[2][k];
             low[k] = fmin(low[k], along);
             high[k] = fmax(high[k], along);
         }
@@ -151,17 +154,17 @@ static bool measure_rectangle(const struct aur_rad_lamp *lamp, const aur_rad_pri
     return count == 4 && fabs(made->sizes[0] * made->sizes[1] - made->area) <= 1e-3 * made->area;
 }
 
-static bool measure(const aur_rad *self, const struct aur_rad_lamp *lamp, const aur_rad_primitive *item,
-                    opening *made) {
+static bool measure(const aur_rad *self, const struct aur_rad_luminaire *luminaire,
+                    const aur_rad_primitive *item, opening *made) {
     const double *const x = item->numbers;
     const bool ring = strcmp(item->row->name, "ring") == 0, ball = strcmp(item->row->name, "sphere") == 0;
     *made = (opening){.round = ring};
-    if (strcmp(item->row->name, "polygon") == 0 && lamp->flat && item->number_count % 3 == 0) {
+    if (strcmp(item->row->name, "polygon") == 0 && luminaire->flat && item->number_count % 3 == 0) {
         for (size_t i = 0; i < item->number_count / 3; ++i)
             aur_rad_pose_apply(&self->pose, 1.0, item->numbers + 3 * i);
-        return measure_rectangle(lamp, item, made);
+        return measure_rectangle(luminaire, item, made);
     }
-    if (!(ring && lamp->flat) && !(ball && !lamp->flat))
+    if (!(ring && luminaire->flat) && !(ball && !luminaire->flat))
         return false;
     memcpy(made->middle, x, sizeof made->middle);
     aur_rad_pose_apply(&self->pose, 1.0, made->middle);
@@ -172,41 +175,42 @@ static bool measure(const aur_rad *self, const struct aur_rad_lamp *lamp, const 
     return inner == 0.0 && radius > 0.0;
 }
 
-/* As LM-63: intensities are radiance times projected area. */
-static char *write_ies(const struct aur_rad_lamp *lamp, const opening *o, size_t *size) {
+/* LM-63 stores intensities: radiance times projected area. */
+static char *write_ies(const struct aur_rad_luminaire *luminaire, const opening *o, size_t *size) {
     char *text = NULL;
     FILE *const stream = open_memstream(&text, size);
     if (stream == NULL)
         return NULL;
     const double sign = o->round ? -1.0 : 1.0;
     aur_print(stream, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 %zu %zu 1 2 %.9g %.9g 0\n1 1 0\n",
-              lamp->angle_count, lamp->plane_count, sign * o->sizes[1], sign * o->sizes[0]);
-    for (size_t i = 0; i < lamp->angle_count; ++i)
-        aur_print(stream, "%.9g\n", lamp->angles[i]);
-    for (size_t i = 0; i < lamp->plane_count; ++i)
-        aur_print(stream, "%.9g\n", lamp->planes[i]);
-    for (size_t i = 0; i < lamp->plane_count * lamp->angle_count; ++i)
-        aur_print(stream, "%.9g\n", 179.0 * o->area * lamp->factor * lamp->values[i]);
+              luminaire->angle_count, luminaire->plane_count, sign * o->sizes[1], sign * o->sizes[0]);
+    for (size_t i = 0; i < luminaire->angle_count; ++i)
+        aur_print(stream, "%.9g\n", luminaire->angles[i]);
+    for (size_t i = 0; i < luminaire->plane_count; ++i)
+        aur_print(stream, "%.9g\n", luminaire->planes[i]);
+    for (size_t i = 0; i < luminaire->plane_count * luminaire->angle_count; ++i)
+        aur_print(stream, "%.9g\n", 179.0 * o->area * luminaire->factor * luminaire->values[i]);
     if (fclose(stream) == 0)
         return text;
     free(text);
     return NULL;
 }
 
-aur_result aur_rad_add_lamp(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material) {
-    const struct aur_rad_lamp *const lamp = material->lamp;
+aur_result aur_rad_add_luminaire(aur_rad *self, const aur_rad_primitive *item,
+                                 const aur_rad_material *material) {
+    const struct aur_rad_luminaire *const luminaire = material->luminaire;
     aur_nodes *const nodes = self->nodes;
     opening made;
-    if (!measure(self, lamp, item, &made))
+    if (!measure(self, luminaire, item, &made))
         return fail(
             self, item,
             "a measured lamp is read on a polygon (a rectangle along its axes) or ring with flatcorr, or on "
             "a sphere with corr");
     size_t size = 0;
-    char *const text = write_ies(lamp, &made, &size);
+    char *const text = write_ies(luminaire, &made, &size);
     if (text == NULL)
         return aur_fail_memory(self->error);
-    const double(*const t)[3] = lamp->turn, *const m = made.middle;
+    const double(*const t)[3] = luminaire->turn, *const m = made.middle;
     const double matrix[16] = {t[0][0], t[0][1], t[0][2], m[0], t[1][0], t[1][1], t[1][2], m[1],
                                t[2][0], t[2][1], t[2][2], m[2], 0.0,     0.0,     0.0,     1.0};
     aur_xml_node *const emitter = aur_node_object(nodes, self->parent, "emitter", "photometric");

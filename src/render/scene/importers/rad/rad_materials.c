@@ -1,4 +1,4 @@
-/* What materials become. All of Radiance's but glass scatter on both sides alike. */
+/* Conversion of materials. All Radiance materials but glass scatter equally on both sides. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -11,7 +11,7 @@ static void add_colour(aur_rad *self, aur_xml_node *bsdf, const char *name, cons
     aur_node_numbers(self->nodes, bsdf, "rgb", name, 3, scaled);
 }
 
-/* A surface that scatters to all sides, on its own side and the other one. */
+/* A diffuse surface with reflection and transmission. */
 static void add_sheet(aur_rad *self, const double reflected[3], const double through[3],
                       aur_rad_material *material) {
     aur_nodes *const nodes = self->nodes;
@@ -30,7 +30,7 @@ static void add_sheet(aur_rad *self, const double reflected[3], const double thr
 static aur_result add_normal(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
     const double *const x = item->numbers, white[3] = {1.0, 1.0, 1.0};
     const double specular = x[3], through = item->number_count > 5 ? x[5] : 0.0,
-                 straight = item->number_count > 5 ? x[6] : 0.0;
+                 unscattered = item->number_count > 5 ? x[6] : 0.0;
     for (size_t i = 3; i < item->number_count; ++i)
         if (!(x[i] >= 0.0 && x[i] <= 1.0))
             return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT, "%s: %g must be from 0 to 1",
@@ -39,16 +39,16 @@ static aur_result add_normal(aur_rad *self, const aur_rad_primitive *item, aur_r
         add_sheet(self, x, (const double[3]){0.0}, material);
         return self->nodes->result;
     }
-    const bool smooth = x[4] * x[4] <= 1e-6; /* normal.c: FTINY */
+    const bool smooth = x[4] * x[4] <= 1e-6; /* as FTINY in normal.c */
     aur_nodes *const nodes = self->nodes;
     aur_xml_node *const bsdf = material->bsdf = aur_node_object(nodes, self->parent, "bsdf", "ward");
     const double rest = 1.0 - specular;
     add_colour(self, bsdf, "diffuse_reflectance", x, rest * (1.0 - through));
     add_colour(self, bsdf, "specular_reflectance", item->type.text[0] == 'm' ? x : white, specular);
-    add_colour(self, bsdf, "diffuse_transmittance", x, rest * through * (1.0 - straight));
-    add_colour(self, bsdf, "specular_transmittance", x, rest * through * straight);
+    add_colour(self, bsdf, "diffuse_transmittance", x, rest * through * (1.0 - unscattered));
+    add_colour(self, bsdf, "specular_transmittance", x, rest * through * unscattered);
     aur_node_property(nodes, bsdf, "float", "alpha", "%.17g", smooth ? 0.0 : x[4]);
-    /* FRESTHRESH: what mirrors less is no varnish. */
+    /* As FRESTHRESH: below this specularity there is no Fresnel coat. */
     aur_node_property(nodes, bsdf, "boolean", "varnished", smooth && specular >= 0.017999 ? "true" : "false");
     return nodes->result;
 }
@@ -64,10 +64,10 @@ static aur_result add_glass(aur_rad *self, const aur_rad_primitive *item, aur_ra
     return nodes->result;
 }
 
-/* What passes through a unit of length becomes a medium that absorbs; NULL where all does. */
+/* Converts the transmission per unit length to an absorbing medium; NULL if nothing is absorbed. */
 static aur_result add_medium(aur_rad *self, const aur_rad_primitive *item, const double *x,
                              aur_xml_node **medium) {
-    enum { DENSEST = 1000 }; /* of what lets nothing through */
+    enum { DENSEST = 1000 }; /* extinction for zero transmission */
     if (!(fmin(x[0], fmin(x[1], x[2])) >= 0.0) || fmax(x[0], fmax(x[1], x[2])) > 1.0)
         return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT,
                             "%s: transmission must be from 0 to 1 per unit of length", item->row->name);
@@ -102,15 +102,14 @@ static aur_result add_dielectric(aur_rad *self, const aur_rad_primitive *item, a
     return self->nodes->result;
 }
 
-/* Black from behind. */
+/* Black when seen from behind. */
 static aur_result add_mirror(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
     material->bsdf = aur_node_object(self->nodes, self->parent, "bsdf", "conductor");
     aur_node_numbers(self->nodes, material->bsdf, "rgb", "specular_reflectance", 3, item->numbers);
     return self->nodes->result;
 }
 
-/* light, glow and illum. A glow of negative radius is seen and lights nothing: for what is lit it is black.
- */
+/* light, glow and illum. A glow of negative radius is visible but does not illuminate: it is black here. */
 static aur_result add_light(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
     const double *const x = item->numbers;
     if (x[0] < 0.0 || x[1] < 0.0 || x[2] < 0.0)
@@ -126,7 +125,7 @@ static aur_result add_light(aur_rad *self, const aur_rad_primitive *item, aur_ra
     return AUR_OK;
 }
 
-/* brightfunc with skybr of skybright.cal, or skybright of perezlum.cal: what gensky and gendaylit write. */
+/* brightfunc with skybr of skybright.cal or perezlum.cal: the output of gensky and gendaylit. */
 static aur_result add_pattern(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
     static const struct {
         const char *function, *file;
@@ -136,7 +135,7 @@ static aur_result add_pattern(aur_rad *self, const aur_rad_primitive *item, aur_
         if (item->string_count != 2 || !aur_rad_is_word(item->strings[0], forms[i].function) ||
             !aur_rad_is_word(item->strings[1], forms[i].file))
             continue;
-        /* Of an overcast or uniform sky nothing follows from the sun. */
+        /* Overcast and uniform skies do not depend on the sun. */
         const size_t count = item->number_count, needs = forms[i].numbers;
         const bool even = i == 0 && count >= 3 && (item->numbers[0] == 2.0 || item->numbers[0] == 3.0);
         if (count > needs || (count < needs && !even))
@@ -170,25 +169,25 @@ const aur_rad_row aur_rad_materials[] = {
     {.name = NULL},
 };
 
-/* --- modifiers without a row, from Radiance's manual page "rad", and what they have that is diffuse */
+/* --- modifiers without a table row, from Radiance's manual page "rad", and their diffuse parts */
 
 typedef enum diffuse_form {
-    NO_FORM,     /* unknown */
-    NO_SURFACE,  /* light goes through */
+    NO_FORM,     /* diffuse part cannot be determined */
+    NO_SURFACE,  /* transmits light */
     COAT,        /* R G B specularity: as plastic */
-    METAL,       /* R G B: all of it */
+    METAL,       /* R G B: all diffuse */
     SHEET,       /* R G B specularity u v transmission: as trans */
     SHEET_DATA,  /* R G B specularity transmission */
     TWO_COLOURS, /* diffuse R G B, specular R G B */
     SIDES,       /* R G B of the front, of the back and through */
-    MIXTURE,     /* of two others: the first of them that is there */
-    MATRIX,      /* a BSDF file, whose hemispherical means stand for it */
+    MIXTURE,     /* mixture of two others: the first one that is defined */
+    MATRIX,      /* a BSDF file, replaced by its hemispherical means */
 } diffuse_form;
 
 static const struct {
     const char *name;
     diffuse_form form;
-    size_t numbers; /* that the form needs */
+    size_t numbers; /* minimum count of arguments */
 } modifiers[] = {{"spotlight", NO_FORM, 0},    {"prism1", NO_SURFACE, 0},    {"prism2", NO_SURFACE, 0},
                  {"plastic2", COAT, 4},        {"metal2", METAL, 4},         {"trans2", SHEET, 8},
                  {"ashik2", TWO_COLOURS, 8},   {"plasfunc", COAT, 4},        {"metfunc", METAL, 4},
@@ -220,8 +219,8 @@ static aur_result fail_diffuse(const aur_rad *self, const aur_rad_primitive *ite
                         "the diffuse part of '%.*s' is not known", (int)item->type.length, item->type.text);
 }
 
-/* BSDF: thickness FILE ..., or aBSDF: FILE ...; and, of BSDF, added diffuse R G B of the front, of the back
- * and through. */
+/* BSDF: thickness FILE ..., or aBSDF: FILE ...; BSDF may add diffuse R G B of the front, of the back and
+ * transmitted. */
 static aur_result add_matrix(aur_rad *self, const aur_rad_primitive *item, aur_rad_material *material) {
     const size_t at = item->type.text[0] == 'a' ? 0 : 1;
     double thickness = 0.0, reflected[3], through[3];
@@ -243,7 +242,7 @@ static aur_result add_matrix(aur_rad *self, const aur_rad_primitive *item, aur_r
         const double back = item->number_count >= 6 ? x[3 + i] : 0.0;
         reflected[i] = means.reflected + (item->number_count >= 3 ? 0.5 * (x[i] + back) : 0.0);
         through[i] = means.through + (item->number_count >= 9 ? x[6 + i] : 0.0);
-        /* Rounded values of a lossless sheet may add up to a little more than 1. */
+        /* Rounded values of a lossless sheet may sum to slightly more than 1. */
         const double sum = reflected[i] + through[i], less = sum > 1.0 ? 1.0 / sum : 1.0;
         reflected[i] *= less;
         through[i] *= less;

@@ -1,5 +1,5 @@
-/* genprism MATERIAL NAME (N X1 Y1 ... | FILE) [-l X Y Z] [-r RADIUS] [-c] [-e]: an outline moved along a
- * vector, with rounded edges where there is a radius. */
+/* genprism MATERIAL NAME (N X1 Y1 ... | FILE) [-l X Y Z] [-r RADIUS] [-c] [-e]: an outline extruded along a
+ * vector, optionally with rounded edges. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,8 +11,8 @@ typedef struct prism {
     size_t count;
     double corners[MOST_CORNERS][2], way[3], radius;
     bool complete, open;
-    /* Where edges are rounded: the side that ends at a corner goes against `side`, `turn` is the tangent of
-     * half of the angle between the two sides there, and `rises` is 1 or -1 as `way` goes up or down. */
+    /* For rounded edges: `side` is the reverse direction of the edge that ends at a corner, `turn` the
+     * tangent of half the angle between the two edges there, and `rises` 1 or -1 for the sign of `way`. */
     double side[MOST_CORNERS][2], turn[MOST_CORNERS], rises;
 } prism;
 
@@ -99,7 +99,7 @@ static aur_result add_sides(const aur_rad_generator *self, const prism *made) {
     return result;
 }
 
-/* --- rounded: genprism.c of Radiance */
+/* --- rounded edges, as Radiance's genprism.c */
 
 static aur_result measure_turns(const aur_rad_generator *self, prism *made) {
     const size_t n = made->count, line = self->words[0].line;
@@ -127,8 +127,7 @@ static aur_result measure_turns(const aur_rad_generator *self, prism *made) {
     return AUR_OK;
 }
 
-/* The middle of the ball in corner i, or where the rounded end begins, at a height of the outline's plane or
- * of the other end. */
+/* The centre of the sphere at corner i, or of the start of the rounded end, at the base or top height. */
 static void find_middle(const prism *made, size_t i, bool top, double lifted, double point[3]) {
     const double *const u = made->side[i], a = made->turn[i], r = made->radius;
     const double *const l = made->way;

@@ -1,11 +1,11 @@
-/* genrev MATERIAL NAME 'Z(T)' 'R(T)' N [-s]: the surface of revolution about z of a curve, in N pieces. */
+/* genrev MATERIAL NAME 'Z(T)' 'R(T)' N [-s]: the surface of revolution of a curve about z, in N segments. */
 #include <math.h>
 
 #include "render/scene/importers/rad/rad_reader.h"
 
 enum { MOST_PIECES = 100000 };
 
-/* One piece between two heights and radii, which looks away from the axis where the curve rises. */
+/* A segment between two heights and radii, facing away from the axis where the curve rises. */
 static aur_result add_piece(const aur_rad_generator *self, const double z[2], const double r[2]) {
     const double rise = z[1] - z[0], spread = r[1] - r[0], least = 1e-6;
     const bool flat = fabs(rise) <= least, upright = fabs(spread) <= least;
@@ -31,7 +31,7 @@ aur_result aur_rad_generate_revolution(aur_rad_generator *self) {
     if (result == AUR_OK && !(pieces >= 0.5 && pieces < MOST_PIECES))
         result = aur_rad_fail(rad, line, AUR_ERROR_FORMAT,
                               "genrev: the number of pieces must be from 1 to %d", (int)MOST_PIECES);
-    /* -s turns normals only: pieces are cones, as Radiance's, and stay so. */
+    /* -s only smooths normals: segments remain cones, as in Radiance. */
     for (self->at = 6; self->at < self->count && result == AUR_OK; ++self->at)
         if (!aur_rad_is_word(self->words[self->at], "-s"))
             return aur_rad_generator_fail(self);

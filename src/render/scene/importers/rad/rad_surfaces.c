@@ -1,5 +1,5 @@
-/* What surfaces become. Coordinates are placed before they become nodes, so that a file that xform moves is
- * the same to the bit as one whose coordinates were moved. */
+/* Conversion of surfaces. Coordinates are transformed before they are stored in nodes: a file moved by xform
+ * is bit-identical to one with transformed coordinates. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -27,7 +27,7 @@ static void refer(aur_nodes *nodes, aur_xml_node *shape, aur_xml_node *medium, c
     aur_node_set(nodes, ref, "name", "%s", name);
 }
 
-/* Adds what a surface is made of. */
+/* Adds the surface's material. */
 static aur_result finish(aur_rad *self, aur_xml_node *shape, const aur_rad_material *material) {
     aur_nodes *const nodes = self->nodes;
     if (material->sky != NULL)
@@ -59,7 +59,7 @@ static aur_result add_polygon(aur_rad *self, const aur_rad_primitive *item, aur_
                             "polygon: %zu numbers are not corners of three coordinates", item->number_count);
     for (size_t i = 0; i < count; ++i)
         place(self, x + 3 * i);
-    /* A mirror image faces the same way as what it mirrors. */
+    /* Mirroring a surface preserves which side faces outward. */
     const bool mirrored = aur_rad_pose_mirrors(&self->pose);
     for (size_t i = 0; i < count / 2 && mirrored != self->pose.inverts; ++i)
         for (size_t k = 0; k < 3; ++k) {
@@ -76,7 +76,7 @@ static aur_result add_round(aur_rad *self, const aur_rad_primitive *item, aur_ra
     double *const x = item->numbers;
     const bool sphere = item->number_count == 4;
     const bool inwards = item->type.text[0] == 'b' || item->type.text[0] == 't';
-    /* A negative radius turns the surface, too. */
+    /* A negative radius reverses the orientation. */
     const double radius = self->pose.scale * x[sphere ? 3 : 6];
     const bool flips = (inwards != (radius < 0.0)) != self->pose.inverts;
     aur_nodes *const nodes = self->nodes;
@@ -142,7 +142,7 @@ static bool ends_with(aur_rad_word word, const char *ending) {
     return word.length > length && strncmp(word.text + word.length - length, ending, length) == 0;
 }
 
-/* The file that a mesh or an instance names, and its poses from the options of xform that follow. */
+/* The file named by a mesh or an instance, and its poses from the xform options that follow. */
 static aur_result read_file_and_poses(aur_rad *self, const aur_rad_primitive *item, const char *compiled,
                                       const char *source, aur_rad_word *file) {
     *file = item->string_count > 0 ? item->strings[0] : (aur_rad_word){"", 0, item->type.line};
@@ -204,12 +204,12 @@ static aur_result add_instance(aur_rad *self, const aur_rad_primitive *item, aur
 typedef struct sky_form {
     const char *model;
     double gradation[2], indicatrix[3];
-    double scale;  /* of all */
+    double scale;  /* common factor */
     double ground; /* brightness below the horizon */
     const double *sun;
 } sky_form;
 
-/* False where it is none of those that the emitter has: an intermediate sky. */
+/* False for an intermediate sky, which the emitter cannot represent. */
 static bool read_form(const aur_rad_sky *sky, sky_form *form) {
     const double *const x = sky->numbers;
     *form = (sky_form){.model = "cie", .scale = x[0], .ground = x[1], .sun = x + 7};
@@ -232,7 +232,7 @@ static bool read_form(const aur_rad_sky *sky, sky_form *form) {
     return x[0] >= 1.0 && x[0] <= 3.0;
 }
 
-/* The emitter has 1 + c (exp(d chi) - exp(d pi / 2)) + e cos^2 chi: a factor is between the two. */
+/* The emitter uses 1 + c (exp(d chi) - exp(d pi / 2)) + e cos^2 chi: the two differ by a factor. */
 static void add_form(aur_rad *self, aur_xml_node *sky, const sky_form *form, const double colour[3]) {
     const double *const a = form->gradation, *const c = form->indicatrix;
     double zenith = form->scale, sun[3] = {form->sun[0], form->sun[1], form->sun[2]};
@@ -250,7 +250,7 @@ static void add_form(aur_rad *self, aur_xml_node *sky, const sky_form *form, con
     aur_node_numbers(self->nodes, sky, "rgb", "zenith_radiance", 3, radiance);
 }
 
-/* The hemisphere above is a sky, and the one below, after it, its ground. */
+/* A source of the upper hemisphere is a sky; a following one of the lower hemisphere is its ground. */
 static aur_result add_sky(aur_rad *self, const aur_rad_primitive *item, const aur_rad_material *material) {
     const double *const x = item->numbers;
     aur_nodes *const nodes = self->nodes;

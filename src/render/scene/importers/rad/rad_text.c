@@ -20,7 +20,7 @@ bool aur_rad_is_word(aur_rad_word word, const char *text) {
     return strlen(text) == word.length && memcmp(word.text, text, word.length) == 0;
 }
 
-/* The word that begins at the reader's place: up to a blank or `stops`, or what stands in quotes. */
+/* The word at the reader's position: up to a blank or one of `stops`, or a quoted string. */
 static void take_word(aur_rad *self, const char *stops, aur_rad_word *word) {
     const char quote = self->at < self->end && (*self->at == '"' || *self->at == '\'') ? *self->at : '\0';
     const char *end = self->at + 1;

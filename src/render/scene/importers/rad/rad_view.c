@@ -6,12 +6,12 @@
 #include "points/base/vector3d.h"
 #include "render/scene/importers/rad/rad_reader.h"
 
-enum { SIDE = 768 }; /* the longer one of the image, in pixels */
+enum { SIDE = 768 }; /* image size along its longer side, in pixels */
 
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 typedef struct view {
-    double place[3], direction[3], up[3], across[2], clips[2];
+    double position[3], direction[3], up[3], across[2], clips[2];
 } view;
 
 static bool begins_view(aur_rad_word word) {
@@ -28,14 +28,14 @@ bool aur_rad_is_view(size_t size, const char *data) {
     return aur_rad_next_word(&self, &word) && begins_view(word);
 }
 
-/* Options that take numbers, and where these go. */
+/* Options with numeric arguments, and the fields that store them. */
 static aur_result read_option(aur_rad *self, aur_rad_word option, view *made) {
     double ignored[1];
     const struct {
         const char *name;
         size_t count;
         double *numbers;
-    } rows[] = {{"-vp", 3, made->place},     {"-vd", 3, made->direction},  {"-vu", 3, made->up},
+    } rows[] = {{"-vp", 3, made->position},  {"-vd", 3, made->direction},  {"-vu", 3, made->up},
                 {"-vh", 1, made->across},    {"-vv", 1, made->across + 1}, {"-vo", 1, made->clips},
                 {"-va", 1, made->clips + 1}, {"-vs", 1, ignored},          {"-vl", 1, ignored}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
@@ -53,7 +53,7 @@ static aur_result read_option(aur_rad *self, aur_rad_word option, view *made) {
                                   "view: a view that is shifted (%s %g) is not read", rows[i].name,
                                   ignored[0]);
     }
-    /* Other words are of rvu and its images, as -x 512. */
+    /* Other words belong to rvu and its images, such as -x 512. */
     return option.length == 4 && strncmp(option.text, "-vt", 3) == 0 && option.text[3] != 'v'
                ? aur_rad_fail(self, option.line, AUR_ERROR_UNSUPPORTED,
                               "view: only perspective views (-vtv) are read, not '%.*s'", (int)option.length,
@@ -72,7 +72,7 @@ static aur_result add_sensor(aur_rad *self, view *made) {
             return aur_rad_fail(self, self->line, AUR_ERROR_FORMAT,
                                 "view: -vh and -vv must be from 0 to 180 degrees");
     for (size_t i = 0; i < 3; ++i)
-        target[i] = made->place[i] + made->direction[i];
+        target[i] = made->position[i] + made->direction[i];
     aur_xml_node *const sensor = aur_node_object(nodes, self->parent, "sensor", "perspective");
     aur_node_property(nodes, sensor, "float", "fov", "%.17g", made->across[0]);
     aur_node_property(nodes, sensor, "string", "fov_axis", "x");
@@ -82,10 +82,10 @@ static aur_result add_sensor(aur_rad *self, view *made) {
         aur_node_property(nodes, sensor, "float", "far_clip", "%.17g", made->clips[1]);
     aur_xml_node *const to_world = aur_node_add(nodes, sensor, "transform");
     aur_node_set(nodes, to_world, "name", "to_world");
-    aur_xml_node *const look = aur_node_add(nodes, to_world, "lookat");
-    aur_node_set_numbers(nodes, look, "origin", 3, made->place);
-    aur_node_set_numbers(nodes, look, "target", 3, target);
-    aur_node_set_numbers(nodes, look, "up", 3, made->up);
+    aur_xml_node *const lookat = aur_node_add(nodes, to_world, "lookat");
+    aur_node_set_numbers(nodes, lookat, "origin", 3, made->position);
+    aur_node_set_numbers(nodes, lookat, "target", 3, target);
+    aur_node_set_numbers(nodes, lookat, "up", 3, made->up);
     aur_xml_node *const film = aur_node_object(nodes, sensor, "film", "hdrfilm");
     const double longer = fmax(width, height);
     aur_node_property(nodes, film, "integer", "width", "%d", (int)fmax(SIDE * width / longer + 0.5, 1.0));
@@ -94,7 +94,7 @@ static aur_result add_sensor(aur_rad *self, view *made) {
 }
 
 aur_result aur_rad_read_view(aur_nodes *nodes, aur_xml_node *parent, size_t size, const char *data) {
-    /* With a zero byte after it, at which numbers end. */
+    /* Adds a zero byte, which terminates numbers. */
     char *const text = malloc(size + 1);
     if (text == NULL)
         return aur_fail_memory(nodes->error);

@@ -45,7 +45,7 @@ aur_rad_pose aur_rad_pose_multiply(const aur_rad_pose *outer, const aur_rad_pose
     return pose;
 }
 
-/* About an axis, by whole quarters exactly. */
+/* Rotation about an axis; multiples of 90 degrees are exact. */
 static void set_rotation(size_t axis, double degrees, double m[16]) {
     const double turn = remainder(degrees, 360.0), angle = turn * 3.14159265358979323846 / 180.0;
     const bool exact = fmod(turn, 90.0) == 0.0;
@@ -57,7 +57,7 @@ static void set_rotation(size_t axis, double degrees, double m[16]) {
     m[4 * a + b] = -sine;
 }
 
-/* The words that are being read. */
+/* The words being parsed. */
 typedef struct options {
     aur_rad *rad;
     size_t count, at;
@@ -77,8 +77,8 @@ static aur_result read_numbers(options *self, size_t count, double *numbers) {
     return AUR_OK;
 }
 
-/* One of -t, -rx ..., -mx ..., -s. *known: whether it is. */
-static aur_result read_step(options *self, aur_rad_pose *pose, bool *known) {
+/* Parses one of -t, -rx ..., -mx ..., -s. *recognised: whether it was one of these. */
+static aur_result read_step(options *self, aur_rad_pose *pose, bool *recognised) {
     const aur_rad_word word = self->words[self->at];
     const size_t axis = word.length == 3 ? (size_t)((unsigned char)word.text[2] - 'x') : 3;
     const bool moves = aur_rad_is_word(word, "-t"), scales = aur_rad_is_word(word, "-s");
@@ -86,8 +86,8 @@ static aur_result read_step(options *self, aur_rad_pose *pose, bool *known) {
     const bool mirrors = axis < 3 && strncmp(word.text, "-m", 2) == 0;
     aur_rad_pose step = aur_rad_pose_identity();
     double x[3] = {1.0};
-    *known = moves || scales || turns || mirrors;
-    if (!*known)
+    *recognised = moves || scales || turns || mirrors;
+    if (!*recognised)
         return AUR_OK;
     const aur_result result = read_numbers(self, mirrors ? 0 : moves ? 3 : 1, x);
     if (result == AUR_OK && scales && x[0] == 0.0)
@@ -104,16 +104,16 @@ static aur_result read_step(options *self, aur_rad_pose *pose, bool *known) {
     return result;
 }
 
-/* Puts each pose into `step` applied `first` to `first + count - 1` times. */
+/* Composes each pose with `first` to `first + count - 1` applications of `step`. */
 static aur_result repeat(options *self, const aur_rad_pose *step, size_t first, size_t count) {
     aur_rad *const rad = self->rad;
-    const size_t known = rad->pose_count;
-    if (known > MOST_POSES / count)
+    const size_t existing = rad->pose_count;
+    if (existing > MOST_POSES / count)
         return aur_rad_fail(rad, self->words[0].line, AUR_ERROR_FORMAT,
                             "xform: arrays of more than %d objects", (int)MOST_POSES);
-    if (!aur_array_reserve(&rad->poses, &rad->pose_capacity, known * count, sizeof *rad->poses))
+    if (!aur_array_reserve(&rad->poses, &rad->pose_capacity, existing * count, sizeof *rad->poses))
         return aur_fail_memory(rad->error);
-    for (size_t k = known; k-- > 0;) {
+    for (size_t k = existing; k-- > 0;) {
         aur_rad_pose pose = rad->poses[k];
         for (size_t i = 0; i < first; ++i)
             pose = aur_rad_pose_multiply(step, &pose);
@@ -122,11 +122,11 @@ static aur_result repeat(options *self, const aur_rad_pose *step, size_t first, 
             pose = aur_rad_pose_multiply(step, &pose);
         }
     }
-    rad->pose_count = known * count;
+    rad->pose_count = existing * count;
     return AUR_OK;
 }
 
-/* -a N and -i N: what follows is repeated. */
+/* -a N and -i N: the following transform is repeated. */
 static aur_result read_repetition(options *self, size_t *count) {
     const aur_rad_word option = self->words[self->at];
     double number = 0.0;
@@ -139,19 +139,19 @@ static aur_result read_repetition(options *self, size_t *count) {
     return result;
 }
 
-/* Options without transforms. */
-static aur_result read_other(options *self, aur_rad_pose *pose, bool *known) {
+/* Options that do not transform. */
+static aur_result read_other(options *self, aur_rad_pose *pose, bool *recognised) {
     const aur_rad_word word = self->words[self->at];
     const bool names = aur_rad_is_word(word, "-n"), material = aur_rad_is_word(word, "-m");
     const bool inverts = aur_rad_is_word(word, "-I");
-    *known = names || material || inverts || aur_rad_is_word(word, "-e") || aur_rad_is_word(word, "-c");
+    *recognised = names || material || inverts || aur_rad_is_word(word, "-e") || aur_rad_is_word(word, "-c");
     if ((names || material) && ++self->at == self->count)
         return aur_rad_fail(self->rad, word.line, AUR_ERROR_FORMAT, "xform: a name expected after '%.*s'",
                             (int)word.length, word.text);
     if (material)
         pose->modifier = self->words[self->at];
     pose->inverts = pose->inverts != inverts;
-    self->at += *known;
+    self->at += *recognised;
     return AUR_OK;
 }
 
@@ -160,8 +160,8 @@ aur_result aur_rad_chain_xform(aur_rad *self, size_t count, const aur_rad_word *
     aur_rad_pose step = aur_rad_pose_identity();
     size_t first = 1, repetitions = 1;
     aur_result result = AUR_OK;
-    bool known = true;
-    while (result == AUR_OK && known && reading.at < count) {
+    bool recognised = true;
+    while (result == AUR_OK && recognised && reading.at < count) {
         const aur_rad_word word = words[reading.at];
         const bool array = aur_rad_is_word(word, "-a"), iterates = aur_rad_is_word(word, "-i");
         if (array || iterates) {
@@ -176,9 +176,9 @@ aur_result aur_rad_chain_xform(aur_rad *self, size_t count, const aur_rad_word *
                 result = aur_rad_fail(self, word.line, AUR_ERROR_FORMAT, "xform: -a 0 makes nothing");
             continue;
         }
-        result = read_step(&reading, &step, &known);
-        if (result == AUR_OK && !known)
-            result = read_other(&reading, &step, &known);
+        result = read_step(&reading, &step, &recognised);
+        if (result == AUR_OK && !recognised)
+            result = read_other(&reading, &step, &recognised);
     }
     *used = reading.at;
     return result == AUR_OK ? repeat(&reading, &step, first, repetitions) : result;

@@ -1,4 +1,4 @@
-/* Where the files are that a scene names, and what to say when they are not there. */
+/* Search for the files that a scene references, and messages for missing ones. */
 #if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* realpath */
 #endif
@@ -18,15 +18,14 @@ typedef struct folder {
     const char *path;
 } folder;
 
-/* The folder of a file: its path up to the last slash, which is included. */
+/* The folder of a file: its path up to and including the last slash. */
 static folder folder_of(const char *file) {
     const char *const slash = strrchr(file, '/');
     return (folder){slash != NULL ? (size_t)(slash - file) + 1 : 0, file};
 }
 
-/* Folder `index` of those where a name is looked for: beside the file that has the name, beside the scene,
- * those of <path>, and at last, as Mitsuba does, where the user is, for files named by -D. False after the
- * last. */
+/* Folder `index` of the search path: the folder of the referencing file, that of the scene, those of <path>,
+ * and last, as in Mitsuba, the working folder, for files named by -D. False after the last. */
 static bool folder_at(const aur_xml_document *document, const char *file, size_t index, folder *at) {
     *at = (folder){0, ""};
     if (index == 0)
@@ -38,7 +37,7 @@ static bool folder_at(const aur_xml_document *document, const char *file, size_t
     return index <= document->folder_count + 2;
 }
 
-/* The path of a name in a folder, or NULL when that is no file or memory is out. */
+/* The path of a name in a folder; NULL if it is not a file or memory is out. */
 static char *join(folder in, const char *name) {
     const size_t size = in.length + strlen(name) + 2;
     char *const path = malloc(size);
@@ -53,12 +52,13 @@ static char *join(folder in, const char *name) {
     return NULL;
 }
 
-/* A folder for files that are made when they are first needed holds a text HOW-TO-MAKE whose first line is
- * the command that makes them. Finds the one beside `name` in a folder where it was looked for. */
+/* A folder for files that are generated on demand contains a text HOW-TO-MAKE whose first line is the
+ * command. Finds the one next to `name` in a searched folder. */
 static bool read_command(folder in, const char *name, char *command, size_t capacity) {
-    char beside[AUR_ERROR_FILE_CAPACITY];
-    const int written = snprintf(beside, sizeof beside, "%.*sHOW-TO-MAKE", (int)folder_of(name).length, name);
-    char *const path = written < (int)sizeof beside ? join(in, beside) : NULL;
+    char name_there[AUR_ERROR_FILE_CAPACITY];
+    const int written =
+        snprintf(name_there, sizeof name_there, "%.*sHOW-TO-MAKE", (int)folder_of(name).length, name);
+    char *const path = written < (int)sizeof name_there ? join(in, name_there) : NULL;
     char *text = NULL;
     size_t size = 0, end = 0;
     if (path != NULL && aur_file_read(path, 1 << 16, &text, &size, NULL) == AUR_OK) {
@@ -72,12 +72,12 @@ static bool read_command(folder in, const char *name, char *command, size_t capa
     return end > 0;
 }
 
-/* Radiance looks where the user is: models name `model/bsdf/a.xml` from the folder of the project. */
-static bool looks_above(const aur_xml_document *document, const char *name) {
+/* Radiance searches the working folder: models refer to `model/bsdf/a.xml` from the project's folder. */
+static bool searches_above(const aur_xml_document *document, const char *name) {
     return document->from_radiance && name[0] != '/' && strchr(name, '/') != NULL;
 }
 
-/* The path of a name in the folders above a file's own. */
+/* The path of a name in the folders above that of a file. */
 static char *join_above(const char *file, const char *name) {
     enum { MOST_LEVELS = 8 };
     const folder in = folder_of(file);
@@ -107,7 +107,7 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
         if (i == 0)
             first = in;
         if (i > 0 && in.length == first.length && strncmp(in.path, first.path, in.length) == 0)
-            continue; /* the main file is here, or names the file itself: one folder, not two */
+            continue; /* the main file is in this folder, or is the referencing file: count the folder once */
         if (used < sizeof places)
             used += (size_t)snprintf(places + used, sizeof places - used, "%s%.*s", i > 0 ? ", " : "",
                                      (int)in.length, in.path);
@@ -119,10 +119,10 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
                            "cannot find '%s'; it is made by the command: %s (looked in %s)", name, command,
                            places);
     return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s%s", name, places,
-                       looks_above(document, name) ? " and the folders above" : "");
+                       searches_above(document, name) ? " and the folders above" : "");
 }
 
-/* Scenes from Windows have the other slash. */
+/* Windows paths use backslashes. */
 static aur_result find_with_slashes(const aur_xml_document *document, aur_location location, const char *name,
                                     char **found, aur_error *error) {
     char *const slashes = strdup(name);
@@ -144,7 +144,7 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
     *found = name[0] == '/' ? join((folder){0, ""}, name) : NULL;
     for (size_t i = 0; name[0] != '/' && *found == NULL && folder_at(document, location.file, i, &in); ++i)
         *found = join(in, name);
-    if (*found == NULL && looks_above(document, name))
+    if (*found == NULL && searches_above(document, name))
         *found = join_above(location.file, name);
     if (*found == NULL && strchr(name, '\\') != NULL)
         return find_with_slashes(document, location, name, found, error);
@@ -162,7 +162,7 @@ aur_result aur_xml_confine(aur_xml_document *document, const char *path, aur_err
                        "the scene's folder is not there");
 }
 
-/* Whether the file at the end of all links lies in the folder that the scene is confined to. */
+/* Whether the file, with links resolved, lies in the folder that the scene is confined to. */
 static bool is_allowed(const aur_xml_document *document, const char *path) {
     if (document->confines == NULL)
         return true;
@@ -177,13 +177,13 @@ static bool is_allowed(const aur_xml_document *document, const char *path) {
 
 aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
                              aur_error *error) {
-    const char *const own_name = aur_arena_copy(&document->tree.arena, name, strlen(name));
-    const char *const own_path = aur_arena_copy(&document->tree.arena, path, strlen(path));
-    if (own_name == NULL || own_path == NULL ||
+    const char *const name_copy = aur_arena_copy(&document->tree.arena, name, strlen(name));
+    const char *const path_copy = aur_arena_copy(&document->tree.arena, path, strlen(path));
+    if (name_copy == NULL || path_copy == NULL ||
         !aur_array_reserve(&document->files, &document->file_capacity, document->file_count + 1,
                            sizeof *document->files))
         return aur_fail_memory(error);
-    document->files[document->file_count++] = (aur_xml_file){.name = own_name, .path = own_path};
+    document->files[document->file_count++] = (aur_xml_file){.name = name_copy, .path = path_copy};
     return AUR_OK;
 }
 

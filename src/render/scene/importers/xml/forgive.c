@@ -1,5 +1,4 @@
-/* Names of files as strangers write them: by systems that do not tell letter case apart, or as paths of the
- * machine where the model was made. */
+/* Tolerant matching of file names: from systems that ignore letter case, or with paths of another machine. */
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,8 +11,8 @@
 
 enum { CAPACITY = 4096 };
 
-/* The first name in a folder, in the order of bytes, that differs from the `length` bytes of `name` in letter
- * case at most; false where there is none. */
+/* The first name in a folder, in byte order, that equals the `length` bytes of `name` up to letter case;
+ * false if there is none. */
 static bool find_in_folder(const char *folder, const char *name, size_t length, char found[CAPACITY]) {
     DIR *const entries = opendir(folder[0] != '\0' ? folder : ".");
     found[0] = '\0';
@@ -28,8 +27,8 @@ static bool find_in_folder(const char *folder, const char *name, size_t length, 
     return found[0] != '\0';
 }
 
-/* Looks for each part of a relative name in the folder that the parts before it lead to, below the first
- * `folder` bytes of `path`. The rest of `path` becomes the name that is there. */
+/* Matches each component of a relative name in the folder of the previous components, after the first
+ * `folder` bytes of `path`. The rest of `path` is replaced by the name found. */
 static bool find_parts(const char *name, size_t folder, char path[CAPACITY]) {
     for (size_t used = folder;;) {
         const size_t length = strcspn(name, "/");

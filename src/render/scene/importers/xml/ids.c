@@ -33,12 +33,12 @@ static aur_result sort_ids(const aur_xml_document *document, aur_error *error) {
     return AUR_OK;
 }
 
-/* The id that an alias is another name of, or NULL. */
+/* The id that an alias refers to, or NULL. */
 static aur_xml_id *next_id(const aur_xml_document *document, const aur_xml_id *alias) {
     return aur_xml_find_id(document, aur_xml_attribute_value(alias->node, "id"));
 }
 
-/* Every alias on the way to an object is given that object, so that a chain of aliases is walked once. */
+/* Stores the object in every alias on the way, so that a chain of aliases is resolved once. */
 static aur_result resolve_aliases(const aur_xml_document *document, aur_error *error) {
     for (size_t i = 0; i < document->tree.id_count; ++i) {
         aur_xml_id *const first = &document->tree.ids[i];

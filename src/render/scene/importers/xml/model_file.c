@@ -17,8 +17,8 @@ bool aur_xml_is_z_up(const aur_xml_document *document, const aur_scene_stage *st
                                           : stage->up == AUR_SCENE_UP_Z;
 }
 
-/* Files beside a model are found, noted and confined as all that a scene names, but their names are forgiven.
- */
+/* Files next to a model are resolved, recorded and confined like all files of a scene, with tolerant matching
+ * of names. */
 static aur_result find_part(void *state, const char *name, char **used, char **path, aur_error *error) {
     const model_reading *const self = state;
     const aur_location location = {.file = self->path};

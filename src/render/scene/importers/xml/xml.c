@@ -13,12 +13,12 @@
 #include "render/scene/importers/nodes/node.h"
 #include "render/scene/importers/rad/rad.h"
 
-/* A few kilobytes of includes that double each other must not become an endless scene, so that files and
- * their bytes have a limit. */
+/* Limits files and their bytes: a few kilobytes of includes that double each other must not make an endless
+ * scene. */
 enum { DEEPEST_INCLUDE = 15, DEEPEST_ELEMENT = 100, MOST_FILES = 10000 };
 #define LARGEST_SCENE ((size_t)1 << 30)
 
-/* What all files of a scene share. */
+/* State shared by all files of a scene. */
 typedef struct reading {
     aur_xml_document *document;
     aur_xml_variables variables;
@@ -28,19 +28,19 @@ typedef struct reading {
     aur_error *error;
 } reading;
 
-/* One file being parsed. */
+/* A file being parsed. */
 typedef struct file_reading {
     reading *shared;
-    XML_Parser expat; /* NULL: the file is no XML */
+    XML_Parser expat; /* NULL: not XML */
     const char *file;
-    bool from_rad; /* one of Radiance's, or included by one */
+    bool from_rad; /* a Radiance file, or included by one */
     size_t include_depth;
     bool legacy; /* version < 2 */
     aur_result result;
-    /* What an included file's elements are put into; NULL: this is the scene's own file. */
+    /* The parent of an included file's elements; NULL: this is the scene's main file. */
     aur_xml_node *target;
     size_t depth;                            /* open elements */
-    aur_xml_node *open[DEEPEST_ELEMENT + 1]; /* NULL for elements that leave no node */
+    aur_xml_node *open[DEEPEST_ELEMENT + 1]; /* NULL for elements without a node */
 } file_reading;
 
 static aur_result read_file(reading *shared, const char *path, const file_reading *from,
@@ -99,7 +99,7 @@ static aur_result add_id(reading *shared, const char *id, aur_xml_node *node) {
     return aur_xml_tree_add_id(&shared->document->tree, id, node) ? AUR_OK : aur_fail_memory(shared->error);
 }
 
-/* --- elements that leave no node */
+/* --- elements without a node */
 
 static aur_result do_default(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
     (void)parent;
@@ -145,7 +145,7 @@ static aur_result do_path(file_reading *reader, aur_xml_node *node, aur_xml_node
     return AUR_OK;
 }
 
-/* <alias id="known" as="other">: the node is found when all ids are there. */
+/* <alias id="target" as="other">: resolved after all ids have been read. */
 static aur_result do_alias(file_reading *reader, aur_xml_node *node, aur_xml_node *parent) {
     (void)parent;
     return add_id(reader->shared, aur_xml_attribute_value(node, "as"), node);
@@ -258,14 +258,14 @@ static void XMLCALL on_text(void *user, const XML_Char *text, int length) {
                                     "text between elements: '%.*s'", length > 40 ? 40 : length, text));
 }
 
-/* Encodings that expat does not have: ASCII, and those of Windows and Latin as ISO 8859-1, from which they
- * differ in letters of comments at most. */
+/* Encodings that expat lacks: ASCII, and Windows and Latin code pages, read as ISO 8859-1. They differ only
+ * in letters, which occur in comments. */
 static int XMLCALL on_encoding(void *user, const XML_Char *name, XML_Encoding *encoding) {
-    static const char *const known[] = {"ascii",        "ansi",   "latin1",     "latin-1",
+    static const char *const latin[] = {"ascii",        "ansi",   "latin1",     "latin-1",
                                         "windows-1252", "cp1252", "iso-8859-15"};
     (void)user;
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
-        if (strcasecmp(name, known[i]) != 0)
+    for (size_t i = 0; i < sizeof latin / sizeof latin[0]; ++i) {
+        if (strcasecmp(name, latin[i]) != 0)
             continue;
         memset(encoding, 0, sizeof *encoding);
         for (int k = 0; k < 256; ++k)
@@ -291,7 +291,7 @@ static aur_result parse(file_reading *reader, const char *data, size_t size) {
     return AUR_OK;
 }
 
-/* Where elements of a file that is no XML go: into the element that includes it, or a root of their own. */
+/* The parent for elements of a file that is not XML: the including element, or a new root. */
 static aur_nodes begin_nodes(file_reading *reader, size_t line) {
     reading *const shared = reader->shared;
     aur_nodes nodes = {.tree = &shared->document->tree,
@@ -303,7 +303,7 @@ static aur_nodes begin_nodes(file_reading *reader, size_t line) {
     return nodes;
 }
 
-/* One of Radiance's files: what it includes is read before its next line, which may use its materials. */
+/* A Radiance file: included files are read before the next line, which may use their materials. */
 static aur_result read_rad(file_reading *reader, const char *data, size_t size) {
     reading *const shared = reader->shared;
     aur_nodes nodes = begin_nodes(reader, 1);
@@ -323,7 +323,7 @@ static aur_result read_rad(file_reading *reader, const char *data, size_t size) 
     return result;
 }
 
-/* A camera of Radiance's, whose scene has +z up. */
+/* A Radiance camera, which makes +z the scene's up axis. */
 static aur_result read_view(file_reading *reader, const char *data, size_t size) {
     aur_nodes nodes = begin_nodes(reader, 1);
     reader->shared->document->from_radiance = true;
@@ -338,7 +338,7 @@ static aur_result read_model(file_reading *reader, const char *data, size_t size
                                                        included, size, data, &nodes, reader->target);
 }
 
-/* XML begins with '<', after white space and a byte order mark; of UTF-16 that mark is enough. */
+/* XML begins with '<', after white space and a byte order mark; a UTF-16 mark suffices. */
 static bool begins_as_xml(size_t size, const char *data) {
     static const char *const marks[] = {"\xef\xbb\xbf", "\xfe\xff", "\xff\xfe"};
     size_t at = 0;
@@ -369,7 +369,7 @@ static aur_result read_xml(file_reading *reader, const char *data, size_t size) 
     XML_SetElementHandler(reader->expat, on_start, on_end);
     XML_SetCharacterDataHandler(reader->expat, on_text);
     XML_SetUnknownEncodingHandler(reader->expat, on_encoding, NULL);
-    /* Other readers allow lines before the declaration. */
+    /* Other readers allow lines before the XML declaration. */
     while (size > 0 && isspace((unsigned char)*data)) {
         ++data;
         --size;
@@ -379,7 +379,7 @@ static aur_result read_xml(file_reading *reader, const char *data, size_t size) 
     return result;
 }
 
-/* The scene's own files may be text in memory, and so are hashed at once. */
+/* The main file may be text in memory, so it is hashed at once. */
 static aur_result note_scene(reading *shared, const char *path, size_t size, const char *data) {
     aur_xml_document *const document = shared->document;
     const char *const slash = strrchr(path, '/');
@@ -393,8 +393,8 @@ static aur_result note_scene(reading *shared, const char *path, size_t size, con
     return result;
 }
 
-/* `from` is the file that includes this one; NULL: this is the scene; one that shares nothing: this is a
- * further file of the scene. */
+/* `from` is the including file. NULL: this is the main file. If it shares no state: this is a further file of
+ * the scene. */
 static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
                             const file_reading *from, aur_xml_node *target) {
     file_reading reader = {.shared = shared,
@@ -405,7 +405,7 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
                            .target = target};
     if (reader.file == NULL)
         return aur_fail_memory(shared->error);
-    if (from == NULL || from->shared == NULL) { /* no other file names it */
+    if (from == NULL || from->shared == NULL) { /* no file includes it */
         const aur_result result = note_scene(shared, path, size, data);
         if (result != AUR_OK)
             return result;
@@ -434,7 +434,7 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
     return result;
 }
 
-/* Moves what a file has added to the scene: the children of <scene> behind `last`. */
+/* Moves the children of <scene> after `last` into the scene. */
 static void place(reading *shared, size_t file, const aur_xml_node *last) {
     const aur_scene_stage *const stage = &shared->options->stage;
     aur_xml_tree *const tree = &shared->document->tree;
@@ -445,7 +445,7 @@ static void place(reading *shared, size_t file, const aur_xml_node *last) {
                             &stage->placements[i], aur_xml_is_z_up(shared->document, stage));
 }
 
-/* A file more, as if the scene's own, `path`, included it at its end. */
+/* Reads an additional file, as if the main file, `path`, included it at its end. */
 static aur_result read_further(reading *shared, const char *path, size_t index) {
     const file_reading from = {.file = path};
     const aur_xml_node *const last = shared->document->tree.root->last_child;
@@ -456,7 +456,7 @@ static aur_result read_further(reading *shared, const char *path, size_t index) 
     return result;
 }
 
-/* The sky and the lamps of the options. */
+/* The sky and luminaires of the options. */
 static aur_result add_lights(reading *shared, const char *path) {
     const aur_scene_options *const options = shared->options;
     const bool z_up = shared->document->from_radiance;
@@ -467,11 +467,11 @@ static aur_result add_lights(reading *shared, const char *path) {
         .error = shared->error};
     aur_result result = options->sky.model != NULL ? aur_nodes_add_sky(&nodes, &options->sky, z_up) : AUR_OK;
     for (size_t i = 0; i < options->lamp_count && result == AUR_OK; ++i)
-        result = aur_nodes_add_lamp(&nodes, &options->lamps[i], z_up);
+        result = aur_nodes_add_luminaire(&nodes, &options->lamps[i], z_up);
     return result;
 }
 
-/* For files that Radiance's scenes name beside those that they include. */
+/* For files that Radiance scenes reference other than by inclusion. */
 static aur_result find_file(void *context, aur_location location, const char *name, char **path,
                             aur_error *error) {
     return aur_xml_find_asset(context, location, name, path, error);
