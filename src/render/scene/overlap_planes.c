@@ -8,15 +8,16 @@
 #include "points/base/vector3d.h"
 
 /* A ball around a plane's normal and offset, in parts of the reach of all triangles, is put into each cell
- * that it meets; planes that are the same within rounding have a cell in common. */
-enum { CELLS = 512, CELL_BITS = 12, EXPONENTS = 257, ZERO_EXPONENT = 127 };
+ * that it meets; planes that are the same within rounding have a cell in common. A unit has so many cells:
+ * more where balls are small, so that fewer planes that are not the same share one. */
+enum { FEWEST_CELLS = 512, MOST_CELLS = 2048, CELL_BITS = 14, EXPONENTS = 257, ZERO_EXPONENT = 127 };
 
-/* Triangles are like each other if no extent is above a power of two and no altitude below this part of it,
- * so that balls are no wider than a cell. */
-enum { LIKE_BITS = 7 };
+/* Triangles are like each other if no extent is above a power of two and no altitude below a part of it,
+ * which is 2^-FINE_BITS, or 2^-LIKE_BITS where more are then alike: balls are no wider than a cell. */
+enum { FINE_BITS = 3, LIKE_BITS = 7 };
 
 /* Fewer triangles are all looked at. So many tell what most are like. */
-enum { FEW = 64, SAMPLES = 256 };
+enum { FEW = 64, SAMPLES = 1024 };
 
 /* Triangles of other sizes are UNLIKE, so that products of four sides are floats. */
 enum { LEAST_EXPONENT = ZERO_EXPONENT - 28, MOST_EXPONENT = ZERO_EXPONENT + 28 };
@@ -41,6 +42,7 @@ typedef struct planes {
     float reach;       /* of triangles that are like each other: the largest `away`, */
     float most, least; /* the largest extent and the least altitude */
     float slack;       /* in parts of the reach */
+    float cells;       /* of a unit */
     uint8_t *marks;
     uint64_t *table;
     size_t table_size, filled;
@@ -101,11 +103,30 @@ static uint32_t exponent_of(float x) {
     return (bits >> 23 & 0xff) + ((bits & 0x7fffff) != 0);
 }
 
+/* How many triangles have each exponent. */
+typedef struct sizes {
+    size_t count, extents[EXPONENTS], altitudes[EXPONENTS];
+} sizes;
+
+/* The least number of triangles that are unlike the others with so many bits, and the largest extent of the
+ * others. */
+static size_t least_unlike(const sizes *all, int bits, float *most) {
+    size_t above = all->count, below = 0, least = SIZE_MAX;
+    for (int k = 0; k <= MOST_EXPONENT; ++k) {
+        above -= all->extents[k];
+        below += k >= bits ? all->altitudes[k - bits] : 0;
+        if (k >= LEAST_EXPONENT + LIKE_BITS && above + below < least) {
+            least = above + below;
+            *most = ldexpf(1.0F, k - ZERO_EXPONENT);
+        }
+    }
+    return least;
+}
+
 /* What most of the triangles are like, by some of them. False: they cannot be told apart. */
 static bool choose_sizes(planes *p) {
     const size_t count = p->triangles->count;
-    size_t extents[EXPONENTS] = {0}, altitudes[EXPONENTS] = {0};
-    size_t above = 0, below = 0, least = SIZE_MAX;
+    sizes all = {0};
     float away = 0.0F;
     block b;
     for (size_t i = 0; i < SAMPLES; ++i) {
@@ -117,28 +138,27 @@ static bool choose_sizes(planes *p) {
             away = larger_of(away, b.away[k]);
             if (!(b.altitude[k] > 0.0F))
                 continue;
-            ++extents[exponent_of(b.extent[k])];
-            ++altitudes[exponent_of(b.altitude[k])];
-            ++above;
+            ++all.extents[exponent_of(b.extent[k])];
+            ++all.altitudes[exponent_of(b.altitude[k])];
+            ++all.count;
         }
     }
-    for (int k = 0; k <= MOST_EXPONENT; ++k) {
-        above -= extents[k];
-        below += k >= LIKE_BITS ? altitudes[k - LIKE_BITS] : 0;
-        if (k >= LEAST_EXPONENT + LIKE_BITS && above + below < least) {
-            least = above + below;
-            p->most = ldexpf(1.0F, k - ZERO_EXPONENT);
-        }
-    }
-    p->least = ldexpf(p->most, -LIKE_BITS);
+    const size_t least = least_unlike(&all, LIKE_BITS, &p->most);
+    int bits = FINE_BITS;
+    while (least_unlike(&all, bits, &p->most) > least)
+        ++bits;
+    p->least = ldexpf(p->most, -bits);
     p->reach = 2.0F * away;
     const double largest =
                      (double)p->reach + fmax(fabs(p->start[0]), fmax(fabs(p->start[1]), fabs(p->start[2]))),
                  slack = aur_overlap_slack((double)p->most, largest);
     p->slack = (float)(slack / (double)p->reach);
+    const double width = 2.0 * (1.25 * aur_overlap_tilt(slack, (double)p->least) + 2e-6 + (double)p->slack);
+    /* Few balls should meet several cells. */
+    for (p->cells = FEWEST_CELLS; p->cells < MOST_CELLS && 2.0 * width * (double)p->cells < 0.25;)
+        p->cells *= 2.0F;
     /* Far from the origin, where coordinates are too coarse, balls would have more cells than two a side. */
-    return p->reach > 0.0F && p->reach < 1e18F &&
-           2.0 * (1.25 * aur_overlap_tilt(slack, (double)p->least) + 2e-6 + (double)p->slack) * CELLS < 1.0;
+    return p->reach > 0.0F && p->reach < 1e18F && width * (double)p->cells < 1.0;
 }
 
 /* Marks the triangle and the first one in this cell. False: the table is full. */
@@ -160,19 +180,20 @@ static inline bool enter(planes *p, const uint32_t cell[2], size_t index) {
     }
 }
 
-static inline uint32_t cell_of(float x) {
+static inline uint32_t cell_of(float x, float cells) {
     const float above = larger_of(x, -1.9F), within = above < 1.9F ? above : 1.9F;
-    return (uint32_t)(int32_t)((within + 2.0F) * (float)CELLS);
+    return (uint32_t)(int32_t)((within + 2.0F) * cells);
 }
 
 /* The cells that the balls meet: two a side at most. */
 static void find_cells(const planes *p, block *b, float sign) {
+    const float cells = p->cells;
     for (size_t k = 0; k < 2; ++k) {
         const float slack = k == 1 ? p->slack : 0.0F;
         for (size_t i = 0; i < BLOCK; ++i) {
             const float x = sign * b->plane[2 * k][i], y = sign * b->plane[2 * k + 1][i], tilt = b->tilt[i];
-            b->low[k][i] = cell_of(x - tilt) << CELL_BITS | cell_of(y - tilt - slack);
-            b->high[k][i] = cell_of(x + tilt) << CELL_BITS | cell_of(y + tilt + slack);
+            b->low[k][i] = cell_of(x - tilt, cells) << CELL_BITS | cell_of(y - tilt - slack, cells);
+            b->high[k][i] = cell_of(x + tilt, cells) << CELL_BITS | cell_of(y + tilt + slack, cells);
         }
     }
 }
