@@ -1,5 +1,5 @@
-/* Lighting cases of the class of CIE 171:2006, from physics: what `aureole irradiance` makes of each, beside
- * references by two derivations. */
+/* Analytical lighting test cases in the style of CIE 171:2006: `aureole irradiance` compared with references
+ * by two derivations. */
 #include <aureole-lighting/irradiance.h>
 #include <aureole/statistics.h>
 #include <aureole/text.h>
@@ -15,12 +15,12 @@ static const char *const columns[] = {"case",        "derivations",     "points"
                                       "worst_error", "standard_errors", "outside", "verdict",
                                       NULL};
 
-/* What is asked. Numbers are parts of the case's largest value. Beside the intervals 1e-6 of it is allowed,
- * because rays are traced in single precision: a value is a product of ten or so numbers, each rounded by up
- * to 6e-8, which all randomisations share. */
+/* Tolerance: numbers are relative to the case's largest value. In addition to the intervals 1e-6 is allowed,
+ * because rays are traced in single precision: a value is a product of about ten numbers, each rounded by up
+ * to 6e-8, equally in all randomisations. */
 static const double REFERENCES = 1e-9, STANDARD_ERRORS = 5.0;
 static const double WORST[2] = {2e-3, 3e-2}, ALLOWED = 1e-6;
-/* Student's t of 99 % for 16 randomisations. */
+/* Student's t for 99 % and 16 randomisations. */
 static const double STUDENT = 2.9467;
 enum { DIRECTIONS = 1 << 16, DIRECTIONS_QUICK = 1 << 12 };
 
@@ -76,7 +76,7 @@ static void compare(const lab_case *made, const aur_irradiance *results, double 
     }
 }
 
-/* The scene as NAME.xml, and its points with both references and what was found as NAME.csv: for other
+/* Writes the scene as NAME.xml, and its points with both references and the result as NAME.csv, for other
  * programs (bench/peers/cases.py). */
 static aur_result write_case(const lab_run *run, const char *name, const lab_case *made,
                              const aur_irradiance *results, aur_error *error) {
@@ -106,8 +106,8 @@ static aur_result write_case(const lab_run *run, const char *name, const lab_cas
     return result != AUR_OK ? result : aur_file_write(path, used, text, error);
 }
 
-/* The largest number of points that chance has outside their intervals of 99 % but for one time in a
- * thousand, the binomial's tail. */
+/* The number of points outside their 99 % intervals that is exceeded with probability one in a thousand
+ * (binomial tail). */
 static size_t allowed_outside(size_t points) {
     double term = pow(0.99, (double)points), sum = term;
     size_t count = 0;

@@ -1,4 +1,4 @@
-/* The analytical cases: scenes, receivers and their two references. */
+/* The analytical cases: scenes, receivers and their two reference solutions. */
 #pragma once
 
 #include "references.h"
@@ -8,7 +8,7 @@ enum { LAB_CASE_POINTS = 32, LAB_CASE_SCENE = 6000 };
 typedef struct lab_case {
     char scene[LAB_CASE_SCENE]; /* XML, without the element <scene>; +z is up */
     size_t scene_size;
-    size_t more; /* directions from each point, as a multiple of what others take */
+    size_t more; /* multiplier of the number of directions per point */
     size_t count;
     lab_receiver receivers[LAB_CASE_POINTS];
     double closed[LAB_CASE_POINTS], smooth[LAB_CASE_POINTS]; /* irradiances by two derivations */
@@ -20,13 +20,13 @@ typedef struct lab_case_row {
     double parameter;
 } lab_case_row;
 
-/* Adds to the scene's text. */
+/* Appends to the scene's text. */
 void lab_case_put(lab_case *made, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A black, diffuse or other polygon of four corners: a patch with the XML of what it is. */
+/* A quadrilateral; the XML states its material or emission. */
 void lab_case_patch(lab_case *made, const lab_patch *patch, const char *inside);
 void lab_case_point(lab_case *made, const lab_receiver *receiver, double closed, double smooth);
 
-/* NULL beyond the table. */
+/* NULL past the end. */
 const lab_case_row *lab_case_at(size_t index);
 
 extern const lab_case_row lab_source_cases[], lab_room_cases[], lab_sky_cases[];

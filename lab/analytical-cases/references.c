@@ -64,7 +64,7 @@ double lab_patch_closed(const lab_receiver *receiver, const lab_patch *patch) {
 typedef struct patch_view {
     const lab_receiver *receiver;
     const lab_patch *patch;
-    double normal[3]; /* as long as the patch is large */
+    double normal[3]; /* its length is the patch's area */
     lab_radiance *radiance;
     const void *data;
 } patch_view;
@@ -87,7 +87,7 @@ double lab_patch_smooth(const lab_receiver *receiver, const lab_patch *patch, la
                         const void *data) {
     patch_view view = {.receiver = receiver, .patch = patch, .radiance = radiance, .data = data};
     cross(patch->a, patch->b, view.normal);
-    /* In four parts, where the receiver's foot point is near: the integrand is largest there. */
+    /* Four parts around the receiver's foot point if it is near: the integrand peaks there. */
     double way[3];
     for (size_t d = 0; d < 3; ++d)
         way[d] = receiver->position[d] - patch->corner[d];
@@ -142,10 +142,10 @@ double lab_disk_sideways_smooth(double radius, double height) {
 
 /* --- openings */
 
-/* At azimuth alpha from the opening's normal its edge at height h has the elevation whose tangent is
- * h cos(alpha) / d. The integral of sin^2 is half the integral over azimuth of sin^2 of the edge, that of
- * 2 sin^2 the third of its cube; with u = asin(h sin(alpha) / sqrt(d^2 + h^2)) the cube integrates to
- * u - d^2 tan(u) / (d^2 + h^2). */
+/* At azimuth alpha from the opening's normal, its edge at height h has an elevation with tangent h cos(alpha)
+ * / d. Uniform radiance integrates to half the azimuth integral of the edge's sin^2; radiance equal to the
+ * sine of the elevation integrates to a third of that of sin^3. With u = asin(h sin(alpha) / sqrt(d^2 + h^2))
+ * the integral of sin^3 is u - d^2 tan(u) / (d^2 + h^2). */
 static double below_edge(double distance, double w, double h) {
     const double squared = distance * distance + h * h, alpha = atan2(w, distance);
     const double shrink = distance / sqrt(squared);
@@ -186,7 +186,8 @@ double lab_opening_by_angles(double distance, const double w[2], const double h[
 
 /* --- panes */
 
-/* The reflectance of one surface, across the plane of incidence and along it. */
+/* The reflectance of one interface for both polarisations, perpendicular and parallel to the plane of
+ * incidence. */
 static void fresnel(double index, double cosine, double r[2], double *inside) {
     *inside = sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
     const double across = (cosine - index * *inside) / (cosine + index * *inside);
@@ -204,7 +205,7 @@ double lab_pane_closed(double index, double transmissivity, double cosine) {
     return sum;
 }
 
-/* Snell's angle and Fresnel's sines and tangents in place of cosines. */
+/* The same by Snell's angle and Fresnel's sines and tangents instead of cosines. */
 double lab_pane_series(double index, double transmissivity, double cosine) {
     const double angle = fmax(acos(fmin(cosine, 1.0)), 1e-6), refracted = asin(sin(angle) / index);
     const double across = sin(angle - refracted) / sin(angle + refracted);
@@ -224,7 +225,7 @@ double lab_pane_series(double index, double transmissivity, double cosine) {
 /* --- skies */
 
 lab_sky lab_sky_of(size_t type, double elevation_degrees) {
-    /* Table 1 of ISO 15469, type by type. */
+    /* Table 1 of ISO 15469, by type. */
     static const double table[15][5] = {
         {4, -.7, 0, -1, 0},       {4, -.7, 2, -1.5, .15},  {1.1, -.8, 0, -1, 0},     {1.1, -.8, 2, -1.5, .15},
         {0, -1, 0, -1, 0},        {0, -1, 2, -1.5, .15},   {0, -1, 5, -2.5, .3},     {0, -1, 10, -3, .45},
@@ -236,7 +237,7 @@ lab_sky lab_sky_of(size_t type, double elevation_degrees) {
 
 static double sky_radiance(const lab_sky *sky, const double direction[3]) {
     const double height = fmax(direction[2], 1e-12);
-    /* The chord's half is the sine of half the angle. */
+    /* Half the chord is the sine of half the angle. */
     const double chord[3] = {direction[0] - sky->sun[0], direction[1] - sky->sun[1],
                              direction[2] - sky->sun[2]};
     const double angle = 2.0 * asin(fmin(0.5 * length(chord), 1.0)), along = cos(angle);
@@ -255,14 +256,14 @@ static double by_zenith(const void *data, double zenith, double azimuth) {
     return sin(zenith) * fmax(dot(direction, view->normal), 0.0) * sky_radiance(view->sky, direction);
 }
 
-/* Rectangles of angles that have the sun, and where the receiver's plane ends, at their corners. */
+/* Splits the angles into rectangles with the sun and the horizon of the receiver's plane at their corners. */
 double lab_sky_about_zenith(const lab_sky *sky, const double normal[3]) {
     const sky_view view = {sky, normal};
     const double zenith = acos(sky->sun[2]), polar[3] = {0.0, zenith, 0.5 * LAB_PI};
     const bool level = normal[2] == 0.0;
     const double middle = atan2(normal[1], normal[0]);
     double turns[4] = {-LAB_PI, 0.0, LAB_PI, LAB_PI};
-    if (level) { /* a half turn, in which the sun may stand at azimuth 0 */
+    if (level) { /* half a turn; the sun may be at azimuth 0 */
         turns[0] = middle - 0.5 * LAB_PI;
         turns[2] = turns[3] = middle + 0.5 * LAB_PI;
         turns[1] = fmin(fmax(middle > 0.75 * LAB_PI ? turns[0] : 0.0, turns[0]), turns[2]);
@@ -276,7 +277,8 @@ double lab_sky_about_zenith(const lab_sky *sky, const double normal[3]) {
 
 static double by_axis(const void *data, double polar, double turn) {
     const sky_view *const view = data;
-    /* The axis is the receiver's normal, or +y for one that looks up; the turn begins at the horizon. */
+    /* The axis is the receiver's normal, or +y for a horizontal receiver; the rotation begins at the horizon.
+     */
     const double up[3] = {0.0, 0.0, 1.0}, y[3] = {0.0, 1.0, 0.0};
     const double *const axis = view->normal[2] == 0.0 ? view->normal : y;
     double side[3], direction[3];

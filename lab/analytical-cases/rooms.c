@@ -1,4 +1,4 @@
-/* Daylight through openings of a black room, panes in them, and what stands before the sky. */
+/* Daylight through openings of a black room, through panes, and with obstructions outside. */
 #include <math.h>
 #include <stddef.h>
 
@@ -9,8 +9,8 @@
     "<emitter type='sky'><string name='model' value='" model_ "'/><float name='zenith_radiance' value='1'/>" \
     "<vector name='up' x='0' y='0' z='1'/></emitter>"
 
-/* The room is 4 wide (x), 6 deep (y) and 3 high, the window in the wall y = 0 from 1 to 3 and from 1 to 2.4
- * high. The walls are outside of these measures, and their edges the window's. */
+/* The room is 4 wide (x), 6 deep (y) and 3 high; the window is in the wall y = 0, x from 1 to 3, z from 1 to
+ * 2.4. These are inner dimensions; walls have no thickness at the window. */
 static const lab_patch window = {{1.0, 0.0, 1.0}, {2.0, 0.0, 0.0}, {0.0, 0.0, 1.4}};
 static const double DESK = 0.85;
 
@@ -18,7 +18,7 @@ static void put_room(lab_case *made) {
     static const char *const walls[] = {
         "0 0 0  4 0 0  4 6 0  0 6 0", "0 0 3  0 6 3  4 6 3  4 0 3", "0 0 0  0 6 0  0 6 3  0 0 3",
         "4 0 0  4 0 3  4 6 3  4 6 0", "0 6 0  4 6 0  4 6 3  0 6 3",
-        /* around the window, by a seam from the corner */
+        /* around the window, with a seam from the corner */
         "0 0 0  0 0 3  4 0 3  4 0 0  0 0 0  1 0 1  3 0 1  3 0 2.4  1 0 2.4  1 0 1"};
     for (size_t i = 0; i < sizeof walls / sizeof walls[0]; ++i)
         lab_case_put(made, "<shape type='polygon'><string name='vertices' value='%s'/>" BLACK "</shape>",
@@ -40,7 +40,7 @@ static double through_pane(const void *data, const double direction[3]) {
     return overcast(NULL, direction) * self->through(1.52, self->transmissivity, fabs(direction[1]));
 }
 
-/* The desk's receivers: near the window and the walls, and far. */
+/* Receivers on the desk: near the window and the walls, and far away. */
 static lab_receiver desk(size_t i) {
     static const double x[4] = {0.02, 1.0, 2.0, 3.4}, y[5] = {0.3, 1.0, 2.0, 4.0, 5.98};
     return (lab_receiver){{x[i % 4], y[i / 4], DESK}, {0.0, 0.0, 1.0}};
@@ -76,7 +76,7 @@ static void overcast_window(lab_case *made, double unused) {
     }
 }
 
-/* No closed form: over the pane's area with the series, and by angles with the sum. */
+/* No closed form: integral over the pane's area with the series, and over angles with the sum. */
 static void glazed_window(lab_case *made, double transmissivity) {
     char inside[256];
     lab_case head = {.count = 0};
@@ -89,7 +89,8 @@ static void glazed_window(lab_case *made, double transmissivity) {
     lab_case_put(made, SKY("cie-overcast"));
     put_room(made);
     lab_case_patch(made, &window, inside);
-    /* With the directions of other cases the worst of 20 points is off by .35 %: few points, with many. */
+    /* With the number of directions of other cases the largest error of 20 points is .35 %: few points, with
+     * many. */
     static const size_t chosen[] = {0, 2, 7, 13, 18};
     made->more = 4;
     const pane closed = {transmissivity, lab_pane_closed}, series = {transmissivity, lab_pane_series};
@@ -102,7 +103,7 @@ static void glazed_window(lab_case *made, double transmissivity) {
     }
 }
 
-/* A long wall outside, 5 before the window, hides what lies below its upper edge. */
+/* A long wall outside, 5 in front of the window, hides the view below its upper edge. */
 static void masked_window(lab_case *made, double height) {
     const lab_patch wall = {{-400.0, -5.0, -1.0}, {804.0, 0.0, 0.0}, {0.0, 0.0, height + 1.0}};
     lab_case_put(made, SKY("cie-overcast"));
@@ -118,10 +119,10 @@ static void masked_window(lab_case *made, double height) {
     }
 }
 
-/* An opening in a black roof 3 above. */
+/* An opening in a black roof at height 3. */
 static void roof_opening(lab_case *made, double half) {
     const lab_patch hole = {{-half, -half, 3.0}, {2.0 * half, 0.0, 0.0}, {0.0, 2.0 * half, 0.0}};
-    /* Few of the rays to a uniform sky leave by a small opening. */
+    /* Few rays to a uniform sky leave through a small opening. */
     made->more = 2;
     lab_case_put(made, SKY("uniform"));
     lab_case_put(
@@ -132,7 +133,7 @@ static void roof_opening(lab_case *made, double half) {
     for (size_t i = 0; i < 16; ++i) {
         const lab_receiver at = {{0.6 * (double)(i % 4), 0.6 * (double)(i / 4), 0.0}, {0.0, 0.0, 1.0}};
         const double far = 900.0;
-        /* past the edges of the roof, of the sky at the horizon */
+        /* past the edges of the roof, from the sky at the horizon */
         const lab_patch roof = {{-far, -far, 3.0}, {2.0 * far, 0.0, 0.0}, {0.0, 2.0 * far, 0.0}};
         const double edge = LAB_PI - lab_patch_closed(&at, &roof);
         lab_case_point(made, &at, lab_patch_closed(&at, &hole) + edge,
@@ -140,13 +141,13 @@ static void roof_opening(lab_case *made, double half) {
     }
 }
 
-/* In the open, below a black square: what it does not hide. */
+/* Outdoors, below a black square: the sky that it does not hide. */
 static void overhang(lab_case *made, double height) {
     const lab_patch roof = {{-1.0, 0.0, height}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}};
     lab_case_put(made, SKY("uniform"));
     lab_case_patch(made, &roof, BLACK);
     for (size_t i = 0; i < 20; ++i) {
-        const bool sideways = i % 2 == 1; /* looks along +y, from before the roof */
+        const bool sideways = i % 2 == 1; /* faces +y, from in front of the roof */
         const lab_receiver at = {{0.4 * (double)(i % 5), sideways ? -0.01 : 0.5 * (double)(i / 5), 0.0},
                                  {0.0, sideways ? 1.0 : 0.0, sideways ? 0.0 : 1.0}};
         const double open = sideways ? 0.5 * LAB_PI : LAB_PI;
@@ -155,7 +156,7 @@ static void overhang(lab_case *made, double height) {
     }
 }
 
-/* In the open, beside a black wall, under the overcast sky. */
+/* Outdoors, next to a black wall, under the overcast sky. */
 static void wall_outside(lab_case *made, double height) {
     const lab_patch wall = {{-2.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, height}};
     lab_case_put(made, SKY("cie-overcast"));
@@ -169,8 +170,8 @@ static void wall_outside(lab_case *made, double height) {
     }
 }
 
-/* A diffuse disk on the ground under a uniform sky reflects to a receiver above its centre that looks
- * sideways, which sees half of the sky too; and the sky's own ground, to the horizon. */
+/* A diffuse disk on the ground under a uniform sky reflects light to a vertical receiver above its centre,
+ * which also sees half of the sky; and the sky's infinite ground. */
 static void ground(lab_case *made, double albedo) {
     lab_case_put(made, SKY("uniform"));
     lab_case_put(made,

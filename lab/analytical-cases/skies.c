@@ -25,7 +25,7 @@ static void general_sky(lab_case *made, double type) {
             level[0] = closed;
             level[1] = smooth;
         }
-        /* Both by the first way's scale: so that the horizontal plane is compared too. */
+        /* Both in the first derivation's scale, so that the horizontal plane is compared too. */
         lab_case_point(made, &at, closed / level[0], smooth / level[0]);
     }
 }
@@ -40,8 +40,8 @@ static double of_sun(const void *data, double t, double azimuth) {
     return self->rise * (cosine * self->cosine + sine * self->sine * cos(azimuth));
 }
 
-/* A disk of sky is as bright on any plane that sees all of it as its centre would be: its irradiance on the
- * plane that faces it times the cosine; and over the disk. */
+/* A small disk of sky: its irradiance on the plane that faces it times the cosine at its centre, for any
+ * plane that sees all of it; and the integral over the disk. */
 static void sun(lab_case *made, double half_angle) {
     lab_case_put(
         made,

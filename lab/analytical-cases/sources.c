@@ -1,4 +1,4 @@
-/* Light straight from sources, from a surface that they light, and from within closed spaces. */
+/* Direct light of sources, light reflected by a surface, and light in closed spaces. */
 #include <math.h>
 
 #include "cases.h"
@@ -11,8 +11,8 @@ static lab_receiver up_at(double x, double y, double z) {
     return (lab_receiver){{x, y, z}, {UP[0], UP[1], UP[2]}};
 }
 
-/* The solid angle of a square of side s about the foot point, seen from `way` away (Van Oosterom and Strackee
- * 1983): the power that a point source of intensity 1 sends through it. */
+/* The solid angle of a square of side s centred on the foot point, from distance `way` (Van Oosterom and
+ * Strackee 1983): the power of a point source of intensity 1 through the square. */
 static double through_square(const double way[3], double s) {
     const double x[2] = {way[0] - 0.5 * s, way[0] + 0.5 * s}, y[2] = {way[1] - 0.5 * s, way[1] + 0.5 * s};
     double sum = 0.0;
@@ -23,8 +23,8 @@ static double through_square(const double way[3], double s) {
     return sum;
 }
 
-/* The inverse square with the cosine, and power through ever smaller squares over their area, of which the
- * error is a series of s^2 (Richardson 1911). */
+/* The inverse-square cosine law; and the power through ever smaller squares over their area, extrapolated in
+ * s^2 (Richardson 1911). */
 static void point_source(lab_case *made, double height) {
     lab_case_put(made,
                  "<emitter type='point'><float name='intensity' value='100'/><point name='position' x='0' "
@@ -60,7 +60,7 @@ static void rectangle_source(lab_case *made, double height) {
     lab_receiver at[20];
     for (size_t i = 0; i < 20; ++i) {
         at[i] = up_at(0.5 * (double)(i % 5), 0.5 * (double)(i / 5), 0.0);
-        if (i % 3 == 2) { /* tilted, and still with all of the lamp in front */
+        if (i % 3 == 2) { /* tilted, with the entire emitter in front */
             at[i].normal[0] = -0.28;
             at[i].normal[2] = 0.96;
         }
@@ -90,7 +90,7 @@ static void disk_source(lab_case *made, double radius) {
     }
 }
 
-/* A vertical surface that parallel light from the front and above shines at, and what it reflects. */
+/* A vertical surface lit by parallel light from the front and above: its reflected light. */
 static void reflection(lab_case *made, double albedo) {
     const lab_patch wall = {{-1.0, 2.0, 0.1}, {2.0, 0.0, 0.0}, {0.0, 0.0, 1.5}};
     char inside[256];
@@ -109,8 +109,8 @@ static void reflection(lab_case *made, double albedo) {
     }
 }
 
-/* A closed space of one albedo that shines by itself is as bright everywhere: pi / (1 - albedo), and the sum
- * of what comes after each number of reflections. */
+/* A closed emitting space of constant albedo has the same radiosity everywhere: pi / (1 - albedo); and the
+ * sum over numbers of reflections. */
 static double by_reflections(double first, double albedo) {
     double sum = 0.0;
     for (double left = first; left > 1e-17 * first; left *= albedo)
@@ -141,8 +141,8 @@ static void glowing_cube(lab_case *made, double albedo) {
     glowing_room(made, "cube", albedo, -0.999);
 }
 
-/* A lamp at the centre of a sphere: 1/r^2 at first, and then the same light from everywhere, as the power
- * says or one reflection after the other. Receivers lie on the wall. */
+/* A point light at the centre of a sphere: 1/r^2, then uniform reflected light, by power balance or by the
+ * sum over reflections. Receivers are on the wall. */
 static void integrating_sphere(lab_case *made, double albedo) {
     lab_case_put(made,
                  "<emitter type='point'><float name='intensity' value='1'/></emitter><shape type='sphere'>"
@@ -156,7 +156,7 @@ static void integrating_sphere(lab_case *made, double albedo) {
             at.position[d] = -1.9999 * inward[d];
             at.normal[d] = inward[d];
         }
-        /* the little that the receiver stands before the wall counts */
+        /* includes the receiver's small distance to the wall */
         const double direct = 1.0 / (1.9999 * 1.9999), wall = 4.0 * LAB_PI / (16.0 * LAB_PI);
         lab_case_point(made, &at, direct + wall * albedo / (1.0 - albedo),
                        direct + by_reflections(wall * albedo, albedo));

@@ -1,9 +1,8 @@
-/* What correlated rotations of neighbouring pixels save (named as future work by Marques 2013): errors of
- * pixels, and of means of pixels, where each pixel has a rotation that neighbours do not have, a random one,
- * or all have the same.
+/* The benefit of correlated rotations of neighbouring pixels (future work in Marques 2013): errors of pixels,
+ * and of means of pixels, if neighbours have different rotations, random ones, or all the same.
  *
  * The classic Cornell box, indirect light at pixel centres. Intervals are over seeds of the pattern. The
- * reference's own error, with 2048 directions, is a few hundredths of what is measured. */
+ * error of the reference, with 2048 directions, is a few hundredths of the measured one. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +16,7 @@ static const char *const forms[FORMS] = {"random", "blue", "none"};
 typedef struct blur {
     const char *name;
     size_t taps;  /* of the kernel in x and in y */
-    double sigma; /* pixels; 0: all taps count alike */
+    double sigma; /* pixels; 0: equal weights */
 } blur;
 
 static const blur blurs[BLURS] = {
@@ -27,9 +26,9 @@ typedef struct study {
     lab_run *run;
     lab_stage stage;
     size_t side, seeds, reference_directions, photons;
-    aur_image *reference; /* NULL: not made yet */
+    aur_image *reference; /* NULL: not rendered yet */
     double mean;          /* of the reference */
-    double *room;         /* two pictures of one channel */
+    double *room;         /* two images of one channel */
     size_t compared, less, same;
 } study;
 
@@ -44,7 +43,7 @@ static void make_kernel(const blur *b, double kernel[TAPS]) {
         kernel[i] /= sum;
 }
 
-/* The mean square of one channel's blurred error, where the kernel does not reach over the edge. */
+/* The mean square of one channel's blurred error, where the kernel lies within the image. */
 static double blurred_square(const study *s, const aur_image *image, size_t channel, const blur *b) {
     const size_t side = s->side, inside = side - b->taps + 1, channels = aur_image_channel_count(image);
     const float *const x = aur_image_data(image), *const r = aur_image_data(s->reference);
@@ -93,7 +92,8 @@ static aur_result need_reference(study *s, aur_error *error) {
     return result;
 }
 
-/* Mean square errors after each blur over the reference's mean, one a seed; the first picture is written. */
+/* Mean square errors after each blur relative to the reference's mean, one per seed; writes the first image.
+ */
 static aur_result measure(study *s, const char *set, size_t directions, const char *form,
                           double values[BLURS * MOST_SEEDS], aur_error *error) {
     char key[160], view[120], keys[48];

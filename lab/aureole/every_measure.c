@@ -1,5 +1,5 @@
-/* What none of the papers has: every set that the library knows, by every measure that has one value, on each
- * domain. Nothing is published to compare with. */
+/* Beyond the papers: every set of the library, by every measure with a single value, on each domain. Nothing
+ * is published for comparison. */
 #include <aureole/sphere.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,8 @@ enum { MOST_MEASURES = 64 };
 static const aur_domain domains[] = {AUR_DOMAIN_SQUARE, AUR_DOMAIN_HEMISPHERE, AUR_DOMAIN_SPHERE,
                                      AUR_DOMAIN_AXES, AUR_DOMAIN_ROTATIONS};
 
-/* The sets with the least and the greatest value of a measure, of those with as many points as were asked. */
+/* The sets with the smallest and the largest value of a measure, among those with as many points as
+ * requested. */
 typedef struct extremes {
     const char *least, *greatest;
     double low, high;
@@ -24,19 +25,18 @@ static bool is_on(const aur_set_description *set, aur_domain domain) {
     return (set->domains >> domain & 1U) != 0 || (lifted && (set->domains >> AUR_DOMAIN_SQUARE & 1U) != 0);
 }
 
-/* A measure with one value on the domain that is no bound of another one; those that want a parameter get
- * 3/2. */
+/* A measure with a single value on the domain that is not a bound of another one; parameters are 3/2. */
 static bool find_metric(const aur_measure_description *measure, aur_domain domain, char metric[64]) {
     const char *const name = aur_domain_name(domain), *const found = strstr(measure->domains, name);
     const bool wanted = measure->parameter != NULL && measure->parameter[0] == ':';
     snprintf(metric, 64, "%s%s", measure->row.name, wanted ? ":1.5" : "");
-    /* "sphere" is the end of "hemisphere" too */
+    /* "sphere" is also a suffix of "hemisphere" */
     const char *const whole =
         found == NULL || found == measure->domains || found[-1] == ' ' ? found : strstr(found + 1, name);
     return whole != NULL && !measure->series && !measure->bound;
 }
 
-/* Sets that have some sizes only have their largest one up to `most`. */
+/* Sets with restricted sizes use their largest one up to `most`. */
 static size_t size_of(const aur_set_description *set, size_t most) {
     size_t size = 0;
     if (set->size_at == NULL)
@@ -61,7 +61,7 @@ static size_t points_of(const lab_run *run) {
     return lab_run_options(run)->quick ? 64 : 256;
 }
 
-/* What cannot be made or measured, such as a set that wants a file, is left out and told. */
+/* Omits sets that cannot be generated or measured, such as a set that needs a file, with a note. */
 static aur_result leave_out(lab_run *run, const char *set, aur_domain domain, aur_result result,
                             const aur_error *error) {
     if (result == AUR_ERROR_MEMORY || result == AUR_ERROR_CANCELLED)
@@ -70,7 +70,7 @@ static aur_result leave_out(lab_run *run, const char *set, aur_domain domain, au
     return AUR_OK;
 }
 
-/* Every measure of one set on one domain. `found` has a place for each measure. */
+/* Every measure of one set on one domain. `found` has an entry for each measure. */
 static aur_result add_set(lab_run *run, const char *set, aur_domain domain, size_t size, extremes *found,
                           aur_error *error) {
     aur_points *made;

@@ -1,5 +1,5 @@
-/* Sets beside each other on one function, any that a module or a program adds: the root mean square error of
- * its mean against the number of points, over independent randomisations. */
+/* Compares sets on one function that a module or a program adds: the root mean square error of the mean
+ * against the number of points, over independent randomisations. */
 #include <aureole/sphere.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ enum { SMALLEST = 16, MOST_SIZES = 8, MOST_SEEDS = 256 };
 
 static const char *const columns[] = {"set", "points", "rmse", "low", "high", "over_random", NULL};
 
-/* --- functions of known means */
+/* --- functions with analytical means */
 
 static aur_result quarter_disk(void *user, size_t count, size_t dimension, const double *points,
                                double *values, aur_error *error) {
@@ -52,7 +52,7 @@ static const lab_named_integrand *find(const char *name) {
 
 /* --- the estimate */
 
-/* How points are randomised so that the estimate is unbiased. */
+/* The randomisation of points that makes the estimate unbiased. */
 static aur_scramble scrambling(aur_domain domain) {
     return domain == AUR_DOMAIN_SPHERE       ? AUR_SCRAMBLE_ROTATE3D
            : domain == AUR_DOMAIN_HEMISPHERE ? AUR_SCRAMBLE_ROTATE

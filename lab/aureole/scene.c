@@ -1,4 +1,4 @@
-/* Sets beside each other as the directions of an integrator in one scene, any that `--scene` names. */
+/* Compares sets as the directions of an integrator in one scene, which `--scene` names. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,7 +49,7 @@ static aur_result render(const study *s, const char *set, size_t count, uint64_t
     return lab_render(s->run, &how, image, error);
 }
 
-/* Two images of many directions and independent errors, which drop out of lab_mean_product. */
+/* Two images of many directions with independent errors, which cancel in lab_mean_product. */
 static aur_result find_references(study *s, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k)

@@ -1,4 +1,5 @@
-/* Axes in an order whose prefixes are even, and in shells: the energy over that of as many axes at rest. */
+/* Axes in an order with uniform prefixes, and in shells: the energy relative to that of an equilibrium set of
+ * as many axes. */
 #include "program/lab/lab.h"
 #include "program/lab/points.h"
 

@@ -1,4 +1,5 @@
-/* How even the first n points of a sequence are at every n: the energy times n^(3/4), worst and mean. */
+/* The uniformity of the first n points of a sequence for every n: the energy times n^(3/4), maximum and mean.
+ */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +8,7 @@
 
 enum { FIRST = 16, LAST = 2048, QUICK = 128 };
 
-/* What no prefix of greedy points has more of. */
+/* An upper bound for all prefixes of greedy points. */
 static const double promised = 1.12;
 
 typedef struct prefix_figures {
@@ -15,7 +16,7 @@ typedef struct prefix_figures {
     size_t worst_at;
 } prefix_figures;
 
-/* Sums of distances grow with the prefix, so that all of them take as long as the last one. */
+/* Sums of distances grow with the prefix, so all prefixes together take as long as the last one. */
 static prefix_figures measure(const aur_points_view *points) {
     prefix_figures found = {0};
     double pairs = 0.0;

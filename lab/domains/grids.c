@@ -1,4 +1,5 @@
-/* Rotations that double and keep their points, beside a super-Fibonacci spiral of each size. */
+/* Sets of rotations that double and preserve their points, compared with a super-Fibonacci spiral of each
+ * size. */
 #include "program/lab/lab.h"
 #include "program/lab/points.h"
 

@@ -1,8 +1,8 @@
-/* Rotations lifted from points of the sphere and from lattices of the cube, at sizes that double and keep
- * their points, beside a super-Fibonacci spiral of each size.
+/* Rotations lifted from points of the sphere and from lattices of the cube, at sizes that double and preserve
+ * their points, compared with a super-Fibonacci spiral of each size.
  *
- * A direction with the azimuth phi and a turn psi about it are a rotation with the azimuths a = (psi + phi)/2
- * and b = (psi - phi)/2 in Hopf coordinates, u = (1 + z)/2. */
+ * A direction with azimuth phi and a rotation psi about it form a rotation with the azimuths a = (psi +
+ * phi)/2 and b = (psi - phi)/2 in Hopf coordinates, u = (1 + z)/2. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +14,7 @@ enum { BASE = 128, LAST = 8192, QUICK = 256, SEARCHED = 256 };
 
 static const double pi = 3.14159265358979323846;
 
-/* What turns the directions of a grid that doubles, point i of which is i: the fraction of a turn. */
+/* The rotation about the direction of point i of a doubling grid, as a fraction of a turn. */
 typedef double (*turn_of)(size_t i);
 
 static double fraction(double x) {
@@ -32,20 +32,20 @@ static double root_of_two(size_t i) {
     return fraction((double)i * sqrt(2.0));
 }
 
-/* Of the equation x^3 = x + 1, whose powers are the golden ratio's kin in the plane. */
+/* Root of x^3 = x + 1: its powers generalise the golden ratio to the plane. */
 static double plastic(size_t i) {
     return fraction((double)i / 1.3247179572447460260);
 }
 
-/* The base grid by root_of_two; each copy of it turned by a fraction with as many digits as it has doublings
- * behind it. */
+/* The base grid uses root_of_two; each copy is rotated by a fraction with as many binary digits as there were
+ * doublings. */
 static double by_copy(size_t i) {
     return fraction(root_of_two(i % BASE) + van_der_corput(i / BASE));
 }
 
 typedef struct lift {
     const char *name;
-    const char *set; /* directions, or rotations where there is no turn; NULL: a lattice that is looked for */
+    const char *set; /* directions, or rotations without a turn; NULL: a lattice, to be searched */
     turn_of turn;    /* NULL: none */
     size_t base;     /* the first size */
 } lift;
@@ -87,15 +87,15 @@ static void turn_directions(turn_of turn, const aur_points_view *points, double 
     }
 }
 
-/* Points j (1, g, g^2)/n, with heights that are centred for LAST points. */
+/* Points j (1, g, g^2)/n, with heights centred for LAST points. */
 static void fill_lattice(size_t n, size_t g, double *wxyz) {
     for (size_t j = 0; j < n; ++j)
         put((double)j / (double)n + 0.5 / LAST, (double)(j * g % n) / (double)n,
             (double)(g * g % n * j % n) / (double)n, wxyz + 4 * j);
 }
 
-/* The generator of the least energy: of all odd ones at SEARCHED points, then with or without one more binary
- * digit at each doubling, so that lattices hold those before them. */
+/* The generator with the smallest energy: among all odd ones at SEARCHED points, then with or without one
+ * more binary digit per doubling, so that lattices contain the previous ones. */
 static aur_result find_generator(size_t count, size_t threads, double *wxyz, size_t *generator,
                                  aur_error *error) {
     double least = INFINITY;

@@ -1,5 +1,5 @@
-/* How even the first n points of a set are: their energy times n^(3/4), beside that of as many charges at
- * rest and of a spiral of that size. */
+/* The uniformity of the first n points of a set: their energy times n^(3/4), compared with that of an
+ * equilibrium set and of a spiral of that size. */
 #include <math.h>
 
 #include "program/lab/lab.h"
@@ -9,7 +9,7 @@ enum { LENGTHS = 7, SIZE = 1024 };
 
 static const size_t lengths[LENGTHS] = {100, 150, 200, 300, 400, 600, 1000};
 
-/* A row of all lengths: of the first points of SIZE, or of sets of each length itself. */
+/* A row over all lengths: of the first points of SIZE, or of sets of each length. */
 static aur_result row(lab_run *run, const char *set, bool prefix, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
     const size_t count = options->quick ? 2 : LENGTHS;

@@ -1,5 +1,5 @@
-/* finalgather with all that papers on gathering vary: patterns and their weights, how pixels differ, which
- * light is gathered. */
+/* finalgather with all variants of the papers on gathering: patterns and their weights, randomisation per
+ * pixel, gathered light. */
 #include "program/lab/gather.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "levels.h"
 
-/* Rows of keys, each a field of lab_gather_settings. */
+/* Parameters, each a field of lab_gather_settings. */
 #define LAB_FIELD(type_, name_, field_, default_, help_)                                                     \
     .name = (name_), .type = (type_), .help = (help_), .default_text = (default_),                           \
     .offset = offsetof(lab_gather_settings, field_), .size = sizeof(((lab_gather_settings *)0)->field_)
@@ -67,7 +67,7 @@ static const aur_key keys[] = {
                  "another randomisation of the pattern under the same seed")},
 };
 
-/* Of the lab's own options; the others have the library's defaults. */
+/* The lab's options; the others have the library's defaults. */
 static const lab_gather_settings initial = {.criterion = LAB_CRITERION_DEFAULT, .threshold = -1.0f};
 
 const aur_gather_integrator lab_finalgather = {

@@ -9,9 +9,9 @@
 
 enum { LANES = AUR_GATHER_LANES };
 
-/* --- what is asked for */
+/* --- options */
 
-/* With its defaults. */
+/* Fills in the defaults. */
 static lab_gather_settings completed(const aur_gather_settings *given) {
     lab_gather_settings o = *(const lab_gather_settings *)given;
     o.criterion = o.criterion == LAB_CRITERION_DEFAULT ? LAB_CRITERION_VARIANCE : o.criterion;
@@ -24,7 +24,7 @@ static lab_gather_settings completed(const aur_gather_settings *given) {
     return o;
 }
 
-/* A key that does nothing was meant for something: 'levels' after a comma for the pattern, as a rule. */
+/* An unused parameter is an error: usually 'levels' after a comma in the pattern. */
 static void warn_of_idle_keys(const lab_gather_settings *o, aur_warnings warnings) {
     const struct {
         const char *name;
@@ -75,7 +75,7 @@ static aur_result begin(const aur_gather_settings *given, aur_warnings warnings,
 
 static aur_result choose(const aur_gather_settings *given, size_t base, size_t capacity, char *set,
                          size_t *count, aur_error *error) {
-    /* Beyond it a system for optimal weights takes longer than an image. */
+    /* Beyond it the system for optimal weights takes longer than an image. */
     enum { MOST_DIRECTIONS = 1 << 24, MOST_OPTIMAL = 4096 };
     const lab_gather_settings o = completed(given);
     *count = base;
@@ -116,23 +116,23 @@ typedef struct gather_levels {
     const float *pattern_weights;    /* p/q */
     size_t count;                    /* levels */
     size_t ends[LAB_LEVEL_CAPACITY]; /* directions of level l and those before it */
-    /* weights[l] + i: of direction i when level l is the last one; the sum of weight * f estimates the
+    /* weights[l] + i: weight of direction i if level l is the last one; the sum of weight * f estimates the
      * integral. */
     float *weights[LAB_LEVEL_CAPACITY];
-    /* The worst-case error of each level over that of one random direction: what the spread of the samples is
-     * to be multiplied by for an estimate of the error. */
+    /* The worst-case error of each level relative to that of one random direction: the factor from the spread
+     * of the samples to an estimate of the error. */
     float errors[LAB_LEVEL_CAPACITY];
 } gather_levels;
 
-/* What the weights of all levels are made with. */
+/* Inputs of the weights of all levels. */
 typedef struct level_maker {
     const aur_gather_settings *options;
     const aur_gather_directions *pattern;
     aur_potential *potential;
-    double *xyz, *numbers; /* of all directions; numbers: two each */
+    double *xyz, *numbers; /* of all directions; two numbers each */
 } level_maker;
 
-/* In float, but of unit length in double, as the solver wants them. */
+/* In float, but normalised to unit length in double, as the solver requires. */
 static void widen(const aur_gather_directions *pattern, double *xyz) {
     for (size_t i = 0; i < pattern->count; ++i) {
         const double x = (double)pattern->x[i], y = (double)pattern->y[i], z = (double)pattern->z[i];
@@ -233,8 +233,9 @@ static void add_value(spread *s, double value) {
     s->information += value > 0.0 ? value * log(value) : 0.0;
 }
 
-/* 1 - H / log n of the samples' shares p = c / sum c, H = -sum p log p: 0 for constant light, 1 where one
- * sample has it all. Rigau, Feixas, Sbert 2003, as 1 less their figure so that it grows with variation. */
+/* 1 - H / log n of the samples' shares p = c / sum c, H = -sum p log p: 0 for constant light, 1 if one sample
+ * has all of it. This is 1 minus the measure of Rigau, Feixas, Sbert 2003, so that it increases with
+ * variation. */
 static double entropy_contrast(const spread *s, double count) {
     if (!(s->sum > 0.0) || count < 2.0)
         return 0.0;
@@ -242,7 +243,7 @@ static double entropy_contrast(const spread *s, double count) {
     return 1.0 - entropy / log(count);
 }
 
-/* The expected error over the mean: the samples' spread times the level's worst-case error over that of one
+/* The expected relative error: the samples' spread times the level's worst-case error relative to that of one
  * random direction. */
 static double relative_error(const spread *s, double count, double level_error) {
     if (!(s->sum > 0.0) || count < 2.0)
@@ -254,13 +255,13 @@ static double relative_error(const spread *s, double count, double level_error) 
 
 enum { BINS = 16 };
 
-/* Which of BINS equal steps of displayed brightness a colour is in: 1 is white, gamma 2.2. */
+/* The index among BINS equal steps of displayed brightness: 1 is white, gamma 2.2. */
 static size_t bin_of(double red, double green, double blue) {
     const double luminance = fmin(1.0, fmax(0.0, 0.2126 * red + 0.7152 * green + 0.0722 * blue));
     return (size_t)fmin(BINS - 1.0, BINS * pow(luminance, 1.0 / 2.2));
 }
 
-/* Shannon's, in nats: 0 where all samples are equally bright. */
+/* Shannon entropy in nats: 0 if all samples are equally bright. */
 static double histogram_entropy(const uint32_t bins[BINS], double count) {
     double entropy = 0.0;
     for (size_t b = 0; b < BINS; ++b)
@@ -269,8 +270,8 @@ static double histogram_entropy(const uint32_t bins[BINS], double count) {
     return entropy;
 }
 
-/* Over the channels, weighted by their means: by their shares of the colour or, for entropy-brightness, as
- * they are, so that dark places have little contrast. */
+/* Weighted mean over the channels: by their shares of the colour or, for entropy-brightness, by their
+ * absolute means, so that dark points have little contrast. */
 static double contrast_of(const gather_levels *levels, size_t level, const spread spreads[3],
                           const uint32_t bins[BINS], double count) {
     static const double sensitivity[3] = {0.4, 0.3, 0.6}; /* Rigau 2003 */
@@ -292,7 +293,7 @@ static double contrast_of(const gather_levels *levels, size_t level, const sprea
 
 typedef struct adaptive_state {
     spread spreads[LANES][3];
-    uint32_t samples[LANES]; /* that were above the surface */
+    uint32_t samples[LANES]; /* samples above the surface */
     uint32_t bins[LANES][BINS];
     float *values; /* of direction i, channel c, lane k: values[(3 * i + c) * LANES + k] */
 } adaptive_state;

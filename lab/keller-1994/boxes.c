@@ -1,12 +1,11 @@
-/* What the "empty cube" of Keller 1994's tables 2 and 3 may have been, and its Faure points: the cube, a box
- * of 1 x 1 x 26 and a flat one of 5 x 4 x .05, each with the paper's sequences and with Faure's sequence in
- * four forms. Neither is in the text, so every box and form is a hypothesis; all are compared with the same
- * published rows.
+/* Hypotheses on the "empty cube" of Keller 1994's tables 2 and 3, and on its Faure points: the cube, a box of
+ * 1 x 1 x 26 and a flat one of 5 x 4 x .05, each with the paper's sequences and with Faure's sequence in four
+ * forms. The text states none of them; all are compared with the same published rows.
  *
  * Settings, fixed before the run: 1 x 1 x 26 has the ratio of the two published tables, 5 x 4 x .05 is a flat
- * room whose sides are whole numbers. Faure's sequence is taken plain, with random lower-triangular matrices,
- * and plain from the points 67^2 - 1 and 67^3 - 1 on, as Bratley and Fox 1986 begin it (at the fourth power,
- * which takes 20 million points first). */
+ * room with integer ratios of its sides. Faure's sequence is plain, with random lower-triangular matrices,
+ * and plain from the points 67^2 - 1 and 67^3 - 1 on, similar to Bratley and Fox 1986 (who use the fourth
+ * power, which takes 20 million points first). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,10 +20,10 @@ static const struct {
 } boxes[BOXES] = {
     {"cube", {"1", "1", "1"}}, {"1 x 1 x 26", {"1", "1", "26"}}, {"5 x 4 x .05", {"5", "4", "0.05"}}};
 
-/* The first FAURES compete for the published column of Faure. */
+/* The first FAURES are candidates for the published Faure column. */
 static const struct {
     const char *name, *set;
-    uint64_t skipped; /* points left out besides point 0 */
+    uint64_t skipped; /* initial points omitted, besides point 0 */
     size_t published;
     bool quick;
 } forms[FORMS] = {{"faure", "faure", 0, PUBLISHED_FAURE, true},
@@ -49,7 +48,7 @@ typedef struct box_study {
     const aur_scene *scene;
     const char *box;
     size_t variants, size_count;
-    bool within[FORMS][2][KELLER_SIZES]; /* a factor of 1.5 of the published value */
+    bool within[FORMS][2][KELLER_SIZES]; /* within a factor of 1.5 of the published value */
 } box_study;
 
 typedef struct box_solution {
@@ -76,7 +75,7 @@ static aur_result solve(aur_radiosity *radiosity, uint64_t paths, box_solution *
     return AUR_OK;
 }
 
-/* Delta_a^2 and Delta_aw^2 of the paths after those of `before`: what is reflected is a mean over paths. */
+/* Delta_a^2 and Delta_aw^2 of the paths after those of `before`: reflected light is a mean over paths. */
 static void deviate(const box_solution *before, const box_solution *all, double *plain, double *weighted) {
     const double answer = 0.5 - exp2(-(double)BOUNCES - 3.0), emitted = 0.25;
     const double count = (double)(all->paths - before->paths);
@@ -139,8 +138,8 @@ static void add_rows(box_study *study, size_t form, const box_deviations *d) {
         }
 }
 
-/* How many published values of each table a box and a form of Faure's sequence are within a factor of 1.5 of.
- */
+/* The number of published values of each table that a box and a form of Faure's sequence match within a
+ * factor of 1.5. */
 static void count_fits(const box_study *study, report_table *fits) {
     const bool quick = lab_run_options(study->run)->quick;
     for (size_t faure = 0; faure < FAURES; ++faure) {

@@ -1,9 +1,9 @@
-/* What Keller 1994 adds to its algorithm in section 4, each with a number and a picture: one light a hit
- * point by permutations, samples shared by neighbouring pixels, fixed and adaptive oversampling.
+/* The extensions of section 4 of Keller 1994, each with a number and an image: one light per hit point by
+ * permutations, samples shared by neighbouring pixels, fixed and adaptive oversampling.
  *
- * Settings are compared on the same solution by the RMSE of their pictures against two independent references
- * of very many samples, over seeds, and by rays: `saved_rays` is how many times the rays the feature's first
- * setting needs for the same error, if squares of errors fall as rays are added. */
+ * Settings are compared on the same solution by the RMSE of their images against two independent references
+ * with very many samples, over seeds, and by rays. `saved_rays` is the ratio of rays that the feature's first
+ * setting needs for the same error, if squared errors fall as 1/rays. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,11 +23,11 @@ typedef struct setting {
 
 typedef struct feature {
     const char *name;
-    size_t scene;          /* of the paper's */
-    const char *keys;      /* of all its settings */
-    const char *reference; /* and of the references alone */
+    size_t scene;          /* index of the paper's scene */
+    const char *keys;      /* common to all its settings */
+    const char *reference; /* for the references only */
     size_t reference_samples, quick_reference_samples;
-    size_t finer; /* pixels a pixel of the other pictures, along either axis */
+    size_t finer; /* pixels per pixel of the other images, along each axis */
     setting settings[MOST_SETTINGS];
 } feature;
 
@@ -122,7 +122,7 @@ static aur_result render_setting(const feature_study *s, const char *keys, size_
 }
 
 /* The references, and the solution of each seed: the first render of a seed traces and counts the particles,
- * which all settings share, and so no setting must pay for. */
+ * which all settings share, so no setting may be charged for them. */
 static aur_result need_references(feature_study *s, aur_error *error) {
     const bool quick = lab_run_options(s->run)->quick;
     const size_t samples = quick ? s->feature->quick_reference_samples : s->feature->reference_samples;
@@ -141,7 +141,7 @@ static aur_result need_references(feature_study *s, aur_error *error) {
     return result;
 }
 
-/* Mean square errors, one a seed, then rays and samples a pixel. */
+/* Mean square errors, one per seed, then rays and samples per pixel. */
 static aur_result measure(feature_study *s, const setting *of, double values[MOST_SEEDS + 2],
                           aur_error *error) {
     char key[120];

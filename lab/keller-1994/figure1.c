@@ -1,7 +1,7 @@
-/* The three pictures of Keller 1994 (figure 1): living room, office and teapot as the paper renders them, by
- * adaptive termination, Halton points of a pixel and permuted lights, compared with path tracing of the same
- * scenes, which is no radiosity and knows no triangles. What is published of them is how many triangles they
- * have. */
+/* The three images of Keller 1994 (figure 1): living room, office and teapot rendered as in the paper, by
+ * adaptive termination, Halton points per pixel and permuted lights, compared with path tracing of the same
+ * scenes, which uses no radiosity and no triangle mesh. The paper publishes only their numbers of triangles.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static const char *const columns[] = {"scene",        "triangles", "published", 
 /* In the order of the scenes. */
 static const double triangles[KELLER_SCENES] = {12, 3604, 276, 1572};
 
-/* What the picture is made from: as many paths as epsilon takes. */
+/* The solution for the image: as many paths as epsilon requires. */
 static aur_result solve(const lab_run *run, const aur_scene *scene, double epsilon,
                         aur_radiosity_description *found, aur_error *error) {
     aur_radiosity *radiosity = NULL;

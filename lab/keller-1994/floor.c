@@ -1,14 +1,16 @@
-/* Why the published tables 2 and 3 of Keller 1994 stop falling in the living room and the office. Three
- * causes are tried, each on both tables, because a cause must make both floors:
+/* Hypotheses why the published tables 2 and 3 of Keller 1994 stop falling in the living room and the office.
+ * Three causes are tested, each on both tables, because a cause must explain both floors:
  *
  * - open: our closed rooms are opened, first the ceiling and then the walls from above, until Delta_aw at N =
- * 1e5 is what table 3 has. One number is fitted a room.
- * - outer faces: the walls have outer faces, which no path reaches. Nothing is fitted.
- * - unlit: some faces receive nothing, so their error is exactly 1/4, as those of overlapping or turned
- * triangles would. Their shares of triangles and of area are fitted to the two floors at N = 1e5. Two numbers
- * for two floors fit by construction, so what the smaller N have is all that this can show.
+ * 1e5 matches table 3. One fitted parameter per room.
  *
- * What fits is a hypothesis: the paper's meshes are lost. */
+ * - outer faces: the walls have outer faces, which no path reaches. No fitted parameter.
+ *
+ * - unlit: some faces receive nothing, so their error is exactly 1/4, like that of overlapping or reversed
+ * triangles. Their shares of triangles and of area are fitted to the two floors at N = 1e5. Two parameters
+ * always fit two floors, so only the smaller N test this.
+ *
+ * A fit is a hypothesis: the paper's meshes are lost. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,9 +40,9 @@ static aur_result load_open(const lab_run *run, size_t room, double opening, aur
     return lab_load_scene(run, keller_scene_at(room)->analytic, 2, definitions, scene, error);
 }
 
-/* Delta_a^2 and Delta_aw^2, and what part of the area the outer faces of the walls add. They are the first
- * triangles once more, of radiance 1/4; paths that begin on them leave at once, so the others are as many
- * fewer. */
+/* Delta_a^2 and Delta_aw^2, and the area that the outer faces of the walls add, as a fraction. These are
+ * copies of the first triangles, with radiance 1/4. Paths that begin on them leave at once, so the others
+ * have fewer paths by that fraction. */
 static aur_result deviation(const aur_radiosity *radiosity, bool outer_faces, double squares[TABLES],
                             double *added, aur_error *error) {
     aur_radiosity_description d = {.size = sizeof d};
@@ -65,8 +67,8 @@ static aur_result deviation(const aur_radiosity *radiosity, bool outer_faces, do
     return result;
 }
 
-/* Both of the first `size_count` sizes. Variant 0 would warn that the scene is open. `aside` becomes the
- * share of flights that leave or, with outer faces, that of their area. */
+/* Both for the first `size_count` sizes. Variant 0 would warn that the scene is open. `aside` receives the
+ * fraction of flights that leave or, with outer faces, their fraction of the area. */
 static aur_result deviations(const lab_run *run, const aur_scene *scene, bool outer_faces, const char *set,
                              size_t variant, size_t size_count, double squares[KELLER_SIZES][TABLES],
                              double *aside, aur_error *error) {
@@ -90,7 +92,7 @@ static aur_result deviations(const lab_run *run, const aur_scene *scene, bool ou
     return result;
 }
 
-/* The opening at which Delta_aw at the largest size is `wanted`, and the share of flights that leave. */
+/* The opening at which Delta_aw at the largest size is `wanted`, and the fraction of flights that leave. */
 static aur_result find_opening(lab_run *run, size_t room, size_t size_count, double wanted, double found[2],
                                aur_error *error) {
     double low = 0.0, high = 1.99;
@@ -120,11 +122,11 @@ typedef struct tried_cause {
     const aur_scene *scene;
     double aside;
     double triangles;     /* of the scene */
-    double unlit[TABLES]; /* shares of triangles and of area that receive nothing */
+    double unlit[TABLES]; /* fractions of triangles and of area that receive nothing */
     size_t within[TABLES], compared;
 } tried_cause;
 
-/* The squares with shares of the triangles and of the area at an error of 1/4. */
+/* The squared deviations if fractions of the triangles and of the area have an error of 1/4. */
 static double with_unlit(const tried_cause *tried, size_t table, double square) {
     const double share = tried->unlit[table], per = table == 0 ? 1.0 : tried->triangles;
     return (1.0 - share) * square + 0.0625 * share / per;
@@ -174,7 +176,7 @@ static void add_rows(tried_cause *tried, size_t set, const char *name,
         }
 }
 
-/* The shares at which both floors are as published at the largest N, over the paper's sets. */
+/* The fractions that match both published floors at the largest N, over the paper's sets. */
 static aur_result fit_unlit(tried_cause *tried, aur_error *error) {
     double wanted[TABLES] = {0}, found[TABLES] = {0};
     keller_set of;
@@ -263,7 +265,7 @@ static aur_result study_room(lab_run *run, size_t room, aur_error *error) {
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
-    const size_t rooms[ROOMS] = {2, 1}; /* the office is the quick one */
+    const size_t rooms[ROOMS] = {2, 1}; /* the office is the fast one */
     aur_result result = AUR_OK;
     for (size_t i = 0; i < (lab_run_options(run)->quick ? 1 : ROOMS) && result == AUR_OK; ++i)
         result = study_room(run, rooms[i], error);

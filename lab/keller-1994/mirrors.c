@@ -1,7 +1,6 @@
-/* Mirrors in Keller 1994 (section 4): whatever hits one is reflected without changing its radiance. In the
- * analytic setting the answer 1/2 stays when a wall of the cube becomes a mirror, and so the deviation of the
- * others can be compared with that of the closed cube; a picture of a room with a mirror is compared with
- * path tracing. */
+/* Mirrors in Keller 1994 (section 4): radiance that hits one is reflected unchanged. In the analytic setting
+ * the solution remains 1/2 if a wall of the cube becomes a mirror, so the deviation of the other walls can be
+ * compared with that of the closed cube. An image of a room with a mirror is compared with path tracing. */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +33,7 @@ static const struct {
     {"like the others", "<scene version='3.0.0'>" DIFFUSE("half", "0.5") ROOM(LIT, LIT, LIT, LIT) "</scene>"},
 };
 
-/* A room with a coloured wall at either side, and a mirror at the far end. */
+/* A room with a coloured wall on either side, and a mirror at the far end. */
 static const char mirrored[] =
     "<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='75'/><transform "
     "name='to_world'>"
@@ -47,7 +46,7 @@ static const char mirrored[] =
                                  "<emitter type='area'><rgb name='radiance' value='9, 9, 9'/></emitter>"
                                  "</shape></scene>";
 
-/* Delta_aw of the triangles but those of the far wall, which are the last two. */
+/* Delta_aw of the triangles except those of the far wall, which are the last two. */
 static aur_result deviations(const lab_run *run, const char *text, double found[KELLER_SIZES],
                              aur_error *error) {
     aur_radiosity_triangle_result triangles[TRIANGLES];
@@ -63,7 +62,7 @@ static aur_result deviations(const lab_run *run, const char *text, double found[
             result = aur_radiosity_get_results(radiosity, TRIANGLES, sizeof *triangles, triangles, error);
         for (size_t i = 0; i < TRIANGLES - 2 && result == AUR_OK; ++i)
             squares += pow(triangles[i].radiance[0] - 0.5, 2);
-        found[n] = sqrt(squares) / (TRIANGLES - 2); /* of equal areas */
+        found[n] = sqrt(squares) / (TRIANGLES - 2); /* all have equal areas */
     }
     aur_radiosity_destroy(radiosity);
     aur_scene_destroy(scene);

@@ -1,4 +1,4 @@
-/* Table 1 of Keller 1994: how many paths the adaptive termination takes. */
+/* Table 1 of Keller 1994: the number of paths until adaptive termination. */
 #include <math.h>
 #include <stdio.h>
 
@@ -48,7 +48,7 @@ static aur_result measure(lab_run *run, size_t s, const aur_scene *scene, const 
         aur_radiosity *radiosity = NULL;
         result = keller_start(run, scene, set, v, analytic ? 29 : 6, AUR_RADIOSITY_UNIFORM_ANGLE, &radiosity,
                               error);
-        /* The window of a smaller epsilon closes later, so one walk finds them all. */
+        /* The window of a smaller epsilon closes later, so one pass finds all. */
         for (size_t e = 0; e < epsilon_count && result == AUR_OK; ++e) {
             const aur_radiosity_termination rule = {.size = sizeof rule,
                                                     .epsilon = epsilons[e],

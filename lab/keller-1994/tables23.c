@@ -1,4 +1,5 @@
-/* Tables 2 and 3 of Keller 1994: how far solutions are from the analytic one, plain and weighted by area. */
+/* Tables 2 and 3 of Keller 1994: the deviation of solutions from the analytic one, unweighted and weighted by
+ * area. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +11,7 @@ enum { SIZES = KELLER_SIZES };
 static const char *const columns[] = {"scene", "N",        "sequence",  "rms",
                                       "least", "greatest", "published", NULL};
 
-/* Mean square deviations of every variant. */
+/* Mean square deviations of all variants. */
 typedef struct deviations {
     size_t variants, size_count;
     double plain[SIZES][KELLER_VARIANTS], weighted[SIZES][KELLER_VARIANTS];
@@ -22,7 +23,7 @@ typedef struct walk {
     aur_radiosity_directions directions;
 } walk;
 
-/* As the paper has it. */
+/* The paper's form. */
 static const walk published_walk = {29, AUR_RADIOSITY_UNIFORM_ANGLE};
 
 static aur_result measure_variant(lab_run *run, const aur_scene *scene, const keller_set *set, size_t variant,
@@ -93,10 +94,10 @@ static void add_rows(lab_run *run, bool weighted, size_t scene, size_t set, cons
     }
 }
 
-/* Delta_aw sqrt N of independent points, pooled over variants and N. Where a path never comes to a triangle
- * again it follows from the walk: hits in a triangle are independent then, and with q the mean square of what
- * a flight multiplies its power by (pi^2/8 or 1) it is the root of (1 + q/4 + (q/4)^2 + ...) q/64, M + 1
- * terms. Paths of two flights cannot come back: their figure shows what those that do add. */
+/* Delta_aw sqrt N of independent points, pooled over variants and N. If a path never returns to a triangle,
+ * it follows from the random walk: hits in a triangle are then independent, and with q the mean square of the
+ * factor on the power per flight (pi^2/8 or 1) it is the root of (1 + q/4 + (q/4)^2 + ...) q/64, M + 1 terms.
+ * Paths of two flights cannot return: the others show the contribution of returning paths. */
 static aur_result note_independent(lab_run *run, const aur_scene *scene, const char *name,
                                    const deviations *like, aur_error *error) {
     static const keller_set independent = {"random", true};
@@ -126,7 +127,7 @@ static aur_result note_independent(lab_run *run, const aur_scene *scene, const c
     return result;
 }
 
-/* The plain deviation over the weighted one: sqrt K for equal triangles. */
+/* The unweighted deviation relative to the weighted one: sqrt K for equal triangles. */
 static aur_result note_ratio(lab_run *run, const char *path, const char *what, aur_error *error) {
     static const keller_set sobol = {"sobol", true};
     aur_scene *scene = NULL;

@@ -1,4 +1,4 @@
-/* How often the intervals of view factors, sky factors and radiosities hold. */
+/* Coverage of the intervals of view factors, sky factors and radiosities. */
 #include <aureole-lighting/view_factors.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 
 static const double CORNERS[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
                                      {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-/* Counter-clockwise from outside. */
+/* Counter-clockwise seen from outside. */
 static const size_t FACES[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                    {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 
@@ -25,8 +25,8 @@ static void write_box(FILE *file, const double low[3], const double high[3], boo
     }
 }
 
-/* A closed room of 3 x 4 x 2.5; a court, which is a floor of 4 x 4 with a block on it, under the sky; or four
- * towers of different heights. */
+/* A closed room of 3 x 4 x 2.5; a court: a floor of 4 x 4 with a block on it, under the sky; or four towers
+ * of different heights. */
 typedef enum coverage_mesh { ROOM, COURT, TOWERS } coverage_mesh;
 
 static void write_towers(FILE *file) {
@@ -68,7 +68,7 @@ static aur_result load(const lab_run *run, coverage_mesh mesh, bool group, aur_f
     return result;
 }
 
-/* The numbers of one run, each with half of its interval: the factors above the diagonal, row by row, or sky
+/* The numbers of one run, each with its half width: the factors above the diagonal, row by row, or sky
  * factors, or radiosities. */
 typedef enum coverage_kind { FACTORS, SKY, RADIOSITIES, BY_MATRIX } coverage_kind;
 
@@ -104,7 +104,7 @@ static aur_result of_matrix(const aur_facets *facets, const aur_view_factors_opt
         result = aur_view_factors_get_matrix(factors, &m, error);
     if (result == AUR_OK)
         result = aur_view_factors_get_description(factors, &d, error);
-    /* Pairs that no ray found have the interval that the description tells. */
+    /* Pairs that no ray found use the bound `unseen` of the statistics. */
     for (size_t i = 0; i < m.rows * m.rows && kind == FACTORS && result == AUR_OK; ++i)
         half[i] = i % m.rows > i / m.rows ? d.unseen : 0.0;
     for (size_t i = 0; i < m.rows && kind == SKY && result == AUR_OK; ++i) {
@@ -148,8 +148,8 @@ static aur_result measure(const lab_run *run, const aur_facets *facets, const co
     return result;
 }
 
-/* What is true is the mean over all runs, whose own error is a thirtieth of one run's, and an eighth in the
- * quick form. Numbers that are always 0 are none. */
+/* The reference is the mean over all runs, whose error is a thirtieth of one run's, and an eighth in the
+ * quick form. Numbers that are always 0 are ignored. */
 static aur_result study(lab_run *run, const coverage_case *given, lab_tally *pooled, aur_error *error) {
     const size_t seeds = lab_run_options(run)->quick ? 100 : 1000;
     aur_facets *facets = NULL;

@@ -1,5 +1,5 @@
-/* How often the intervals of aur_irradiance_estimate and of aur_estimate hold, also of runs that an error
- * asked has stopped. */
+/* Coverage of the intervals of aur_irradiance_estimate and of aur_estimate, with fixed sizes and with a
+ * target error. */
 #include <aureole-lighting/irradiance.h>
 #include <aureole/estimate.h>
 #include <math.h>
@@ -16,7 +16,7 @@ typedef struct coverage_case {
     const char *name, *scene;
     double positions[SENSORS][3], normals[SENSORS][3];
     double asked;
-    /* What is true at a sensor; NULL: the mean over all runs of fixed size. */
+    /* The reference at a sensor; NULL: the mean over all runs of fixed size. */
     double (*truth)(const double position[3]);
 } coverage_case;
 
@@ -26,8 +26,9 @@ static double furnace(const double position[3]) {
     return 2.0 * PI;
 }
 
-/* A lamp of 2 x 2 in the plane z = 2, of which a screen in z = 1 leaves what lies beyond the line from the
- * sensor through x = 0: a rectangle, as four of which one corner stands above the sensor (Lambert 1760). */
+/* An emitter of 2 x 2 in the plane z = 2. A screen in z = 1 blocks one side of the line from the sensor
+ * through x = 0. The visible part is a rectangle, computed from four with a corner above the sensor (Lambert
+ * 1760). */
 static double corner(double a, double b) {
     const double h = 2.0, p = sqrt(a * a + h * h), q = sqrt(b * b + h * h);
     return 0.5 * (a / p * atan(b / p) + b / q * atan(a / q));
@@ -39,7 +40,7 @@ static double screened(const double position[3]) {
     return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
 }
 
-/* A sky of radiance 1 over a black wall of height 1 in the plane x = 0, as good as endless. */
+/* A sky of radiance 1 above a practically infinite black wall of height 1 in the plane x = 0. */
 static double beside_wall(const double position[3]) {
     return 0.5 * PI * (1.0 + position[0] / hypot(position[0], 1.0));
 }
@@ -92,7 +93,7 @@ static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_
     return aur_irradiance_estimate(scene, &sensors, &options, sizeof *results, results, error);
 }
 
-/* Every seed with a fixed number of directions, and to the error asked. */
+/* Every seed with a fixed number of directions, and to the target error. */
 static aur_result study(lab_run *run, const aur_scene *scene, const coverage_case *given, lab_tally pooled[2],
                         aur_error *error) {
     const size_t seeds = lab_run_options(run)->quick ? 60 : 1000;

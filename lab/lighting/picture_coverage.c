@@ -1,5 +1,5 @@
-/* How often the intervals of images' errors hold, of fixed rounds and of renders that an error asked has
- * stopped, and those of measures of randomised sets. */
+/* Coverage of the intervals of images' errors, with fixed rounds and with a target error, and of measures of
+ * randomised sets. */
 #include <aureole-render/adaptive.h>
 #include <aureole/pointset.h>
 #include <aureole/quality.h>
@@ -9,7 +9,7 @@
 
 #include "coverage.h"
 
-/* Pixels of a side, and values of a picture. */
+/* Pixels per side, and values per image. */
 enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
 
 typedef struct picture {
@@ -53,8 +53,9 @@ static aur_result render(lab_run *run, aur_renderer *renderer, double asked, siz
     return result;
 }
 
-/* The picture's root mean square error, relative to its mean: held when it is within the interval, and when
- * it is below the interval's end, which is what a render to an error goes by. */
+/* The image's root mean square error, relative to its mean. Counted as covered if it is within the interval,
+ * and if it is below the interval's upper end, which is the stopping criterion of a render to a target error.
+ */
 static void count_picture(const picture *made, const float *truth, lab_tally t[2]) {
     double squares = 0.0;
     for (size_t i = 0; i < VALUES; ++i) {
@@ -80,7 +81,7 @@ static aur_result study_pictures(lab_run *run, lab_tally *pooled, aur_error *err
         result = aur_renderer_create(scene, &renderer, error);
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
         result = render(run, renderer, asked[i / seeds], i, &made[i], error);
-    /* What is true is the mean over all: no run's seed is another one's. */
+    /* The reference is the mean over all runs; all runs have different seeds. */
     float truth[VALUES];
     double weight = 0.0;
     for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
@@ -105,8 +106,8 @@ static aur_result study_pictures(lab_run *run, lab_tally *pooled, aur_error *err
     return result;
 }
 
-/* The energy of scrambled nets: eight randomisations make one interval, as of `aureole measure --seeds 8`.
- * What is true is the mean over all of them. */
+/* The energy of scrambled nets: eight randomisations give one interval, as in `aureole measure --seeds 8`.
+ * The reference is the mean over all of them. */
 static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *error) {
     enum { RUNS = 8, POINTS = 32 };
     const size_t seeds = lab_run_options(run)->quick ? 200 : 1000;

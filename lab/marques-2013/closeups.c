@@ -1,9 +1,8 @@
 /* Close-ups of the indirect light of three scenes by four sets under two maps, with error images, at the
  * paper's numbers of directions (Marques 2013, figs 5 to 7).
  *
- * The mean square errors are over independent randomisations; pictures are of the first one. A close-up is a
- * window of a picture of 256 pixels; a sheet has all patterns side by side, their errors below, in one scale.
- */
+ * The mean square errors are over independent randomisations; images show the first one. A close-up is a
+ * window of an image of 256 pixels; a sheet has all patterns in a row, their errors below, in one scale. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +14,7 @@ enum { WINDOWS = 2, SIDE = 32, MOST_SEEDS = 3, ZOOM = 2, QUICK_SHRINK = 8 };
 
 typedef struct closeups {
     size_t diffuse, glossy; /* directions */
-    double stops;           /* exposure of the pictures; the paper's overview is 4 times as bright */
+    double stops;           /* exposure of the images; the paper's overview is 4 times as bright */
     struct window {
         const char *name;
         size_t x, y; /* its upper left corner */
@@ -38,7 +37,7 @@ typedef struct study {
     marques_pattern patterns[MARQUES_PATTERNS];
     marques_gathering form;
     aur_image *references[2], *pictures[MARQUES_PATTERNS];
-    size_t rivals, better; /* rows; those in which spherical Fibonacci has the smaller mean error */
+    size_t rivals, better; /* rows; rows in which spherical Fibonacci has the smaller mean error */
 } study;
 
 static aur_result put(study *s, const char *name, const aur_image *image, aur_error *error) {
@@ -48,7 +47,7 @@ static aur_result put(study *s, const char *name, const aur_image *image, aur_er
     return lab_picture(s->run, &place, image, error);
 }
 
-/* The mean square errors of a pattern; the picture of the first randomisation is kept for the sheet. */
+/* The mean square errors of a pattern; the image of the first randomisation is stored for the sheet. */
 static aur_result measure(study *s, size_t index, double *squares, aur_error *error) {
     const marques_pattern *const pattern = &s->patterns[index];
     aur_result result = AUR_OK;
@@ -75,12 +74,12 @@ static aur_result measure(study *s, size_t index, double *squares, aur_error *er
 
 /* --- the sheet */
 
-/* The light whose picture shows the value `shown` under the sRGB curve. */
+/* The linear value that the sRGB curve displays as `shown`. */
 static float light_of(float shown) {
     return shown <= 0.04045F ? shown / 12.92F : powf((shown + 0.055F) / 1.055F, 2.4F);
 }
 
-/* Puts a picture into the sheet at (x, y), its pixels ZOOM times as large. */
+/* Copies an image into the sheet at (x, y), its pixels ZOOM times as large. */
 static void paste(aur_image *sheet, const aur_image *image, size_t x, size_t y, float scale, bool shown) {
     float *const to = aur_image_data(sheet);
     const float *const from = aur_image_data(image);
@@ -191,7 +190,7 @@ static aur_result study_window(study *s, aur_error *error) {
     return result;
 }
 
-/* The whole picture, by few directions: where the windows are. */
+/* The whole image, with few directions: shows where the windows are. */
 static aur_result draw_whole(const study *s, aur_error *error) {
     double drawn;
     char key[80];

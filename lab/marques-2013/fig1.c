@@ -1,8 +1,8 @@
-/* Four plates under seven lights by spherical Fibonacci and Larcher-Pillichshammer points: pictures, the
- * ratio of RMSEs and of the largest errors (Marques 2013, fig. 1).
+/* Four plates under seven lights by spherical Fibonacci and Larcher-Pillichshammer points: images, the ratio
+ * of RMSEs and of the largest errors (Marques 2013, fig. 1).
  *
- * The paper does not say how many directions there are, so that three numbers are tried. Mean square errors
- * are against two references, which are independent; intervals are over independent randomisations. */
+ * The paper does not state the number of directions, so three are tried. Mean square errors are against two
+ * independent references; intervals are over independent randomisations. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +13,7 @@ enum { COUNTS = 3, MOST_SEEDS = 24, RIVALS = 2, QUANTITIES = 2, SHOWN = 256, WID
 
 static const size_t counts[COUNTS] = {64, 128, 256};
 
-/* Percent of RMSE above spherical Fibonacci's; the largest quadratic errors of a pixel. */
+/* Percent of RMSE above spherical Fibonacci's; the largest squared errors of a pixel. */
 static const double published[QUANTITIES] = {1.0755, 0.71 / 0.39};
 static const char *const quantities[QUANTITIES] = {"rmse", "largest quadratic error"};
 
@@ -22,10 +22,10 @@ typedef struct study {
     lab_stage stage;
     size_t seeds, reference_directions;
     marques_gathering form;
-    aur_image *references[2]; /* NULL: not made yet */
+    aur_image *references[2]; /* NULL: not rendered yet */
 } study;
 
-/* The largest of the pixels' (x - a)(x - b), a mean over channels. */
+/* The maximum over pixels of (x - a)(x - b), averaged over channels. */
 static double largest_product(const aur_image *x, const aur_image *a, const aur_image *b) {
     const size_t channels = aur_image_channel_count(x), pixels = aur_image_width(x) * aur_image_height(x);
     const float *const of_x = aur_image_data(x), *const of_a = aur_image_data(a);
@@ -49,7 +49,7 @@ static aur_result need_references(study *s, aur_error *error) {
     return result != AUR_OK ? result : lab_picture(s->run, &place, s->references[0], error);
 }
 
-/* Both quantities, one value a randomisation; the picture of the first is written. */
+/* Both quantities, one value per randomisation; writes the image of the first. */
 static aur_result measure(study *s, const char *set, size_t directions,
                           double values[QUANTITIES * MOST_SEEDS], aur_error *error) {
     char key[120];
@@ -126,7 +126,7 @@ static aur_result run(lab_run *run, aur_error *error) {
                         .photons = 1000,
                         .width = quick ? WIDTH / 4 : WIDTH,
                         .height = quick ? HEIGHT / 4 : HEIGHT}};
-    /* The quick form needs no mesh that is to be made first. */
+    /* The quick form needs no generated mesh. */
     aur_result result =
         lab_stage_open(run, quick ? "cornell-box/glossy.xml" : "plates/plates.xml", 0, NULL, &s.stage, error);
     if (s.stage.renderer != NULL && result == AUR_OK)

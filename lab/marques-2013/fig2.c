@@ -1,5 +1,5 @@
-/* 512 points of four sets in the square and on the hemisphere under two maps, drawn, and how far each point
- * is from its nearest neighbour (Marques 2013, fig. 2). */
+/* 512 points of four sets in the square and on the hemisphere under two maps, drawn, and each point's
+ * distance to its nearest neighbour (Marques 2013, fig. 2). */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ typedef struct view {
 typedef struct sheet {
     lab_run *run;
     report_table *points;
-    aur_image *drawn; /* a column a set and a row a projection, as in the paper */
+    aur_image *drawn; /* a column per set and a row per projection, as in the paper */
     size_t count, view_count;
     view views[VIEWS];
 } sheet;
@@ -38,7 +38,7 @@ static double distance_to_nearest(const aur_points_view *points, size_t index) {
     return sqrt(least);
 }
 
-/* The column of a set in the drawing: spherical Fibonacci on the right, the set of --set beyond it. */
+/* The column of a set in the drawing: spherical Fibonacci on the right, then the set of --set. */
 static size_t column_of(const char *set) {
     static const char *const sets[] = {"sobol", "bnot", "larcher-pillichshammer", "spherical-fibonacci"};
     size_t column = 0;
@@ -47,7 +47,7 @@ static size_t column_of(const char *set) {
     return column;
 }
 
-/* A point in the square, or on the disk that has the hemisphere's areas. */
+/* A point in the square, or on the disk by the hemisphere's equal-area projection. */
 static void draw(const sheet *s, const view *v, const aur_points_view *points) {
     const bool square = points->dimension == 2;
     const double size = CELL - 2 * MARGIN;
@@ -95,7 +95,7 @@ static const view *find(const sheet *s, const char *set, const char *projection)
     return NULL;
 }
 
-/* What the paper says of these drawings, asked of the distances. */
+/* Checks the paper's statements on these drawings by the distances. */
 static void judge(const sheet *s) {
     static const char *const projections[] = {"square", "lambert", "concentric"};
     static const char *const even[] = {"bnot", "larcher-pillichshammer"};
@@ -136,7 +136,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     aur_result result = lab_canvas((more != NULL ? 5 : 4) * CELL, 3 * CELL, &s.drawn, error);
     for (size_t i = 1; i < count && patterns[i].map == AUR_MAP_LAMBERT && result == AUR_OK; ++i) {
         result = add_view(&s, &patterns[i], AUR_DOMAIN_SQUARE, error);
-        /* A set of --set may be one of directions alone. */
+        /* A set of --set may consist of directions only. */
         if (result != AUR_OK && patterns[i].set == more)
             result = result == AUR_ERROR_MEMORY ? result : AUR_OK;
     }

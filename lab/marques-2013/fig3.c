@@ -10,8 +10,7 @@ enum { SIZES = 7, QUICK_SIZES = 4, SMALLEST = 64, METRICS = 2, MOST_SEEDS = 16, 
 
 static const char *const metrics[METRICS] = {"energy", "min-distance"};
 static const aur_domain domains[DOMAINS] = {AUR_DOMAIN_HEMISPHERE, AUR_DOMAIN_SPHERE};
-/* "Approximately" the rate of the paper is taken for within `near`, a factor of 1.2 from 64 to 4096 points.
- */
+/* "Approximately" the paper's rate is taken to mean within `near`, a factor of 1.2 from 64 to 4096 points. */
 static const double rate = -0.75, near = 0.05;
 
 /* Means over seeds. */

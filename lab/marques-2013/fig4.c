@@ -1,9 +1,9 @@
 /* RMSE of the glossy and the diffuse indirect light against the number of directions, with slopes: four sets
  * under two maps, three scenes (Marques 2013, fig. 4).
  *
- * Intervals are over independent randomisations; those of slopes are of the scatter about the line. A slope
- * has some hundredths to either side with four randomisations, where the paper's claims tell -3/4 from -1/2.
- * The legend of the paper's figure is a picture, so that only its words can be asked. */
+ * Intervals are over independent randomisations; those of slopes are from the scatter about the line. With
+ * four randomisations a slope has an uncertainty of some hundredths, while the paper's claims distinguish
+ * -3/4 from -1/2. The legend of the figure is in an image, so only statements in the text can be checked. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 enum { SIZES = 5, QUICK_SIZES = 3, SMALLEST = 16, MOST_SEEDS = 4, COMPONENTS = 2 };
 
 static const char *const components[COMPONENTS] = {"glossy", "diffuse"};
-static const double near = 0.1; /* what "close to" a slope is taken for */
+static const double near = 0.1; /* interpretation of "close to" a slope */
 
 typedef struct line {
     double directions[SIZES];
@@ -29,10 +29,12 @@ typedef struct study {
     lab_stage stage;
     size_t size_count, smallest, seeds, reference_directions;
     marques_gathering form;
-    aur_image *references[2]; /* NULL: not made yet */
+    aur_image *references[2]; /* NULL: not rendered yet */
     line base;                /* of spherical Fibonacci */
-    size_t rivals, beaten;    /* lines times counts; those in which a rival is better beyond its interval */
-    size_t lines, steeper;    /* lines; those that fall faster than spherical Fibonacci's beyond intervals */
+    size_t rivals, beaten;    /* lines times counts; those in which a competing set is better beyond its
+                               * interval */
+    size_t lines, steeper;    /* lines; those with a steeper slope than spherical Fibonacci's beyond intervals
+                               */
 } study;
 
 static aur_result measure(study *s, const marques_pattern *pattern, size_t directions, double *squares,
@@ -101,7 +103,7 @@ static aur_result add_line(study *s, const marques_pattern *pattern, aur_error *
     return AUR_OK;
 }
 
-/* What the paper says of slopes of single panels of the figure. */
+/* The paper's statements on slopes of single panels of the figure. */
 static void judge_slope(const study *s) {
     const bool box = strcmp(s->scene->name, "cornell-box") == 0, glossy = s->component == components[0];
     const bool cars = strcmp(s->scene->name, "cars") == 0, room = strcmp(s->scene->name, "room") == 0;
@@ -131,8 +133,8 @@ static aur_result study_component(study *s, aur_error *error) {
     return result;
 }
 
-/* One of two equal patterns lies below the other's interval in 1 of 40 cases; so many of `count`, and two
- * standard deviations. */
+/* One of two equal patterns is below the other's interval with probability 1/40: the expected number among
+ * `count`, plus two standard deviations. */
 static size_t by_probability(size_t count) {
     const double mean = (double)count / 40.0;
     return (size_t)(mean + 2.0 * sqrt(mean));

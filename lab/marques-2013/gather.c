@@ -1,9 +1,9 @@
 /* Spherical Fibonacci against scrambled Sobol in final gathering of the glossy Cornell box (Marques 2013,
  * section 6).
  *
- * A pattern is judged by the RMSE of its pictures against the same estimator with very many directions, on
- * the same photon map and the same primary hits (pixel centres), for the diffuse and the glossy component of
- * the indirect light apart. Its intervals are over independent randomisations of the patterns. */
+ * The quality of a pattern is the RMSE of its images against the same estimator with very many directions, on
+ * the same photon map and the same primary hits (pixel centres), separately for the diffuse and the glossy
+ * component of the indirect light. Intervals are over independent randomisations of the patterns. */
 #include <math.h>
 #include <stdio.h>
 
@@ -14,16 +14,16 @@ enum { SET_CAPACITY = 3, MOST_SCRAMBLES = 16 };
 typedef struct gather_study {
     lab_run *run;
     lab_stage stage;
-    size_t side; /* pixels a side */
+    size_t side; /* pixels per side */
     size_t photons;
     size_t reference_directions;
     size_t scrambles; /* independent randomisations */
     size_t count_count;
     size_t counts[4];    /* directions per pixel */
-    size_t path_samples; /* a pixel, of the path-traced picture that the bias is measured against */
+    size_t path_samples; /* per pixel, of the path-traced image against which the bias is measured */
     size_t set_count;
     const char *sets[SET_CAPACITY];
-    aur_image *reference; /* of the component that is studied; NULL: not made yet */
+    aur_image *reference; /* of the component under study; NULL: not rendered yet */
 } gather_study;
 
 static const char *const columns[] = {"component", "pattern", "directions", "rmse",       "rmse_low",
@@ -40,8 +40,8 @@ static aur_result render(const gather_study *study, const char *integrator, size
     return lab_render(study->run, &how, image, error);
 }
 
-/* One component of the indirect light at the pixel centres. Every shading point has a randomisation of its
- * own. */
+/* One component of the indirect light at the pixel centres. Every shading point has an independent
+ * randomisation. */
 static aur_result render_component(const gather_study *study, const char *component, const char *set,
                                    size_t directions, size_t scramble, aur_image **image, aur_error *error) {
     char integrator[320];
@@ -55,7 +55,7 @@ static aur_result render_component(const gather_study *study, const char *compon
     return render(study, integrator, 1, 0, image, error);
 }
 
-/* The reference of a component, made when it is first needed. */
+/* The reference of a component, rendered on first use. */
 static aur_result need_reference(gather_study *study, const char *component, aur_error *error) {
     if (study->reference != NULL)
         return AUR_OK;
@@ -68,7 +68,7 @@ static aur_result need_reference(gather_study *study, const char *component, aur
     return lab_picture(study->run, &place, study->reference, error);
 }
 
-/* Mean square errors of one pattern, one value a scramble; the picture of the first is written. */
+/* Mean square errors of one pattern, one value per scramble; writes the image of the first. */
 static aur_result measure(gather_study *study, const char *component, const char *set, size_t directions,
                           double *mse, aur_error *error) {
     char key[160];
@@ -104,7 +104,7 @@ static void add_row(const gather_study *study, const char *component, const char
                              ratio.high});
 }
 
-/* Whether the intervals of two patterns are apart, the first below. */
+/* Whether the intervals of two patterns are disjoint, the first below. */
 static bool apart(size_t count, const double *lower, const double *upper) {
     double low_mean, low_half, high_mean, high_half;
     lab_mean_interval(count, lower, &low_mean, &low_half);
@@ -136,8 +136,7 @@ static aur_result study_component(gather_study *study, const char *component, au
     return result;
 }
 
-/* Full light paths against path tracing: what the photon map costs in truth, apart from what patterns cost in
- * noise. */
+/* Complete light paths against path tracing: the bias of the photon map, apart from the noise of patterns. */
 static aur_result measure_bias(const gather_study *study, aur_error *error) {
     enum { GATHERED, TRACED, RMSE, VALUES };
     double values[VALUES], mean[4];

@@ -1,10 +1,10 @@
 /* Sobol, BNOT and Larcher-Pillichshammer points against spherical Fibonacci at 512 directions, over three
  * scenes, two components of the indirect light and two maps of the square (Marques 2013, table 1).
  *
- * The mean square error of a picture x is the mean of (x - a)(x - b), where a and b are two references by the
- * same estimator with very many directions, on the same photon map and primary hits, independent of each
- * other and by different sets: so the references' own errors drop out and favour no set. Intervals are over
- * independent randomisations of the patterns. */
+ * The mean square error of an image x is the mean of (x - a)(x - b). a and b are two independent references
+ * by the same estimator with very many directions of different sets, on the same photon map and primary hits.
+ * So the references' errors cancel and favour no set. Intervals are over independent randomisations of the
+ * patterns. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,16 +13,16 @@
 
 enum { DIRECTIONS = 512, MORE_DIRECTIONS = 768, SCENES = 3, RIVALS = 3, BATCH = 8, MOST_SCRAMBLES = 96 };
 
-/* Relative half widths of mean square errors: base and rival together make +- 1 % of
- * a ratio of RMSEs. */
+/* Relative half widths of mean square errors: base and other set together give +- 1 % for a ratio of RMSEs.
+ */
 static const double base_half = 0.010, rival_half = 0.017, slope_half = 0.04;
 
 typedef struct table_scene {
     const char *name;
-    const char *file, *quick_file; /* the latter needs no generated meshes; NULL: not in the quick form */
+    const char *file, *quick_file; /* the latter needs no generated meshes; NULL: omitted in the quick form */
     size_t width, height;
-    double published[2][2][RIVALS][2]; /* glossy, diffuse; lambert, concentric; rival: percent of RMSE above
-                                          spherical Fibonacci's, rays needed */
+    double published[2][2][RIVALS][2]; /* glossy, diffuse; lambert, concentric; set: percent of RMSE above
+                                        * spherical Fibonacci's, rays needed */
 } table_scene;
 
 static const table_scene scenes[SCENES] = {
@@ -60,11 +60,11 @@ typedef struct table_study {
     const table_scene *scene;
     lab_stage stage;
     bool quick;
-    size_t directions, more_directions; /* where the RMSE is compared, and where its slope is taken from */
+    size_t directions, more_directions; /* numbers at which the RMSE is compared, and for its slope */
     size_t reference_directions, photons;
     const char *component;
     aur_image *references[2];
-    size_t rows, above, not_below; /* rows; those whose interval is above 1, and those whose value is not */
+    size_t rows, above, not_below; /* rows; rows whose interval is above 1, and rows whose value is not */
 } table_study;
 
 static aur_result render(const table_study *study, const char *set, const char *map, size_t directions,
@@ -98,7 +98,7 @@ static aur_result need_references(table_study *study, aur_error *error) {
                                      &study->references[1], error);
 }
 
-/* The mean square error over independent randomisations: as many as a narrow interval takes. */
+/* The mean square error over as many independent randomisations as a narrow interval requires. */
 static aur_result measure(table_study *study, const char *set, const char *map, size_t directions,
                           double wanted_half, table_cell *cell, aur_error *error) {
     double mse[MOST_SCRAMBLES], half, values[2];
@@ -135,7 +135,7 @@ static double root(double value) {
     return sqrt(fmax(0.0, value));
 }
 
-/* Directions that the rival needs for the base's error, by the slope of its own between two counts. */
+/* Directions that the other set needs for the base's error, by its slope between two counts. */
 static double rays_needed(const table_study *study, double at_directions, double at_more, double base) {
     const double slope =
         log(at_more / at_directions) / log((double)study->more_directions / (double)study->directions);
@@ -146,7 +146,7 @@ static const char *candidate_at(const table_study *study, size_t rival) {
     return rival < RIVALS ? rivals[rival] : lab_run_options(study->run)->set;
 }
 
-/* BNOT takes too long to make for the quick form. */
+/* BNOT takes too long to generate for the quick form. */
 static bool wanted(const table_study *study, size_t component, size_t map, size_t rival) {
     char name[160];
     snprintf(name, sizeof name, "%s/%s/%s/%.80s", study->scene->name, components[component], maps[map],

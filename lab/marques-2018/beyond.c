@@ -1,6 +1,6 @@
-/* What Aureole adds to the weights of Marques 2018, one number a row: what the constraint of the sum costs
- * and mends, what the optimal density is worth, what lobes that end at the horizon are worth, and what
- * interpolation in tables loses. Worst-case errors at s = 1.5, root mean squares over seeds. */
+/* Aureole's extensions of the weights of Marques 2018, one number per row: cost and benefit of the constraint
+ * on the sum, of the optimal density, of lobes clipped at the horizon, and the loss by interpolation in
+ * tables. Worst-case errors at s = 1.5, root mean squares over seeds. */
 #include <math.h>
 #include <stdio.h>
 
@@ -91,7 +91,7 @@ static aur_oswa_options merged(const beyond_study *s, bool clipped, uint64_t see
                               .seed = seed};
 }
 
-/* The glossy lobe's error, judged for the part above the horizon, where all light is. */
+/* The glossy lobe's error, evaluated for the part above the horizon, from where all light comes. */
 static aur_result horizon_error(const beyond_study *s, bool clipped, double degrees, uint64_t seed,
                                 const aur_potential *lobe, double *square, double *constant,
                                 aur_error *error) {
@@ -163,8 +163,8 @@ typedef struct table_study {
     aur_oswa *oswa;
 } table_study;
 
-/* The worst-case errors of the glossy lobe's own samples with equal weights, and of all with those of a solve
- * and of the table, at one angle. */
+/* The worst-case errors of the glossy lobe at one angle: its own samples with equal weights, and all samples
+ * with the weights of a solve and of the table. */
 static aur_result one_angle(const table_study *t, double radians, size_t rotation, double errors[WAYS],
                             aur_error *error) {
     double turns[2], xyz[3 * ALL], solved[2 * ALL], weights[ALL];
@@ -198,7 +198,7 @@ static aur_result one_angle(const table_study *t, double radians, size_t rotatio
     return result;
 }
 
-/* The share of the gain of a solve that interpolation loses, over views from 0 to 80 degrees. */
+/* The fraction of a solve's gain that interpolation loses, over views from 0 to 80 degrees. */
 static aur_result table_loss(const beyond_study *s, double exponent, bool clipped, size_t angles,
                              aur_error *error) {
     enum { ROTATIONS = 2 };
@@ -214,7 +214,7 @@ static aur_result table_loss(const beyond_study *s, double exponent, bool clippe
         result = aur_oswa_create(&options, &t.oswa, error);
     for (size_t k = 0; k < steps && result == AUR_OK; ++k) {
         double errors[WAYS] = {0}, whole;
-        /* Golden steps, which favour no place between two angles of the table. */
+        /* Golden-ratio steps, to cover the intervals between the table's angles uniformly. */
         const double degrees = 80.0 * modf(0.6180339887498949 * (double)(k + 1), &whole);
         result = one_angle(&t, degrees * radian, k % ROTATIONS, errors, error);
         for (size_t way = 0; way < WAYS; ++way)

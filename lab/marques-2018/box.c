@@ -1,11 +1,11 @@
-/* The Cornell box of Marques 2018, table 1, whose lobes the paper does not give: exponents 1, 3, 5, 8, 20 and
- * 50 by glossy shares of .2, .5 and .8, for Sobol and random samples.
+/* The Cornell box of Marques 2018, table 1, whose lobes the paper does not state: exponents 1, 3, 5, 8, 20
+ * and 50 by glossy shares of .2, .5 and .8, for Sobol and random samples.
  *
  * Settings, fixed before the run: wall, tall block and teapot have the same grey lobes, kd = .8 (1 - share)
- * and ks = .8 share; light, directions (40 + 20) and ways to weigh are those of marques-2018-table1. All 18
- * boxes are rows, and each is compared with the same six published values. The paper has one set of points
- * for all shading points, so a published value is that of one set, and so is the interval that it is compared
- * with. A box that fits is a fit of two numbers to six, not a prediction. */
+ * and ks = .8 share; light, directions (40 + 20) and weighting methods are those of marques-2018-table1. All
+ * 18 boxes are rows, each compared with the same six published values. The paper uses one point set for all
+ * shading points, so a published value, and the interval compared with it, are for one set. A matching box
+ * fits two parameters to six values; it is not a prediction. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,7 +23,7 @@ static const struct {
                 {"OSW", "weights=osw,density=same,clip=false"},
                 {"equal", "weights=equal,clip=false"}};
 
-/* RMSE over that of OSWA; 0: not published. */
+/* RMSE relative to that of OSWA; 0: not published. */
 static const struct {
     const char *set;
     double ratio[WAYS];
@@ -63,7 +63,7 @@ static aur_result open_box(box *of, aur_error *error) {
     return lab_gather_open_defined(&of->gather, "cornell-box/glossy.xml", 9, definitions, error);
 }
 
-/* Mean square errors, one a scrambling. */
+/* Mean square errors, one per scrambling. */
 static aur_result measure(box *of, const char *set, box_way way, double *mse, aur_error *error) {
     char key[160];
     snprintf(key, sizeof key, "m %g, share %g, %.80s, %s", of->exponent, of->share, set, ways[way].name);

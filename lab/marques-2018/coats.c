@@ -1,11 +1,12 @@
 /* Merged samples of all lobes of coated materials in images: a ball under random lights, seen at every angle,
- * whose material has a diffuse and one or two glossy lobes, as of plastic, a clear coat over a rough base, or
- * a blend of Phong lobes. finalgather-lab merges one glossy lobe with a formula; this shows what more would
- * gain.
+ * with a diffuse and one or two glossy lobes, as in plastic, a clear coat over a rough base, or a blend of
+ * Phong lobes. finalgather-lab merges one glossy lobe by a formula; this measures the benefit of merging
+ * more.
  *
- * Settings, fixed before the run: lobe_weights.h; orthographic view, pixel centres up to 85 degrees; each
- * pixel has a randomisation of its own and weights solved at its angle; the ball shadows itself only. Lights
- * are those of samples.h on the whole sphere. Intervals are over images, each with its own light. */
+ * Settings, fixed before the run: lobe_weights.h; orthographic view, pixel centres up to 85 degrees. Each
+ * pixel has an independent randomisation and weights solved at its angle; only the ball shadows itself.
+ * Lights are those of samples.h on the whole sphere. Intervals are over images, each with a different light.
+ */
 #include <math.h>
 #include <stdio.h>
 
@@ -36,10 +37,10 @@ typedef struct coats_study {
     const coat *of;
     const char *set;
     size_t side, images;
-    double squares[2][LAB_LOBE_METHODS][IMAGES]; /* of light and method: sums over pixels */
+    double squares[2][LAB_LOBE_METHODS][IMAGES]; /* per light and method: sums over pixels */
 } coats_study;
 
-/* The light as the surface point of a pixel has it: z along the normal, x towards the eye. */
+/* The light in the local frame of a pixel's surface point: z along the normal, x towards the eye. */
 static lab_light turn(lab_light light, double x, double y) {
     const double z = sqrt(fmax(0.0, 1.0 - x * x - y * y)), radius = sqrt(x * x + y * y);
     const double cosine = radius > 0.0 ? x / radius : 1.0, sine = radius > 0.0 ? y / radius : 0.0;
@@ -81,7 +82,7 @@ static aur_result add_pixel(coats_study *s, const lab_lobes *lobes, size_t pixel
     return result;
 }
 
-/* Pixels that are seen at one angle share densities and reference: a row of the image and its like. */
+/* Pixels seen at the same angle share densities and reference: a row of the image and its mirror image. */
 static aur_result measure(coats_study *s, aur_error *error) {
     size_t pixels = 0;
     aur_result result = AUR_OK;

@@ -1,10 +1,10 @@
-/* Ways to weigh the same samples: 64 diffuse samples and 32 glossy ones (m = 20) under random lights, smooth
- * ones and ones with hard edges, the view from above to grazing. The integral is the diffuse plus the glossy
- * part, each of weight 1; no light comes from below the surface. The weights of Marques 2018 section 6.3,
- * compared in another experiment, whose truth is known; and the published methods that solve a system too:
- * optimal multiple importance sampling, a control by the two densities (Kondapaneni 2019), and regression on
- * polynomials of degree 2 and 3 in x, y, z, 9 and 16 functions for each lobe (Salaun 2022). Those know the
- * horizon, as clipped weights do. */
+/* Compares weights for the same samples: 64 diffuse samples and 32 glossy ones (m = 20) under random lights,
+ * smooth ones and ones with hard edges, with views from normal to grazing. The integral is the diffuse plus
+ * the glossy part, each with weight 1; no light comes from below the surface. Compared are the weights of
+ * Marques 2018 section 6.3 and published methods that also solve a system: optimal multiple importance
+ * sampling, a control variate by the two densities (Kondapaneni 2019), and regression on polynomials of
+ * degree 2 and 3 in x, y, z, with 9 and 16 functions per lobe (Salaun 2022). The latter use the horizon, as
+ * clipped weights do. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,16 +16,16 @@ enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 16384, ANGLES 
 
 typedef enum method {
     EQUAL,       /* each lobe from its own samples, 1/N */
-    SCALED,      /* the same, over the visible samples, times the visible part of the lobe */
+    SCALED,      /* the same, over the visible samples, times the visible fraction of the lobe */
     BALANCE,     /* multiple importance sampling */
     POWER,       /* with the power heuristic */
-    OPTIMAL_MIS, /* control by the densities */
-    SQUARES,     /* control by polynomials of degree 2 */
-    CUBES,       /* and of degree 3 */
+    OPTIMAL_MIS, /* control variate by the densities */
+    SQUARES,     /* control variate by polynomials of degree 2 */
+    CUBES,       /* control variate by polynomials of degree 3 */
     OSW,         /* optimal weights, each lobe from its own samples */
     PUBLISHED,   /* OSWA as published: z from a table, sigma = 0.5, no constraint */
-    WHOLE,       /* OSWA for whole lobes */
-    CLIPPED,     /* OSWA for lobes that end at the horizon */
+    WHOLE,       /* OSWA for complete lobes */
+    CLIPPED,     /* OSWA for lobes clipped at the horizon */
     TABLE,       /* the same from a table of 128 angles */
     DENSE,       /* the same for points of the optimal density */
     METHODS
@@ -50,8 +50,8 @@ static const double whole_mass = 2.0 * 3.14159265358979323846 / 21.0;
 
 static const char *const columns[] = {"set", "light", "degrees", "method", "rmse", "relative_to_equal", NULL};
 
-/* Samples and weights of one method: weights[0] for the diffuse lobe, [1] for the glossy one, of which
- * `visible` is the part that is estimated. */
+/* Samples and weights of one method: weights[0] for the diffuse lobe, [1] for the glossy one, whose `visible`
+ * part is estimated. */
 typedef struct rule {
     double xyz[3 * ALL], weights[2][ALL];
     double visible;
@@ -62,10 +62,10 @@ typedef struct study {
     const char *set;
     double radians;
     aur_weight_table *table; /* of the set */
-    double *truth;           /* 6 * TRUTH: points of either lobe */
+    double *truth;           /* 6 * TRUTH: points of both lobes */
 } study;
 
-/* The paper regularises much, and has no constraint of the sum. */
+/* The paper uses strong regularisation, and no constraint on the sum. */
 static const aur_weights_options published = {.size = sizeof published, .regularization = 0.5};
 
 static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
@@ -87,7 +87,7 @@ static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
     return options;
 }
 
-/* Every light takes another rotation of the table, in turn. */
+/* Each light uses another rotation of the table, in turn. */
 static aur_result from_table(const study *s, uint64_t seed, rule *r, aur_error *error) {
     const size_t rotation = seed % aur_weight_table_rotations(s->table);
     float weights[ALL];
@@ -102,7 +102,7 @@ static aur_result from_table(const study *s, uint64_t seed, rule *r, aur_error *
     return result;
 }
 
-/* Weights that take no merged solve. */
+/* Weights that need no merged solve. */
 static aur_result separate(const study *s, method m, rule *r, aur_error *error) {
     const double axis[3] = {-sin(s->radians), 0.0, cos(s->radians)};
     aur_density densities[2] = {{.size = sizeof(aur_density)}, {.size = sizeof(aur_density)}};
@@ -187,7 +187,7 @@ static double exact(const study *s, const lab_light *light) {
     return sum;
 }
 
-/* A light that regression's basis contains has no error but rounding. */
+/* If the light is in regression's function space, only rounding errors remain. */
 static aur_result claim_exact(const study *s, aur_error *error) {
     rule r;
     double found[2] = {0.0}, wanted[2] = {0.0}, off = 0.0;

@@ -6,7 +6,7 @@
 
 enum { MOST = (LAB_CONTROL_DEGREE_MAX + 1) * (LAB_CONTROL_DEGREE_MAX + 1) };
 
-/* Added to the diagonal, over the trace: a narrow lobe sees high powers as nearly dependent. */
+/* Regularisation relative to the trace: for a narrow lobe, high powers are nearly dependent. */
 static const double RIDGE = 1e-14;
 
 static double density(const aur_strategy *strategy, const double u[3]) {
@@ -16,7 +16,7 @@ static double density(const aur_strategy *strategy, const double u[3]) {
     return up > 0.0 ? (m + 1.0) / (2.0 * 3.14159265358979323846) * pow(up, m) : 0.0;
 }
 
-/* All x^a y^b z^c with c at most 1: the others are sums of them on the sphere. */
+/* All x^a y^b z^c with c at most 1: the others are linear combinations of them on the sphere. */
 static size_t polynomials(size_t degree, const double u[3], double values[MOST]) {
     size_t count = 0;
     for (size_t c = 0; c < 2; ++c)
@@ -59,7 +59,7 @@ static void integrate(const lab_control *of, double integrals[MOST]) {
     }
 }
 
-/* Solves the symmetric positive system in place by Cholesky's factors. */
+/* Solves the symmetric positive definite system in place by Cholesky decomposition. */
 static bool solve(size_t n, double a[MOST][MOST], double x[MOST]) {
     for (size_t j = 0; j < n; ++j)
         for (size_t i = j; i < n; ++i) {
@@ -83,9 +83,9 @@ static bool solve(size_t n, double a[MOST][MOST], double x[MOST]) {
     return true;
 }
 
-/* The estimate is the control's integral plus the mean of what is left, sum c_j M_j + sum_i (F_i - sum c_j
- * phi_ij) / d_i with d = n_1 q_1 + n_2 q_2, and c minimises the sum of the squares of (F_i - sum c_j phi_ij)
- * / d_i. It is linear in F, so that it is a weight for each sample. */
+/* The estimate is the control variate's integral plus the mean of the residual, sum c_j M_j + sum_i (F_i -
+ * sum c_j phi_ij) / d_i with d = n_1 q_1 + n_2 q_2; c minimises the sum of the squares of (F_i - sum c_j
+ * phi_ij) / d_i. It is linear in F, so it is a weight for each sample. */
 aur_result lab_control_weights(const lab_control *control, double *weights, aur_error *error) {
     double matrix[MOST][MOST] = {{0}}, off[MOST], trace = 0.0, values[MOST];
     integrate(control, off);
@@ -95,7 +95,7 @@ aur_result lab_control_weights(const lab_control *control, double *weights, aur_
         double d = 0.0;
         for (size_t k = 0; k < 2; ++k)
             d += (double)control->strategies[k].count * density(&control->strategies[k], u);
-        weights[i] = u[2] < 0.0 ? 0.0 : 1.0 / d; /* for now */
+        weights[i] = u[2] < 0.0 ? 0.0 : 1.0 / d; /* before the correction */
         basis = evaluate(control, u, values);
         for (size_t j = 0; j < basis && weights[i] > 0.0; ++j) {
             off[j] -= values[j] / d;

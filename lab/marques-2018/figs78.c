@@ -1,8 +1,9 @@
-/* The RMSE of rendered pictures against the number of samples: eight methods with their slopes and what equal
- * weights and MIS need for the error of optimal ones (Marques 2018, fig. 7), and very many samples (fig. 8).
+/* The RMSE of rendered images against the number of samples: eight methods with their slopes, and the samples
+ * that equal weights and MIS need for the error of optimal ones (Marques 2018, fig. 7), and very many samples
+ * (fig. 8).
  *
- * N counts the samples of both lobes, two thirds of them diffuse. As published, lobes are whole and what is
- * below the surface counts as black. Slopes are fitted to each scrambling, and intervals are over
+ * N counts the samples of both lobes, two thirds of them diffuse. As published, lobes are not clipped, and
+ * light from below the surface counts as black. Slopes are fitted to each scrambling, and intervals are over
  * scramblings. */
 #include <math.h>
 #include <stdio.h>
@@ -122,7 +123,7 @@ static double slope(const curve_study *s, const curve *c, size_t scramble) {
     return lab_slope(s->size_count, x, y).value;
 }
 
-/* A row of one value a scrambling; published 0: nothing is. */
+/* A row of one value per scrambling; published 0: none. */
 static void add_row(const curve_study *s, const char *quantity, const double *values, double published) {
     double mean, half;
     lab_mean_interval(s->scrambles, values, &mean, &half);
@@ -140,8 +141,8 @@ static void add_slope(const curve_study *s, const curve *c) {
     add_row(s, quantity, values, random ? ways[c->way].random_slope : 0.0);
 }
 
-/* How many samples `plain` needs for the error that `optimal` has at the largest size, along its own slope.
- */
+/* The number of samples that `plain` needs for the error of `optimal` at the largest size, along the slope of
+ * `plain`. */
 static void add_needed(const curve_study *s, const curve *plain, const curve *optimal, double published) {
     const size_t last = s->size_count - 1, most = s->figure->sizes[last];
     double values[MOST_SCRAMBLES];
@@ -155,7 +156,7 @@ static void add_needed(const curve_study *s, const curve *plain, const curve *op
     add_row(s, quantity, values, published);
 }
 
-/* "RMSE using OSW is always smaller", and the like. */
+/* Claims such as "RMSE using OSW is always smaller". */
 static void claim_order(const curve_study *s, const curve *below, const curve *above) {
     const size_t last = s->size_count - 1;
     lab_interval first = {0}, ratio = {0};
@@ -191,7 +192,7 @@ static aur_result study_set(curve_study *s, const char *set, aur_error *error) {
         add_slope(s, &of[w]);
         for (size_t n = 0; n < s->size_count; ++n)
             draw(s, &of[w], n, w < MIS ? "a: separate sets" : "b: all samples");
-        /* As in the figure, where Sobol's OSW is in both. */
+        /* As in the figure, both parts of which show Sobol's OSW. */
         for (size_t n = 0; n < s->size_count && s->figure->way_count > MIS; ++n)
             if (sobol && w == OSW)
                 draw(s, &of[w], n, "b: all samples");

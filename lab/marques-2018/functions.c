@@ -1,9 +1,9 @@
-/* Functions of different smoothness along a parallel of the sphere (Marques 2018, fig. 2), and the bound that
- * the worst-case error is for their integrals (eq. 7).
+/* Functions of different smoothness along a parallel of the sphere (Marques 2018, fig. 2), and the worst-case
+ * error as a bound of the errors of their integrals (eq. 7).
  *
- * f = sum of c_j K(., v_j) belongs to the space of smoothness s whose kernel K is, with norm sqrt(c'Kc); its
- * integral against a lobe is the sum of c_j z(v_j), without any quadrature. The paper does not say which
- * functions it draws; these have a third of their centres on the parallel. */
+ * f = sum of c_j K(., v_j) belongs to the space of smoothness s with the kernel K, with norm sqrt(c'Kc); its
+ * integral against a lobe is the sum of c_j z(v_j), without quadrature. The paper does not state its
+ * functions; these have a third of their centres on the parallel. */
 #include <math.h>
 
 #include "samples.h"
@@ -11,7 +11,7 @@
 enum { CENTRES = 24, SMOOTHNESSES = 3, SIZES = 4, MOST = 512, STEPS = 144 };
 
 static const double smoothnesses[SMOOTHNESSES] = {1.1, 1.5, 1.9};
-static const double parallel = 1.4; /* theta of the figure */
+static const double parallel = 1.4; /* theta in the figure */
 
 static const char *const columns[] = {"s", "samples", "error", "bound", "optimal_error", "bound_of_optimal",
                                       NULL};
@@ -31,7 +31,7 @@ static double value_of(const kernel_sum *f, const double at[3]) {
     return sum;
 }
 
-/* Of norm 1 and, as the factors add up to 0, without the kernel's constant. */
+/* With norm 1; as the factors sum to 0, the kernel's constant cancels. */
 static aur_result make(double s, kernel_sum *f, aur_error *error) {
     double square = 0.0, mean = 0.0;
     f->s = s;

@@ -1,7 +1,7 @@
-/* What optimal weights gain in worst-case error (Marques 2018, sections 5.2 and 5.3): 128 diffuse and 64
+/* Gains by optimal weights in worst-case error (Marques 2018, sections 5.2 and 5.3): 128 diffuse and 64
  * glossy samples of a digit-scrambled set, each lobe from its own samples (OSW) and from all (OSWA). The
- * published figures are those of one scrambling. For two lobes they can only be of a sum of two errors, as
- * here; one light serves both lobes, though, so the error of their sum is ||h_d + h_g||, given besides. */
+ * published figures are for one scrambling. For two lobes they can only be of a sum of two errors, as here.
+ * However, both lobes see the same light, so the error of their sum is ||h_d + h_g||, given in addition. */
 #include <aureole/statistics.h>
 #include <math.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static const char *const columns[] = {
     "set",   "figure",    "seeds",      "mean",      "spread", "low", "high", "percent_published",
     "ratio", "ratio_low", "ratio_high", "published", NULL};
 
-/* ||h_d + h_g|| (eq. 6) of weights that are the sums of those for both lobes. */
+/* ||h_d + h_g|| (eq. 6) for weights that are the sums of those for both lobes. */
 static aur_result joint_error(const double *xyz, const double *weights, const aur_potential *const lobes[2],
                               double cross, double *value, aur_error *error) {
     double z[ALL], diffuse = 0.0;
@@ -67,7 +67,7 @@ static aur_result measure(const char *set, uint64_t seed, const aur_potential *c
     return AUR_OK;
 }
 
-/* Gains are compared as the ratios of errors that they are. */
+/* Gains are compared as ratios of errors. */
 static double ratio_of(double percent) {
     return 1.0 - 0.01 * percent;
 }
@@ -95,7 +95,7 @@ static aur_result study_set(lab_run *run, const char *set, const aur_potential *
             aur_moments_add(&moments[i], gains[i]);
     }
     for (size_t i = 0; i < GAINS; ++i) {
-        /* The interval is of one scrambling, as the published figure is. */
+        /* The interval is for one scrambling, as the published figure is. */
         const double mean = moments[i].mean, spread = sqrt(aur_moments_variance(&moments[i]));
         const double half = NORMAL_95 * spread;
         const bool known = strcmp(set, "sobol") == 0 && published[i] > 0.0;

@@ -1,6 +1,6 @@
-/* GGX lobes: what optimal weights gain on visible-normal samples, from a system or from a table over angle
- * and roughness, alone and merged with a diffuse lobe's samples, under random lights with the truth known.
- * Each light comes with another turn of the pattern. No light comes from below the surface. */
+/* GGX lobes: gains by optimal weights on visible-normal samples, from a system or from a table over angle and
+ * roughness, alone and merged with a diffuse lobe's samples, under random lights with a known integral. The
+ * pattern is rotated for each light. No light comes from below the surface. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,10 +10,10 @@
 enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 8192, TURNS = 16 };
 
 typedef enum rule {
-    SHIFTED,  /* heights shifted as in a torus, p/q: what the renderer does */
+    SHIFTED,  /* heights shifted modulo 1, weights p/q: the renderer's method */
     RATIO,    /* p/q */
     HELD,     /* p/q, scaled so that the sum is the lobe's mass */
-    OPTIMAL,  /* a system solved */
+    OPTIMAL,  /* solved system */
     TABLE,    /* from a table over angle and roughness */
     SEPARATE, /* two lobes: cos with equal weights, GGX with p/q */
     BALANCE,  /* two lobes: multiple importance sampling */
@@ -29,7 +29,7 @@ static const char *const names[RULES] = {
 static const char *const columns[] = {"set",  "light",    "alpha",      "degrees", "rule",
                                       "rmse", "relative", "worst_case", NULL};
 
-/* Samples and what each counts, masses of lobes included. */
+/* Samples and their weights, including the masses of lobes. */
 typedef struct samples {
     size_t count;
     double xyz[3 * ALL], weights[ALL];
@@ -44,14 +44,14 @@ typedef struct study {
     aur_oswa *pair;           /* a cosine lobe and this one */
     aur_potential *potential; /* of the lobe */
     aur_potential *cosine;
-    double *truth; /* 6 * TRUTH directions, and TRUTH masses of those of the GGX lobe */
+    double *truth; /* 6 * TRUTH directions, and TRUTH masses of the GGX lobe's directions */
 } study;
 
 static uint64_t light_count(const study *s) {
     return lab_run_options(s->run)->quick ? 16 : 160;
 }
 
-/* Turns over which worst-case errors are averaged. */
+/* Rotations over which worst-case errors are averaged. */
 static uint64_t turn_count(const study *s) {
     return lab_run_options(s->run)->quick ? 4 : TURNS;
 }
@@ -66,7 +66,7 @@ static aur_oswa_options patterns(const study *s, size_t diffuse) {
                               .scramble = lab_scrambling(s->set)};
 }
 
-/* p/q of samples that follow the lobe. */
+/* p/q of samples distributed by the lobe. */
 static double ratio(const study *s, const double direction[3]) {
     double density = 0.0;
     if (direction[2] > 0.0)
@@ -74,7 +74,7 @@ static double ratio(const study *s, const double direction[3]) {
     return density > 0.0 ? s->mass * density / aur_lobe_pdf(&s->lobe, direction) : 0.0;
 }
 
-/* Heights of the uniform pattern moved on, over the top to the rim. */
+/* Heights of the uniform pattern, shifted modulo 1. */
 static void shift(const study *s, double by, samples *r) {
     for (size_t i = 0; i < r->count; ++i) {
         double *const u = r->xyz + 3 * i, uniform[3];
@@ -143,7 +143,7 @@ static aur_result two_lobes(const study *s, rule which, uint64_t seed, samples *
             for (size_t i = first[k]; i < first[k] + count[k]; ++i)
                 own[i] = k == 0 ? 1.0 / DIFFUSE : ratio(s, r->xyz + 3 * i) / (s->mass * GLOSSY);
     }
-    /* The cosine lobe's mass is taken as 1, as is the part of the light that its surface reflects. */
+    /* The cosine lobe's mass is taken as 1, that is, its surface reflects all light. */
     for (size_t i = 0; i < ALL; ++i)
         r->weights[i] = found[i] + s->mass * found[ALL + i];
     return result;
@@ -161,7 +161,7 @@ static void exact(const study *s, const lab_light *light, double truths[2]) {
     truths[1] = glossy + diffuse;
 }
 
-/* One rule under one light of either kind: its square errors are added, and its worst-case error. */
+/* One rule under one light of either kind: accumulates its squared error and its worst-case error. */
 static aur_result try_rule(const study *s, rule which, uint64_t seed, const lab_light lights[2],
                            double truths[2][2], double squares[2][RULES], double *worst, aur_error *error) {
     samples r;

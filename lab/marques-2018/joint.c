@@ -1,15 +1,15 @@
-/* Points and weights optimised together for a lobe, which Marques 2018 leaves as future work: its eq. 15 is
- * the worst-case error with the best weights of given points, and here the points go down its gradient too.
+/* Joint optimisation of points and weights for a lobe, which Marques 2018 leaves as future work: its eq. 15
+ * is the worst-case error with the best weights of given points; here the points also descend its gradient.
  *
- * With the best weights w of the points the error changes with a point as if they stayed,
+ * With the best weights w the derivative of the error by a point is that at constant weights,
  *
- *     d(E^2)/du_i = 2 w_i (sum_j w_j dK(u_i, u_j)/du_i - dz(u_i)/du_i),
+ * d(E^2)/du_i = 2 w_i (sum_j w_j dK(u_i, u_j)/du_i - dz(u_i)/du_i),
  *
- * so a step costs one solve. Steps follow Barzilai and Borwein 1988, halved until the error falls; points
- * stay on the upper hemisphere. Settings, fixed before the run: s = 1.5, STEPS steps, from spherical
+ * so a step costs one solve. Step lengths follow Barzilai and Borwein 1988, halved until the error falls;
+ * points stay on the upper hemisphere. Settings, fixed before the run: s = 1.5, STEPS steps, from spherical
  * Fibonacci points of the optimal density and from random ones (two sets). Descent finds a local minimum,
- * which depends on the start. Errors under random lights are those of samples.h, the pattern turned about the
- * axis at random for each. */
+ * which depends on the start. Errors under random lights are those of samples.h, with the pattern rotated
+ * randomly about the axis for each. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -57,7 +57,7 @@ static aur_result weigh(const joint_study *of, bool optimal, joint_rule *rule, a
     return result;
 }
 
-/* Two directions at right angles to u and to each other. */
+/* Two orthogonal tangent vectors at u. */
 static void frame(const double u[3], double tangent[2][3]) {
     const double *const axis =
         fabs(u[2]) < 0.9 ? (const double[3]){0.0, 0.0, 1.0} : (const double[3]){1.0, 0.0, 0.0};
@@ -71,9 +71,9 @@ static void frame(const double u[3], double tangent[2][3]) {
         b[k] = u[(k + 1) % 3] * a[(k + 2) % 3] - u[(k + 2) % 3] * a[(k + 1) % 3];
 }
 
-/* Of half the square of the error, along the sphere. */
+/* Of half the squared error, along the sphere. */
 static void find_gradient(const joint_study *of, const joint_rule *rule, double gradient[3 * MOST]) {
-    static const double STEP = 1e-5; /* of differences of z, which is smooth */
+    static const double STEP = 1e-5; /* for finite differences of z, which is smooth */
     memset(gradient, 0, 3 * of->count * sizeof *gradient);
     for (size_t i = 0; i < of->count; ++i) {
         const double *const u = rule->xyz + 3 * i;
@@ -102,7 +102,7 @@ static void find_gradient(const joint_study *of, const joint_rule *rule, double 
     }
 }
 
-/* Back to the upper hemisphere. */
+/* Projects back to the upper hemisphere. */
 static void put_back(double u[3]) {
     u[2] = fmax(u[2], 1e-6);
     const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);

@@ -1,12 +1,12 @@
-/* What Marques 2018 leaves to learn from the samples: the smoothness s, and where further samples go (section
- * 7).
+/* Parameters that Marques 2018 leaves to be learned from the samples: the smoothness s, and the placement of
+ * further samples (section 7).
  *
- * Settings, fixed before the run: 64 samples of a lobe, m = 1 and 20, under random lights. s is that of
- * nine, 1.1 to 1.9, which makes the samples' values most likely for a Gaussian field of the kernel about an
- * unknown mean; all samples are then weighed with it. Placed samples: 32 of the set, then 32 of 1024
- * candidates of the lobe, drawn in proportion to the spread of the four nearest values (and at least a tenth
- * of the spread of all), all 64 weighed for s = 1.5. Both see the values that they weigh; optimal weights
- * hold for any points, so that this is no bias of the bound. Intervals are over lights. */
+ * Settings, fixed before the run: 64 samples of a lobe, m = 1 and 20, under random lights. s is the value
+ * among nine, 1.1 to 1.9, that maximises the likelihood of the samples' values for a Gaussian field of the
+ * kernel with unknown mean; it then gives the weights of all samples. Placed samples: 32 of the set, then 32
+ * of 1024 candidates of the lobe, drawn with probability proportional to the spread of the four nearest
+ * values (at least a tenth of the spread of all), all 64 weighted for s = 1.5. Both use the values that they
+ * weight; optimal weights are valid for any points, so the bound is not biased. Intervals are over lights. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -48,8 +48,8 @@ static double chord(const double *a, const double *b) {
     return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* Solves L L' x = b for both right-hand sides by Cholesky's factor of the kernel's matrix; *log_det is of the
- * matrix. */
+/* Solves L L' x = b for both right-hand sides, with the Cholesky factor of the kernel matrix; *log_det is of
+ * the matrix. */
 static bool solve(double s, const double *xyz, double x[2][COUNT], double *log_det) {
     double l[COUNT][COUNT];
     *log_det = 0.0;
@@ -79,7 +79,7 @@ static bool solve(double s, const double *xyz, double x[2][COUNT], double *log_d
     return true;
 }
 
-/* The logarithm of the values' likelihood, but for a constant, at the best mean and variance. */
+/* The log-likelihood of the values, up to a constant, at the best mean and variance. */
 static double likelihood(double s, const double *xyz, const double *values) {
     double x[2][COUNT], log_det, ones = 0.0, sum = 0.0, square = 0.0;
     for (size_t i = 0; i < COUNT; ++i) {
@@ -136,7 +136,8 @@ static double spread_near(const double *u, const double *xyz, const double *valu
     return sqrt(fmax(0.0, squares - sum * sum));
 }
 
-/* The second half of xyz: candidates in their order, in proportion to the spread about them. */
+/* Fills the second half of xyz: candidates in order, with probability proportional to the spread near them.
+ */
 static void place(const learned_study *of, double *xyz, const double *values) {
     double spreads[CANDIDATES], sum = 0.0, squares = 0.0, total = 0.0, passed = 0.0;
     for (size_t i = 0; i < FIRST; ++i) {
@@ -156,7 +157,7 @@ static void place(const learned_study *of, double *xyz, const double *values) {
         memcpy(xyz + 3 * placed, of->candidates + 3 * (CANDIDATES - 1 - (COUNT - placed)), 3 * sizeof *xyz);
 }
 
-/* Square errors of all ways under one light, and the s that was learned. */
+/* Squared errors of all methods under one light, and the learned s. */
 static aur_result try_light(const learned_study *of, uint64_t seed, bool hard, double squares[WAYS],
                             double *learned, aur_error *error) {
     const lab_light light = lab_random_light(seed, hard);

@@ -20,8 +20,8 @@ static void find_axis(const lab_lobes *of, size_t lobe, double axis[3]) {
     axis[2] = cos(radians);
 }
 
-/* The first `count` of `size` directions of a set for a lobe. The pattern is turned before it takes the shape
- * of a GGX lobe, which has an azimuth. */
+/* The first `count` of `size` directions of a set for a lobe. The pattern is rotated before it is mapped to a
+ * GGX lobe, which depends on azimuth. */
 static aur_result draw(const lab_lobes *of, size_t lobe, const char *set, size_t size, size_t count,
                        uint64_t seed, double *xyz, aur_error *error) {
     const bool ggx = of->lobes[lobe].kind == AUR_LOBE_GGX;
@@ -64,7 +64,7 @@ static double ratio(const lab_lobes *of, size_t k, const double u[3]) {
     double density = 0.0;
     if (u[2] <= 0.0)
         return 0.0;
-    if (lobe->kind != AUR_LOBE_GGX) /* the same shape: what is hidden is missing */
+    if (lobe->kind != AUR_LOBE_GGX) /* the same shape, without the part below the horizon */
         return 2.0 * PI / (lobe->exponent + 1.0) / aur_potential_mass(of->potentials[k]);
     aur_potential_density(of->potentials[k], 1, u, &density, NULL);
     return density > 0.0 ? density / aur_lobe_pdf(lobe, u) : 0.0;

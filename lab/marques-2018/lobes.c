@@ -1,9 +1,9 @@
-/* Merged samples of more lobes than Marques 2018 has, and of the levels of one extensible grid: a diffuse
- * lobe with one to three glossy ones, cos^m and GGX, under random lights of known integrals.
+/* Merged samples of more lobes than in Marques 2018, and of the levels of one extensible grid: a diffuse lobe
+ * with one to three glossy ones, cos^m and GGX, under random lights with known integrals.
  *
  * Settings, fixed before the run: views of 30 degrees, and lobe_weights.h. "E-SFG levels" are the first 64,
- * 32 and 16 points of one grid of 16 points with one extension, so a lobe that is to have more samples keeps
- * those that it has. Intervals are over lights. */
+ * 32 and 16 points of one grid of 16 points with one extension, so samples can be added to a lobe without
+ * discarding any. Intervals are over lights. */
 #include <stdio.h>
 #include <string.h>
 
@@ -45,7 +45,7 @@ typedef struct lobes_study {
     lab_lobes lobes;
 } lobes_study;
 
-/* Squares of errors, [light][method][seed]. */
+/* Squared errors, [light][method][seed]. */
 static aur_result measure(const lobes_study *s, size_t lights, double squares[2][LAB_LOBE_METHODS][LIGHTS],
                           aur_error *error) {
     aur_result result = AUR_OK;

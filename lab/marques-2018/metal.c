@@ -1,8 +1,8 @@
-/* Optimal weights of GGX lobes in pictures: balls and a floor of rough metal in a room, seen from steep to
- * grazing, gathered with 32 directions a pixel by visible normals with weights p/q and with optimal weights
- * from tables. Judged by the RMSE over the pixels of metal against the same estimator with very many
- * directions, on the same photon map and the same primary hits; and by the mean of the picture against path
- * tracing, with the photon map's bias taken away. */
+/* Optimal weights of GGX lobes in images: balls and a floor of rough metal in a room, from normal to grazing
+ * views, gathered with 32 directions per pixel by visible normals with weights p/q and with optimal weights
+ * from tables. Measured by the RMSE over the pixels of metal against the same estimator with very many
+ * directions, on the same photon map and the same primary hits; and by the image mean against path tracing,
+ * with the photon map's bias removed. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -88,7 +88,7 @@ static aur_result gather(const metal_study *study, const char *light, const char
     return render(study, integrator, 1, 0, image, error);
 }
 
-/* The mean square error over the pixels that the reference has light in, and what the mean is off by. */
+/* The mean square error over the pixels where the reference is nonzero, and the error of the mean. */
 static double judge(const metal_study *study, const aur_image *image, double *off) {
     const float *const a = aur_image_data(image), *const b = aur_image_data(study->reference);
     double squares = 0.0, sum = 0.0, all = 0.0;
@@ -121,7 +121,7 @@ static aur_result compare(metal_study *study, size_t light, const char *set, aur
     lab_mean_interval(study->seeds, mse[RATIO], &base, &half);
     for (size_t w = 0; w < WAYS; ++w) {
         lab_mean_interval(study->seeds, mse[w], &mean, &half);
-        const double ratio = mean / base; /* of two means over the same seeds, by its linear form */
+        const double ratio = mean / base; /* of two means over the same seeds, by its linearised form */
         for (size_t k = 0; k < study->seeds; ++k)
             linear[k] = (mse[w][k] - ratio * mse[RATIO][k]) / base;
         lab_mean_interval(study->seeds, linear, &unused, &half);
@@ -144,7 +144,7 @@ static double mean_of(const aur_image *image) {
     return sum;
 }
 
-/* The mean of the picture against path tracing, as many seeds of both. */
+/* The image mean against path tracing, with the same number of seeds. */
 static aur_result against_path(const metal_study *study, aur_error *error) {
     static const char *const integrators[] = {
         "path", "finalgather-lab:weights=osw,debias=true,rotations=4,glossy_samples=16,diffuse_samples=16,"

@@ -16,7 +16,7 @@ static bool can_make(const char *set, size_t count, aur_scramble scramble) {
 aur_scramble lab_scrambling(const char *set) {
     if (strncmp(set, "random", 6) == 0)
         return AUR_SCRAMBLE_NONE;
-    /* A file has its number of points, and files of several sizes need not have these. */
+    /* A file has a fixed number of points, and files of several sizes need not have all requested sizes. */
     static const size_t counts[] = {0, 64, 128, 16, 32, 256, 512, 1024, 2048, 4096, 8, 4};
     size_t i = 0;
     while (i + 1 < sizeof counts / sizeof counts[0] && !can_make(set, counts[i], AUR_SCRAMBLE_NONE))
@@ -50,7 +50,7 @@ aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential 
     return aur_potential_create(&density, smoothness, potential, error);
 }
 
-/* A number in [0,1) of what it is for (the finalizer of SplitMix). */
+/* A number in [0,1) hashed from its purpose (the finalizer of SplitMix). */
 static double hashed(uint64_t seed, uint64_t what) {
     uint64_t x = seed * UINT64_C(0x9e3779b97f4a7c15) + what * UINT64_C(0xd6e8feb86659fd93) + 1;
     x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);

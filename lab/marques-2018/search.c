@@ -1,11 +1,11 @@
-/* Which settings that Marques 2018 leaves open give the gains of its section 5.3, 19.1 and 24.1 %: the angle
- * between the lobes, the map, unscrambled points or scrambled ones, and how the errors of two integrals
- * become one.
+/* Searches settings that Marques 2018 leaves open for the gains of its section 5.3, 19.1 and 24.1 %: the
+ * angle between the lobes, the map, unscrambled or scrambled points, and how the errors of two integrals are
+ * combined.
  *
  * Settings, fixed before the run: angles of 0 to 75 degrees in steps of 15, Lambert's and the concentric map;
  * errors of normalised lobes added, squared and added, added by the lobes' masses (pi and 2 pi / 21), and the
- * larger of both. The same points and weights serve all four. A setting has both gains when both are within
- * half a point. */
+ * larger of both. The same points and weights are used for all four. A setting matches if both gains are
+ * within half a point. */
 #include "search.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* The gains of section 5.3 searched for among what its text leaves open. */
+/* Search for settings that reproduce the gains of section 5.3, which its text leaves open. */
 #pragma once
 
 #include "samples.h"

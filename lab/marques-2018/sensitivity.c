@@ -1,5 +1,5 @@
-/* How much the choices matter: the smoothness that weights are made for against the smoothness that they are
- * judged at, and the regularisation (Marques 2018, sections 4.3 and 6.2). */
+/* Sensitivity to parameters: the smoothness that weights are optimised for against the smoothness at which
+ * the error is evaluated, and the regularisation (Marques 2018, sections 4.3 and 6.2). */
 #include <math.h>
 
 #include "samples.h"
@@ -56,8 +56,8 @@ static const double smoothness[SMOOTHNESSES] = {1.1, 1.3, 1.5, 1.7, 1.9};
 static const double regularizations[REGULARIZATIONS] = {0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5};
 static const double exponents[EXPONENTS] = {1.0, 20.0, 200.0};
 
-/* How far the weights of each smoothness are from the best ones at any of the smoothnesses that they are
- * judged at, in points of gain. */
+/* The loss of the weights of each smoothness against the best ones, over the smoothnesses at which they are
+ * evaluated, in percentage points of gain. */
 static aur_result vary_smoothness(lab_run *run, const char *set, report_table *drawn, aur_error *error) {
     double gains[SMOOTHNESSES][SMOOTHNESSES] = {{0}}, lost[SMOOTHNESSES] = {0};
     size_t best = 0, published = 2;

@@ -1,6 +1,6 @@
-/* Worst-case error against the number of samples, with equal and with optimal weights: random samples gain a
- * rate, low-discrepancy ones a constant. Not a figure of the paper; marques-2018-fig7 has that of pictures.
- */
+/* Worst-case error against the number of samples, with equal and with optimal weights: for random samples the
+ * rate improves, for low-discrepancy ones the constant. Not a figure of the paper; marques-2018-fig7 measures
+ * the errors of images. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -39,7 +39,7 @@ static aur_result study(lab_run *run, const char *set, double exponent, double *
     aur_potential *potential;
     aur_result result = lab_lobe_potential(exponent, 1.5, &potential, error);
     double counts[SIZES], equal[SIZES], optimal[SIZES];
-    const bool fixed = lab_scrambling(set) == AUR_SCRAMBLE_ROTATE; /* a rotation changes no weight */
+    const bool fixed = lab_scrambling(set) == AUR_SCRAMBLE_ROTATE; /* rotations do not change weights */
     const size_t seeds = fixed ? 1 : lab_run_options(run)->quick ? 4 : 40;
     for (size_t i = 0; i < SIZES && result == AUR_OK; ++i) {
         const size_t count = (size_t)SMALLEST << i;

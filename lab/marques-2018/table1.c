@@ -1,13 +1,14 @@
-/* Weights in rendered images: the glossy Cornell box by final gathering with 40 + 20 directions a pixel, a
+/* Weights in rendered images: the glossy Cornell box by final gathering with 40 + 20 directions per pixel, a
  * figure and a sphere under the sky with 50 + 25 and 64 + 32 (Marques 2018, table 1 and figs 1, 6 and 9).
  *
- * A way to weigh is judged by the RMSE of its pictures against the same estimator with very many directions,
- * on the same photon map and the same primary hits, over the pixels whose surface has both a diffuse and a
- * glossy lobe: elsewhere the ways hardly differ. Intervals are over independent scramblings of the patterns.
+ * The quality of a weighting method is the RMSE of its images against the same estimator with very many
+ * directions, on the same photon map and the same primary hits, over the pixels whose surface has both a
+ * diffuse and a glossy lobe: elsewhere the methods hardly differ. Intervals are over independent scramblings
+ * of the patterns.
  *
  * Nine values are published: six of table 1 and three of fig. 1. Fig. 1's light is a probe without a sun, so
- * its values stand beside the studio, and none beside sun and sky. Published percents are compared as ratios.
- */
+ * its values are compared with the studio, not with sun and sky. Published percentages are compared as
+ * ratios. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -25,7 +26,7 @@ static const struct {
     {"MIS", "weights=mis,density=same"},   {"OSW", "weights=osw,density=same,clip=false"},
     {"equal", "weights=equal,clip=false"}, {"OSWA at optimal density", "weights=oswa,density=optimal"}};
 
-/* RMSE over that of OSWA as published; 0: there is none. */
+/* published RMSE relative to that of OSWA; 0: none */
 typedef struct published {
     const char *set;
     double ratio[WAYS];
@@ -40,7 +41,7 @@ static const published nothing[] = {{NULL, {0}}};
 typedef struct subject {
     const char *name, *file;
     const char *environment; /* NULL: the scene's own */
-    const char *light;       /* what gather rays see */
+    const char *light;       /* light that gather rays see */
     size_t directions[2];
     const published *published;
 } subject;
@@ -82,8 +83,8 @@ static double published_ratio(const subject *of, const char *set, way which) {
     return 0.0;
 }
 
-/* The RMSE of one way over that of OSWA: the ratio of two means over the same scramblings, with the interval
- * of its linear form. */
+/* The RMSE of one method relative to that of OSWA: the ratio of two means over the same scramblings, with the
+ * interval of its linearised form. */
 static void add_row(const picture_study *study, const char *set, way which, const double *mse,
                     const double *base, double picture) {
     const lab_interval rmse = lab_root_mean(study->scrambles, mse);
@@ -99,7 +100,7 @@ static void add_row(const picture_study *study, const char *set, way which, cons
                              one.high, sqrt(picture), known != 0.0 ? known : NAN});
 }
 
-/* One scrambling; the picture of the first is written. */
+/* One scrambling; writes the image of the first. */
 static aur_result measure_one(picture_study *study, const char *set, way w, size_t scramble, double *both,
                               double *all, aur_error *error) {
     aur_image *image = NULL;
@@ -120,7 +121,8 @@ static aur_result measure_one(picture_study *study, const char *set, way w, size
     return result;
 }
 
-/* Mean square errors over the pixels with both lobes, one a scrambling, and the mean one of the pictures. */
+/* Mean square errors over the pixels with both lobes, one per scrambling, and the average mean of the images.
+ */
 static aur_result measure(picture_study *study, const char *set, way w, double *mse, double *picture,
                           aur_error *error) {
     double values[MOST_SCRAMBLES + 1] = {0.0};

@@ -1,6 +1,6 @@
-/* Samples and their optimal weights, as pictures of points (Marques 2018, figs 3 to 5): a few samples chosen
- * by hand, Sobol samples of a diffuse and a glossy lobe, and the union of both for either lobe. What the
- * paper says of the first is judged sample by sample. */
+/* Samples and their optimal weights, drawn as points (Marques 2018, figs 3 to 5): a few samples chosen by
+ * hand, Sobol samples of a diffuse and a glossy lobe, and the union of both for either lobe. The paper's
+ * statements on the first are checked sample by sample. */
 #include <math.h>
 #include <string.h>
 
@@ -11,13 +11,13 @@ enum { RING = 4, FEW = RING + 2, DIFFUSE = 128, GLOSSY = 64, ALL = DIFFUSE + GLO
 static const char *const columns[] = {"panel", "over_mean_is", "sample",    "x", "y",
                                       "z",     "weight",       "over_mean", NULL};
 
-/* As the paper has them: no constraint on the sum. */
+/* The paper's settings: no constraint on the sum. */
 static const aur_weights_options unconstrained = {.size = sizeof unconstrained,
                                                   .regularization = AUR_REGULARIZATION_DEFAULT};
 
 static const double pi = 3.14159265358979323846;
 
-/* The figure's colours, of a weight over the mean: green is 1/N, blue below, yellow and red above. */
+/* The figure's colours of a weight relative to the mean: green is 1/N, blue below, yellow and red above. */
 static const char *colour_of(double relative) {
     return relative < 0.8     ? "below .8"
            : relative < 0.98  ? ".8 to .98"
@@ -26,7 +26,7 @@ static const char *colour_of(double relative) {
                               : "above 1.2";
 }
 
-/* Rows in Lambert's azimuthal projection, with each weight over the mean of all. */
+/* Rows in Lambert's azimuthal projection, with each weight relative to the mean. */
 static void add_rows(lab_run *run, const char *panel, size_t count, const double *xyz,
                      const double *weights) {
     double mean = 0.0;
@@ -61,7 +61,8 @@ static aur_result solve_few(size_t count, double theta, const aur_potential *lob
     return aur_weights_solve(count, xyz, 1, &lobe, &unconstrained, FEW, weights, NULL, NULL, error);
 }
 
-/* The polar angle at which the four about the pole weigh what the pole's sample does, for p = 1. */
+/* The polar angle at which the four about the pole have the same weight as the sample at the pole, for p = 1.
+ */
 static aur_result find_ring(const aur_potential *uniform, double *theta, aur_error *error) {
     double low = 0.3, high = 1.5;
     for (int i = 0; i < 50; ++i) {
@@ -70,7 +71,7 @@ static aur_result find_ring(const aur_potential *uniform, double *theta, aur_err
         const aur_result result = solve_few(FEW - 1, *theta, uniform, xyz, weights, error);
         if (result != AUR_OK)
             return result;
-        /* Farther from the pole, its sample serves more of the hemisphere. */
+        /* With larger distances, the pole's sample represents more of the hemisphere. */
         *(weights[0] < weights[1] ? &low : &high) = *theta;
     }
     return AUR_OK;
@@ -106,7 +107,7 @@ static aur_result figure3(lab_run *run, aur_error *error) {
               "fig. 3b: for p = cos the pole's sample weighs more than the others, %.3f against %.3f",
               w[1][0], w[1][1]);
     for (size_t k = 2; k < 4; ++k) {
-        /* By N times the weight, as the colours are. */
+        /* By N times the weight, like the colours. */
         const double more = (double)FEW / (FEW - 1);
         const double pole = more * w[k][0] / w[k - 2][0], near = more * w[k][1] / w[k - 2][1];
         const double far = more * w[k][3] / w[k - 2][3];

@@ -1,13 +1,13 @@
-/* The glossy Cornell box by patterns that are extended where the light asks for it, 40, 160, 640 directions
- * for the diffuse lobe and 20, 80, 320 for the glossy one (Marques 2019, fig. 12).
+/* The glossy Cornell box by adaptively extended patterns, 40, 160, 640 directions for the diffuse lobe and
+ * 20, 80, 320 for the glossy one (Marques 2019, fig. 12).
  *
- * The paper gives neither its threshold nor an error. So each criterion's threshold is looked for at which a
- * gather takes as many directions in the mean as the paper's do; the shares of the levels are then compared
- * with the published ones. Nor does the text determine the criterion, "color entropy" above a threshold, so
- * three readings of it stand beside variance: entropy of each channel, the same by brightness, and that of a
- * histogram (gathering/levels.h). Whether a criterion saves is told by the directions that patterns of one
- * size take for the same error; what it saves of the last level everywhere, as the paper compares, is given
- * with its error over that one's. */
+ * The paper states neither its threshold nor an error. So each criterion's threshold is adjusted until a
+ * gather takes the paper's mean number of directions; the fractions of pixels per level are then compared
+ * with the published ones. Nor does the text define the criterion, "color entropy" above a threshold. So
+ * three interpretations are compared, and variance: entropy of each channel, the same weighted by brightness,
+ * and that of a histogram (gathering/levels.h). The benefit of a criterion is measured by the directions that
+ * patterns of constant size need for the same error. The saving relative to the last level everywhere, the
+ * paper's comparison, is given with the ratio of errors. */
 #include "adaptive.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ const adaptive_lobe adaptive_lobes[2] = {
     {"glossy", 20, {130863.0, 206817.0, 180720.0}},
 };
 
-/* Directions a gather in the mean, as published. */
+/* Mean number of directions per gather, as published. */
 static double published_mean(const adaptive_lobe *lobe) {
     double directions = 0.0, places = 0.0, size = (double)lobe->first;
     for (size_t l = 0; l < 3; ++l, size *= 4.0) {
@@ -31,7 +31,8 @@ static double published_mean(const adaptive_lobe *lobe) {
     return directions / places;
 }
 
-/* The threshold at which a gather takes `wanted` directions in the mean: fewer the larger it is. */
+/* The threshold at which a gather takes `wanted` directions on average; the number decreases with the
+ * threshold. */
 static aur_result find_threshold(adaptive_study *study, adaptive_way *way, double wanted, aur_error *error) {
     const size_t halvings = study->quick ? 6 : 11;
     char key[120];
@@ -62,7 +63,8 @@ static void add_row(const adaptive_study *study, const adaptive_way *way, const 
             (const double[]){mean, mean - half, mean + half, published});
 }
 
-/* The row of a way in the table of ways; *ratio is the share of fixed patterns' directions that it takes. */
+/* The row of a method in the table of methods; *ratio is its number of directions relative to constant
+ * patterns with the same error. */
 static void add_way(const adaptive_study *study, const adaptive_way *way, report_table *table,
                     const adaptive_found *found, lab_interval *ratio) {
     double mean, half, directions, unused;
@@ -106,8 +108,7 @@ static aur_result study_published(adaptive_study *study, const char *criterion, 
     return adaptive_draw(study, &way, error);
 }
 
-/* What a first level without any light does: its colours do not differ, so that no threshold is low enough.
- */
+/* Effect of a first level without any light: its colours do not differ, so no threshold is low enough. */
 static aur_result study_darkness(adaptive_study *study, aur_error *error) {
     const adaptive_way way = {.criterion = "entropy", .factor = 4, .levels = 2, .threshold = 0.0};
     adaptive_counts counts;

@@ -8,16 +8,16 @@ enum { ADAPTIVE_SEEDS = 8, ADAPTIVE_FIXED = 5 };
 typedef struct adaptive_lobe {
     const char *name;
     size_t first;        /* directions of the first level */
-    double published[3]; /* pixels that ended at each level */
+    double published[3]; /* fractions of pixels that ended at each level */
 } adaptive_lobe;
 
 extern const adaptive_lobe adaptive_lobes[2];
 
 typedef struct adaptive_way {
-    const char *criterion; /* NULL: a pattern of one size, the lobe's first one times `factor` */
+    const char *criterion; /* NULL: a pattern of constant size, the lobe's first one times `factor` */
     size_t factor, levels;
     double threshold;
-    const char *pattern; /* NULL: spherical Fibonacci points of one size, E-SFG of levels */
+    const char *pattern; /* NULL: spherical Fibonacci points if constant, E-SFG if adaptive */
 } adaptive_way;
 
 typedef struct adaptive_study {
@@ -27,20 +27,21 @@ typedef struct adaptive_study {
     const adaptive_lobe *lobe;
     size_t side, picture_side, photons, references, seeds;
     aur_image *truth[2];
-    double fixed[ADAPTIVE_FIXED]; /* mean square errors of patterns of one size that doubles; 0: not measured
-                                     yet */
+    double fixed[ADAPTIVE_FIXED]; /* mean square errors of patterns of doubling constant size; 0: not measured
+                                   * yet */
 } adaptive_study;
 
-/* What a gather took: its directions in the mean, and the shares of the first three levels. */
+/* Cost of a gather: mean number of directions, and the fractions of the first three levels. */
 typedef struct adaptive_counts {
     double mean, shares[3];
 } adaptive_counts;
 
-/* The same and the errors, of each seed. */
+/* The same with errors, for each seed. */
 typedef struct adaptive_found {
     double mean[ADAPTIVE_SEEDS], shares[3][ADAPTIVE_SEEDS];
     double mse[ADAPTIVE_SEEDS];
-    double log_rays[ADAPTIVE_SEEDS]; /* log of the directions over those of one size with this error */
+    double log_rays[ADAPTIVE_SEEDS]; /* log of the directions relative to those of constant size with this
+                                      * error */
 } adaptive_found;
 
 const char *adaptive_pattern(const adaptive_way *way); /* its name */
@@ -50,8 +51,8 @@ void adaptive_count(const adaptive_study *study, const adaptive_way *way, const 
                     adaptive_counts *counts);
 aur_result adaptive_measure(adaptive_study *study, const adaptive_way *way, adaptive_found *found,
                             aur_error *error);
-/* The picture, its sampling map in the colours of the levels, and beside them the first level, the last, and
- * a reference. */
+/* Writes the image, its sampling map in the colours of the levels, and for comparison the first level, the
+ * last, and a reference. */
 aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, aur_error *error);
-/* What belongs to one lobe. */
+/* Data of one lobe. */
 void adaptive_release(adaptive_study *study);

@@ -1,4 +1,4 @@
-/* Adaptive gathers rendered, counted and judged. */
+/* Renders adaptive gathers, and measures their directions and errors. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -41,7 +41,7 @@ void adaptive_count(const adaptive_study *study, const adaptive_way *way, const 
     *counts = (adaptive_counts){0};
     for (size_t i = 0; i < pixels && at != SIZE_MAX; ++i) {
         const double directions = (double)data[i * channels + at];
-        if (directions < 1.0) /* nothing to gather for */
+        if (directions < 1.0) /* no pixel gathers */
             continue;
         ++places;
         counts->mean += directions;
@@ -69,7 +69,7 @@ static aur_result need_truth(adaptive_study *study, aur_error *error) {
     return result;
 }
 
-/* The mean square error of each seed, and what its gathers took. */
+/* The mean square error and the directions of each seed. */
 static aur_result measure(adaptive_study *study, const adaptive_way *way, adaptive_found *found,
                           aur_error *error) {
     char key[300];
@@ -121,7 +121,8 @@ static aur_result need_fixed(adaptive_study *study, aur_error *error) {
     return AUR_OK;
 }
 
-/* The logarithm of the directions of one size for a mean square error, by straight lines in logarithms. */
+/* The logarithm of the number of directions of constant size for a mean square error, by piecewise linear
+ * interpolation of logarithms. */
 static double log_directions(const adaptive_study *study, double mse) {
     size_t i = 0;
     while (i + 2 < ADAPTIVE_FIXED && mse < study->fixed[i + 1])
@@ -140,7 +141,7 @@ aur_result adaptive_measure(adaptive_study *study, const adaptive_way *way, adap
     return result;
 }
 
-/* The level of each pixel in its colour, black where there is nothing to gather for. */
+/* The level of each pixel by colour, black if there is nothing to gather. */
 static aur_result draw_map(const adaptive_study *study, const adaptive_way *way, const aur_image *image,
                            aur_error *error) {
     static const float nothing[3] = {0.0f, 0.0f, 0.0f};
@@ -189,7 +190,7 @@ aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, a
     if (study->picture_side == 0 || lab_recall(study->run, key, 1, &drawn))
         return AUR_OK;
     aur_result result = draw_one(study, way, way->criterion, false, error);
-    const bool more = strcmp(way->criterion, "entropy") == 0; /* the others once */
+    const bool more = strcmp(way->criterion, "entropy") == 0; /* the others have one image */
     if (result == AUR_OK && more)
         result = draw_one(study, &first, "level 1 everywhere", false, error);
     if (result == AUR_OK && more)

@@ -1,5 +1,5 @@
-/* Spherical cap discrepancy against the number of points (Marques 2019, fig. 9), and what the figure is said
- * to show. The rates in its legend are in a picture alone; its text says N^(-3/4). */
+/* Spherical cap discrepancy against the number of points (Marques 2019, fig. 9), and the paper's statements
+ * on the figure. The rates in its legend are only in an image; the text states N^(-3/4). */
 #include <math.h>
 #include <string.h>
 
@@ -18,12 +18,12 @@ static const char *const sets[SETS] = {"spherical-fibonacci",
 static const char *const columns[] = {"set", "step", "points", "scd", "percent_over_sf", "scd_n34", NULL};
 static const char *const of_slopes[] = {"set", "slope", "slope_low", "slope_high", NULL};
 
-/* Of 64 points, doubled in the odd steps. */
+/* From 64 points, doubled in the odd steps. */
 static size_t size_at(size_t step) {
     return (size_t)BASE << step;
 }
 
-/* Of the sizes that quadruple. */
+/* Over sizes that quadruple. */
 static lab_interval slope_of(size_t count, const double scd[SIZES]) {
     double sizes[SIZES], values[SIZES];
     size_t used = 0;
@@ -56,7 +56,7 @@ static void add_rows(lab_run *run, report_table *slopes, const char *set, size_t
                   (const double[]){slope.value, slope.low, slope.high});
 }
 
-/* The claims of sections 5.3 and 6.1 on the grid with the paper's first shift, and with the library's. */
+/* The claims of sections 5.3 and 6.1 for the grid with the paper's first shift, and with the library's. */
 static void judge(lab_run *run, size_t grid, size_t count, double scd[SETS][SIZES]) {
     const double *const own = scd[grid], *const fibonacci = scd[0];
     double most = 0.0, doubled = 0.0, line = 0.0;

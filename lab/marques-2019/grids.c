@@ -1,5 +1,5 @@
-/* A grid of 64 points that doubles and quadruples and keeps its points, compared with a spherical Fibonacci
- * grid (Marques 2019, figs 1 and 8). */
+/* A grid of 64 points that doubles and quadruples and preserves its points, compared with a spherical
+ * Fibonacci grid (Marques 2019, figs 1 and 8). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static const char *const columns[] = {"figure",
                                       NULL};
 static const char *const of_points[] = {"figure", "points", "level", "u", "v", "right", "up", NULL};
 
-/* The step of quadrupling that added a point: of the first 64 none, of those up to 256 the first. */
+/* The quadrupling step that added a point: 0 for the first 64, 1 for those up to 256. */
 static size_t level_of(size_t point) {
     size_t level = 0;
     for (size_t size = BASE; point >= size; size *= 4)
@@ -49,8 +49,8 @@ typedef struct drawing {
     report_table *table;
 } drawing;
 
-/* The sphere is seen from 30 degrees above its equator, so that a pole shows; points behind it are left out.
- */
+/* The sphere is viewed from 30 degrees above its equator, so that a pole is visible; points behind it are
+ * omitted. */
 static void draw(const drawing *on, const shown *grid, const aur_points_view *points) {
     static const double up[] = {0.5, 0.86602540378443865};
     static const float disk[] = {0.86f, 0.87f, 0.9f};
@@ -93,7 +93,7 @@ static aur_result show(lab_run *run, const shown *grid, const aur_points_view *p
     return result;
 }
 
-/* How many of the first points of a set are those that it has at another size, to the bit. */
+/* The number of first points of a set that are bit-identical to those at another size. */
 static size_t store(const aur_points_view *points, const aur_points_view *smaller) {
     size_t same = 0;
     for (size_t i = 0; i < smaller->count && i < points->count; ++i)
@@ -121,7 +121,7 @@ static aur_result add_row(lab_run *run, const shown *grid, const aur_points_view
     return AUR_OK;
 }
 
-/* What the figures' captions claim. */
+/* The claims of the figures' captions. */
 static void judge(lab_run *run, const double uneven[GRIDS], bool all_kept) {
     lab_claim(run, all_kept, "every size contains the points of the previous one");
     const double doubled = uneven[1] / sqrt(uneven[0] * uneven[2]), whole = uneven[3] / uneven[4];

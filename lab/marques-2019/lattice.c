@@ -1,8 +1,8 @@
 /* Every statement of Marques 2019, sections 3 to 5, on the lattice of spherical Fibonacci grids, in numbers:
- * the range of its values over many sizes, and the cases that are out of what is stated (figs 2 to 7, eqs 5
- * to 56).
+ * the range of its values over many sizes, and the cases outside the stated range (figs 2 to 7, eqs 5 to 56).
  *
- * Bounds of identities follow from rounding: a power Phi^k, k <= 70, is off by 70 units in the last place. */
+ * Bounds of identities follow from rounding: a power Phi^k, k <= 70, has an error of 70 units in the last
+ * place. */
 #include "lattice.h"
 
 #include <float.h>
@@ -45,7 +45,7 @@ static void check_identities(lab_run *run) {
             lattice_count(&recurrence, which,
                           relative(b[2][c], b[1][c] + b[0][c], b[0][c] != 0.0 ? b[0][c] : 1.0));
         lattice_count(&cell, which, fabs(sign * (b[1][0] * b[2][1] - b[2][0] * b[1][1]) - 1.0));
-        /* b_0 is (0, -1), and the sum loses what F_k has digits. */
+        /* b_0 is (0, -1), and the sum loses as many digits as F_k has. */
         lattice_count(&sum, which, relative(b[1][1], f * b[3][1] - before, f));
     }
     lattice_end(run, &binet);
@@ -65,14 +65,14 @@ static void check_identities(lab_run *run) {
     lattice_end(run, &even);
 }
 
-/* Among b_{k-1}, b_k, b_{k+1}, b_k the shortest: the longest over it. */
+/* Among b_{k-1}, b_k, b_{k+1} with b_k the shortest: the ratio of the longest to it. */
 static double elongation(double n, double sx) {
     const size_t k = lattice_shortest(n, sx);
     return sqrt(fmax(lattice_length2(k - 1, n, sx), lattice_length2(k + 1, n, sx)) /
                 lattice_length2(k, n, sx));
 }
 
-/* Eqs 22 to 40 and 56 at every size. */
+/* Eqs 22 to 40 and 56 for every size. */
 static void check_sizes(lab_run *run, size_t largest) {
     const double limit = 2.0 / sqrt(5.0);
     lattice_check index = lattice_begin("eq. 23", "k_opt, rounded, is the shortest basis vector", 0.0, 0.0);
@@ -111,8 +111,8 @@ static void check_sizes(lab_run *run, size_t largest) {
     lattice_end(run, &period);
 }
 
-/* Eqs 41 to 49: 400 stretches between 1/100 and 100 of a large grid, whose Fibonacci numbers are powers of
- * Phi to 1e-3; and eq. 56, by which parity b_g/2 is b_{g mod 3}/2 up to a vector of the lattice. */
+/* Eqs 41 to 49: 400 stretch factors between 1/100 and 100 of a large grid, whose Fibonacci numbers are powers
+ * of Phi to 1e-3; and eq. 56, by which parity b_g/2 is b_{g mod 3}/2 up to a lattice vector. */
 static void check_stretches(lab_run *run) {
     lattice_check stretched =
         lattice_begin("eq. 49", "the elongation of a stretched grid has the same bounds, to .002",

@@ -1,4 +1,4 @@
-/* The points that the library makes, against what is said of their lattice. */
+/* Checks the library's points against the statements on their lattice. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,7 @@
 #include "lattice.h"
 #include "program/lab/points.h"
 
-/* The points of a set of the sphere on the plane, u and v in turn; to be freed. */
+/* The points of a set of the sphere in the plane, as u, v pairs; the caller frees them. */
 static aur_result to_plane(const char *set, size_t size, double **plane, aur_error *error) {
     aur_points *made;
     const aur_result result =
@@ -27,12 +27,12 @@ static aur_result to_plane(const char *set, size_t size, double **plane, aur_err
     return AUR_ERROR_MEMORY;
 }
 
-/* How far y is from an integer, as of two points of a plane that is periodic in y. */
+/* The distance of y from the nearest integer, for points of a plane that is periodic in y. */
 static double wrapped(double y) {
     return y - nearbyint(y);
 }
 
-/* Eqs 3, 20 and 21: the grid without a shift, whose first point is the pole and has no azimuth. */
+/* Eqs 3, 20 and 21: the unshifted grid, whose first point is the pole and has no azimuth. */
 static aur_result check_coordinates(lab_run *run, aur_error *error) {
     static const size_t sizes[] = {20, 64, 100, 1000};
     lattice_check slices = lattice_begin("eq. 3, fig. 2", "the points' x are j/N, y the fractions of j/Phi",
@@ -66,7 +66,7 @@ static aur_result check_coordinates(lab_run *run, aur_error *error) {
     return AUR_OK;
 }
 
-/* The smallest distance of points of the plane, periodic in y. */
+/* The smallest distance between points of the plane, periodic in y. */
 static double smallest_distance(size_t count, const double *plane) {
     double least = INFINITY;
     for (size_t i = 0; i < count; ++i)
@@ -76,7 +76,7 @@ static double smallest_distance(size_t count, const double *plane) {
     return least;
 }
 
-/* Algorithm 1, its final shift included: what the library's set has to be, but for whole turns of y. */
+/* Algorithm 1, including its final shift: must equal the library's set, up to whole turns of y. */
 static void extend(size_t base, size_t levels, double *plane) {
     double b[3][2];
     size_t count = base;
@@ -169,8 +169,8 @@ static aur_result check_cells(lab_run *run, aur_error *error) {
     return result;
 }
 
-/* The pictures: points of the plane with 20 of them, their basis vectors, the grid moved in x and in y, and
- * the extended one. */
+/* Drawings: 20 points in the plane, their basis vectors, the grid shifted in x and in y, and the extended
+ * one. */
 static void show(lab_run *run) {
     static const char *const of_plane[] = {"figure", "what", "x", "y", NULL};
     static const char *const of_vectors[] = {"what", "x", "y", NULL};

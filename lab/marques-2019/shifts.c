@@ -1,5 +1,5 @@
-/* What the shifts of E-SFG cost: the sub-grid that doubles a grid, by the rule of eq. 56 or the best of the
- * three, and the centring for the last size only or for each (Marques 2019, sections 5.1 and 5.3). */
+/* The cost of E-SFG's shifts: the sub-grid that doubles a grid, by the rule of eq. 56 or the best of the
+ * three, and centring for the last size only or for each (Marques 2019, sections 5.1 and 5.3). */
 #include <math.h>
 #include <stdio.h>
 
@@ -20,8 +20,8 @@ static aur_result discrepancy(lab_run *run, const char *keys, size_t base, size_
     return lab_figure(&points, "scd", lab_run_options(run)->threads, scd, error);
 }
 
-/* Percent over spherical Fibonacci at all sizes of one grid; *most is the largest of each choice, without
- * the last size, which all centre alike. */
+/* Percent above spherical Fibonacci for all sizes of one grid; *most is the maximum for each choice, without
+ * the last size, which all choices centre. */
 static aur_result add_grid(lab_run *run, size_t base, size_t levels, double most[2][3], aur_error *error) {
     static const char *const choices[] = {"first-shift=paper", "first-shift=best",
                                           "first-shift=best,shift=per-level"};
@@ -48,7 +48,8 @@ static aur_result add_grid(lab_run *run, size_t base, size_t levels, double most
     return AUR_OK;
 }
 
-/* All bases, doubled once: how often eq. 56 names the best of the three sub-grids, and what it costs. */
+/* All bases, doubled once: how often eq. 56 selects the best of the three sub-grids, and the cost otherwise.
+ */
 static aur_result survey(lab_run *run, report_table *table, aur_domain domain, aur_error *error) {
     const size_t last = lab_run_options(run)->quick ? QUICK_BASE : LAST_BASE;
     size_t best = 0, grids = 0, worst = 0;

@@ -1,19 +1,19 @@
 /* A figure in the light of a studio, by final gathering with E-SFG, spherical Fibonacci, Sobol and Faure
- * points: one picture of both lobes (Marques 2019, fig. 10), and the error of each lobe against the number of
+ * points: one image of both lobes (Marques 2019, fig. 10), and the error of each lobe against the number of
  * directions (fig. 11).
  *
- * Gather rays see the surroundings alone, as in the paper. The mean square error is that against two
- * independent references, whose own errors drop out; intervals are over independent randomisations of the
- * patterns. Every pixel has a randomisation of its own, so that one picture has thousands of them, and a few
- * pictures make an interval of 2 %. */
+ * Gather rays see only the environment, as in the paper. The mean square error is against two independent
+ * references, whose errors cancel; intervals are over independent randomisations of the patterns. Every pixel
+ * has an independent randomisation, so an image has thousands of them, and a few images give an interval of 2
+ * %. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "program/lab/lab.h"
 
-/* Faure's base is not published. In two dimensions it is the least prime from 2 on, so base 2 is the row that
- * is compared; base 3 is a further one. JUDGED sets are compared with E-SFG in the claims. */
+/* Faure's base is not published. In two dimensions it is the smallest prime from 2 on, so base 2 is the
+ * compared row; base 3 is additional. JUDGED sets are compared with E-SFG in the claims. */
 enum { SIZES = 7, FIRST = 8, JUDGED = 4, SETS = 6, MOST_SEEDS = 16 };
 
 #define GRID "esfg:base=8,levels=3,first-shift=paper"
@@ -25,7 +25,7 @@ typedef struct statue_study {
     size_t width, height, picture_width, picture_height;
     size_t references, seeds, sizes, set_count;
     const char *sets[SETS];
-    const char *lobes; /* the component that is gathered */
+    const char *lobes; /* the gathered component */
     aur_image *truth[2];
 } statue_study;
 
@@ -57,7 +57,7 @@ static aur_result need_truth(statue_study *study, aur_error *error) {
     return result != AUR_OK ? result : render(study, "sobol", n, n, 2000, false, &study->truth[1], error);
 }
 
-/* Mean square errors, one a seed. */
+/* Mean square errors, one per seed. */
 static aur_result measure(statue_study *study, const char *set, size_t diffuse, size_t glossy, double *mse,
                           aur_error *error) {
     char key[220];
@@ -92,7 +92,7 @@ static void release_truth(statue_study *study) {
     }
 }
 
-/* The first seed's picture at a size to be looked at, and a reference of 512 directions. */
+/* The first seed's image at display size, and a reference of 512 directions. */
 static aur_result draw(const statue_study *study, const char *set, size_t diffuse, size_t glossy,
                        bool reference, aur_error *error) {
     aur_image *image = NULL;
@@ -133,7 +133,7 @@ static aur_result study_picture(statue_study *study, aur_error *error) {
     return result;
 }
 
-/* The claims of section 6.2 on one lobe: error[set][size], sizes that double in the odd places. */
+/* The claims of section 6.2 on one lobe: error[set][size]; sizes double at the odd indices. */
 static void judge(const statue_study *study, double error[SETS][SIZES]) {
     double far = 0.0, line = 0.0;
     size_t below = 0, compared = 0;
@@ -203,7 +203,7 @@ static aur_result run(lab_run *run, aur_error *error) {
         .set_count = options->set != NULL ? SETS : SETS - 1,
         .sets = {"spherical-fibonacci", GRID, "sobol", "faure", "faure:base=3", options->set}};
     report_table *const slopes = lab_table(run, "slopes", of_slopes);
-    /* The quick form needs no mesh that is to be made first. */
+    /* The quick form needs no generated mesh. */
     aur_result result = lab_stage_open(run, options->quick ? "cornell-box/glossy.xml" : "statue/statue.xml",
                                        options->quick ? 0 : 1, &studio, &study.stage, error);
     const bool ready = study.stage.renderer != NULL;

@@ -1,10 +1,10 @@
 /* Ambient occlusion by five sets of 16 and of 64 directions (Schretter 2012, fig. 5).
  *
- * Every pixel looks through its centre and has its set randomised for itself: sets of the square by
- * Cranley-Patterson rotation (a shift modulo 1), spherical Fibonacci by a turn about the normal. A second
- * form randomises the set once a picture: then errors of neighbours are alike, which is the banding that the
- * paper names. Banding is told by the RMSE of means over 4 x 4 pixels, times 4 and over the RMSE of pixels: 1
- * where errors are independent, up to 4. */
+ * Every pixel has one ray through its centre and an independently randomised set: sets of the square by
+ * Cranley-Patterson rotation (a shift modulo 1), spherical Fibonacci by a rotation about the normal. A second
+ * form randomises the set once per image: then errors of neighbours are correlated, which is the paper's
+ * banding. Banding is measured by the RMSE of means over 4 x 4 pixels, times 4, relative to the RMSE of
+ * pixels: 1 if errors are independent, up to 4. */
 #include <math.h>
 #include <stdio.h>
 
@@ -20,20 +20,20 @@ typedef struct occlusion_set {
 typedef struct occlusion_form {
     const occlusion_set *set;
     size_t samples;
-    bool each_pixel; /* randomised for each pixel, else once a picture */
+    bool each_pixel; /* randomised per pixel, else once per image */
 } occlusion_form;
 
 typedef struct occlusion_study {
     lab_run *run;
     aur_renderer *renderer;
     size_t width, height;
-    size_t picture_width, picture_height; /* of the pictures that are written; 0: none */
+    size_t picture_width, picture_height; /* of the written images; 0: none */
     double max_distance;
     size_t reference_samples, repeats;
     size_t set_count;
     occlusion_set sets[SET_CAPACITY];
     occlusion_form truth;
-    aur_image *reference; /* NULL: not made yet */
+    aur_image *reference; /* NULL: not rendered yet */
 } occlusion_study;
 
 static const char *const columns[] = {"pattern",   "samples",     "randomised", "rmse", "rmse_low",
@@ -78,7 +78,7 @@ static aur_result compare(const aur_image *reference, const aur_image *image, do
     return result;
 }
 
-/* The view of pictures of as many samples, with the reference. */
+/* The view of images with the same number of samples, and the reference. */
 static void name_view(const occlusion_form *form, char view[64]) {
     snprintf(view, 64, "%zu samples, randomised for each %s", form->samples,
              form->each_pixel ? "pixel" : "image");
@@ -98,7 +98,7 @@ static aur_result draw(const occlusion_study *study, const occlusion_form *form,
     return result;
 }
 
-/* Mean square errors of pixels and of blocks, one a repeat; a picture is written. */
+/* Mean square errors of pixels and of blocks, one per repeat; writes an image. */
 static aur_result measure(occlusion_study *study, const occlusion_form *form, double *pixels, double *blocks,
                           aur_error *error) {
     double values[2 * MOST_REPEATS];
@@ -127,7 +127,7 @@ static aur_result measure(occlusion_study *study, const occlusion_form *form, do
     return result;
 }
 
-/* The row of means over the repeats; *mse is theirs, `base` that of the first set. */
+/* The row of means over the repeats; *mse is their mean, `base` that of the first set. */
 static aur_result add_row(occlusion_study *study, const occlusion_form *form, const double *base, double *mse,
                           aur_error *error) {
     double pixels[MOST_REPEATS], blocks[MOST_REPEATS], half, block_mean, unused;
@@ -148,7 +148,7 @@ static aur_result add_row(occlusion_study *study, const occlusion_form *form, co
     return AUR_OK;
 }
 
-/* The reference once a view, at the size of the pictures. */
+/* The reference once per view, at the size of the images. */
 static aur_result draw_references(const occlusion_study *study, const size_t counts[2], aur_error *error) {
     double drawn;
     if (study->picture_width == 0 || lab_recall(study->run, "references", 1, &drawn))
@@ -213,7 +213,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     if (options->set != NULL)
         study.sets[study.set_count++] = (occlusion_set){options->set, "rotate"};
     aur_scene *scene = NULL;
-    /* The quick form needs no mesh that is to be made first. */
+    /* The quick form needs no generated mesh. */
     aur_result result = lab_load_scene(
         run, options->quick ? "cornell-box/glossy.xml" : "occlusion/occlusion.xml", 0, NULL, &scene, error);
     if (result == AUR_OK)

@@ -1,5 +1,5 @@
 /* The gaps between the first numbers of the golden ratio sequence and of van der Corput's (Schretter 2012,
- * fig. 1 and section 2), and the rules by which the paper makes golden sequences and sets (section 2, eq. 7,
+ * fig. 1 and section 2), and the paper's rules for constructing golden sequences and sets (section 2, eq. 7,
  * appendix). */
 #include <math.h>
 #include <stdio.h>
@@ -24,8 +24,8 @@ typedef struct gaps {
     double largest, smallest;
 } gaps;
 
-/* Which gaps count: those between numbers, also those to the ends of the interval, or those of the circle
- * that joins its ends. */
+/* Which gaps count: between numbers only, also to the ends of the interval, or on the circle that joins its
+ * ends. */
 typedef enum gap_reading { GAPS_BETWEEN, GAPS_WITH_ENDS, GAPS_ON_CIRCLE } gap_reading;
 
 static gaps find_gaps(gap_reading reading, size_t count, const double *numbers, double sorted[MOST]) {
@@ -93,7 +93,7 @@ static void judge(lab_run *run, const sequence *corput, const sequence *golden) 
               corput->extent);
 }
 
-/* Section 2's "more evenly for any number of elements" by each of the gaps that the words can mean. */
+/* The claim of section 2, "more evenly for any number of elements", for each interpretation of the gaps. */
 static void judge_evenness(lab_run *run, const sequence *corput, const sequence *golden) {
     static const struct {
         const char *name;
@@ -118,7 +118,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     static const char *const of_points[] = {"sequence", "x", "element", NULL};
     const size_t most = lab_run_options(run)->quick ? 128 : MOST;
     sequence corput = {.name = "van der Corput"}, golden = {.name = "golden ratio"};
-    /* The paper counts from 1; the library's golden sequence does too. */
+    /* The paper's indices start at 1, like the library's golden sequence. */
     aur_result result = schretter_numbers("van-der-corput", 1, MOST, corput.numbers, error);
     if (result == AUR_OK)
         result = schretter_numbers("golden", 0, MOST, golden.numbers, error);

@@ -1,4 +1,4 @@
-/* The rules by which the paper makes golden sequences and sets, by the letter. */
+/* The paper's rules for golden sequences and sets, implemented literally. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -18,8 +18,8 @@ static void find_steps(size_t n, size_t *a, size_t *b) {
     }
 }
 
-/* Sorts the numbers 1..n of the golden sequence by eq. 7 from the smallest one; returns the most indices in a
- * row that are beyond n. */
+/* Sorts the numbers 1..n of the golden sequence by eq. 7 from the smallest one; returns the longest run of
+ * indices beyond n. */
 static size_t walk(size_t n, size_t smallest, size_t *order) {
     size_t a, b, most = 0;
     find_steps(n, &a, &b);
@@ -44,7 +44,7 @@ static size_t index_of_smallest(size_t n, const double *numbers) {
     return best;
 }
 
-/* Whether eq. 7 sorts, at every n up to `count`; *most is the most that has to be skipped in a row. */
+/* Whether eq. 7 sorts for every n up to `count`; *most is the longest run to skip. */
 static size_t check_order(size_t count, const double *numbers, size_t *most) {
     size_t sorted = 0;
     size_t order[MOST];

@@ -1,6 +1,6 @@
-/* The paper's point sets side by side: 16 points of the lattice and the golden set (Schretter 2012, fig. 2),
- * 100 points of four sets as Cartesian and polar coordinates (fig. 3), and the star discrepancy of sets of 10
- * to 1000 points, which the paper does not give. */
+/* The paper's point sets: 16 points of the lattice and the golden set (Schretter 2012, fig. 2), 100 points of
+ * four sets as Cartesian and polar coordinates (fig. 3), and the star discrepancy of sets of 10 to 1000
+ * points, which the paper does not give. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static aur_result add_row(lab_run *run, const char *set, size_t size, double *st
     return AUR_OK;
 }
 
-/* The points of one panel, as rows and as a picture. */
+/* The points of one panel, as rows and as an image. */
 static aur_result show(lab_run *run, report_table *table, const char *figure, const char *set, size_t size,
                        bool polar, aur_error *error) {
     const lab_points request = {.set = set,

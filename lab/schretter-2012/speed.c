@@ -1,4 +1,4 @@
-/* The time of golden numbers and of van der Corput's, by loops as the paper describes them and by the
+/* The computing time of golden numbers and of van der Corput's, by loops as described in the paper and by the
  * library. */
 #include <math.h>
 #include <stdint.h>
@@ -22,7 +22,7 @@ static void golden_loop(numbers to) {
         to.integers[i] = state += UINT32_C(2654435769);
 }
 
-/* Reversed bits by swaps, the usual way in base 2. */
+/* Bit reversal by swaps, the usual method in base 2. */
 static void corput_swaps(numbers to) {
     for (uint32_t i = 0; i < NUMBERS; ++i) {
         uint32_t x = i + 1;
@@ -35,7 +35,7 @@ static void corput_swaps(numbers to) {
     }
 }
 
-/* Digit by digit, which serves any base. */
+/* Digit by digit, for any base. */
 static void corput_digits(numbers to) {
     for (uint32_t i = 0; i < NUMBERS; ++i) {
         uint32_t value = 0;
@@ -74,7 +74,7 @@ static const struct {
              {"loops, digit by digit", golden_loop, corput_digits},
              {"the library", golden_library, corput_library}};
 
-/* Processor seconds of eight runs of one kind. */
+/* Processor seconds of eight runs of one method. */
 static double seconds(void (*make)(numbers to), numbers to) {
     struct timespec begin, end;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
@@ -93,7 +93,7 @@ aur_result schretter_time(lab_run *run, aur_error *error) {
     for (size_t p = 0; p < sizeof pairs / sizeof pairs[0]; ++p) {
         const numbers to = {.doubles = room};
         double ratios[ROUNDS], mean, half, least = INFINITY;
-        seconds(pairs[p].golden, to); /* the memory is there, the clock is up */
+        seconds(pairs[p].golden, to); /* warm-up: memory allocated, full clock speed */
         for (size_t k = 0; k < ROUNDS; ++k) {
             const double golden = seconds(pairs[p].golden, to);
             ratios[k] = log(seconds(pairs[p].corput, to) / golden);

@@ -1,6 +1,6 @@
-/* Points that follow a density: a clamped ramp and two Gaussians, by Hammersley's set and a golden one
- * (Schretter 2012, fig. 4). The paper shows pictures alone. How well points follow is the largest difference,
- * over all boxes with a corner at the origin and the others at 64 x 64 places, between the share of the
+/* Points distributed by a density: a clamped ramp and two Gaussians, by Hammersley's set and a golden one
+ * (Schretter 2012, fig. 4). The paper only shows images. The error is the maximum, over all boxes with one
+ * corner at the origin and the opposite one on a 64 x 64 grid, of the difference between the fraction of
  * points and that of the density. */
 #include <math.h>
 #include <stdlib.h>
@@ -45,7 +45,7 @@ typedef struct warp_study {
     report_table *points;
 } warp_study;
 
-/* The picture, and what of it is below and left of each place: pixels and places fall together. */
+/* The image, and its sum below and to the left of each grid position: pixels and positions coincide. */
 static aur_result prepare(warp_study *study, aur_error *error) {
     enum { BLOCK = PIXELS / BOXES };
     double sum = 0.0;
@@ -95,7 +95,7 @@ static aur_result warp(const warp_study *study, const char *set, size_t count, d
     return AUR_OK;
 }
 
-/* The points on white, or with NULL the density. */
+/* The points on white; with NULL the density. */
 static aur_result draw(const warp_study *study, const char *set, size_t count, const double *warped,
                        aur_error *error) {
     aur_image *image;

@@ -1,4 +1,4 @@
-/* Which weights for which integrand: equal, optimal (Marques 2018), areas of Voronoi cells and exact to the
+/* Which weights suit which integrand: equal, optimal (Marques 2018), areas of Voronoi cells, and exact to the
  * largest degree, on the whole sphere, as relative root mean square errors over axes and scramblings. */
 #include <aureole/exact.h>
 #include <aureole/quadrature.h>
@@ -22,11 +22,11 @@ static const char *const columns[] = {"set",   "n",      "integrand",   "equal",
 typedef struct weighed {
     size_t count;
     double *xyz, *weights[METHODS];
-    size_t degree; /* the mean one, times the seeds */
+    size_t degree; /* summed over the seeds */
     double squares[LAB_CLASSES][METHODS];
 } weighed;
 
-/* Whether a set has one form, which is true of those of the sphere itself. */
+/* Whether a set has no randomised forms, as native sets of the sphere. */
 static bool is_fixed(const char *set) {
     const aur_set_description *const row = aur_set_find(set);
     return row != NULL && row->dimensions[0] == 3;
@@ -40,7 +40,7 @@ static aur_result draw(const char *set, size_t count, uint64_t seed, double *xyz
     aur_directions *directions;
     aur_result result = aur_directions_create(set, &options, &directions, error);
     if (result != AUR_OK && options.scramble == AUR_SCRAMBLE_OWEN) {
-        options.scramble = AUR_SCRAMBLE_SHIFT; /* lattices and files have no digits */
+        options.scramble = AUR_SCRAMBLE_SHIFT; /* lattices and files have no digits to scramble */
         result = aur_directions_create(set, &options, &directions, error);
     }
     if (result != AUR_OK)

@@ -1,5 +1,4 @@
-/* How often the intervals of aur_integrate hold the integral, and how often a wrong result comes without a
- * warning. */
+/* Coverage of the intervals of aur_integrate, and the rate of wrong results without a warning. */
 #include <aureole/integrate.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,15 +11,15 @@ static const char *const columns[] = {"domain", "function", "variance",    "tole
                                       "runs",   "holds",    "converged",   "silent",
                                       "zero",   "doubted",  "evaluations", NULL};
 
-/* Of all runs; doubles, so that a run of the lab that was interrupted can go on. */
+/* Over all runs; doubles, so that they can be stored for resuming. */
 typedef struct tally {
     double holds, converged, silent, zero, doubted, evaluations;
 } tally;
 
 enum { FIGURES = sizeof(tally) / sizeof(double) };
 
-/* A run whose error is beyond three times the tolerance, whose result says that the tolerance was reached,
- * and nothing else, is silently wrong. */
+/* A run is silently wrong if its error is beyond three times the tolerance, but its result reports that the
+ * tolerance was reached, without any warning. */
 static void count(const aur_integral *found, double expected, double tolerance, tally *t) {
     const double off = fabs(found->value - expected);
     const bool converged = found->reason == AUR_INTEGRATE_TOLERANCE;

@@ -46,7 +46,7 @@ static double clipped_integral(family f) {
     return f->domain == AUR_DOMAIN_SPHERE ? PI : 0.5 * PI * (1.0 + lab_family_axis[2]);
 }
 
-/* b and 1 more within a degrees of the axis. */
+/* b, plus 1 within a degrees of the axis. */
 static double cap(family f, const double *u) {
     return f->b + (1.0 - cosine_of(u) < 2.0 * squared_sine(f->a) ? 1.0 : 0.0);
 }
@@ -132,7 +132,8 @@ static double horizon_integral(family f) {
     return 2.0 * PI / (1.0 - f->a);
 }
 
-/* A sun of .2666 degrees and radiance 2e7 over a sky of 1000, flat or (a = 1) as the cosine. */
+/* A sun of .2666 degrees and radiance 2e7 over a sky of 1000, uniform or (a = 1) proportional to the cosine.
+ */
 static double sun(family f, const double *u) {
     return 1000.0 * (f->a > 0.0 ? u[2] : 1.0) + (1.0 - cosine_of(u) < 2.0 * squared_sine(0.2666) ? 2e7 : 0.0);
 }
@@ -141,7 +142,7 @@ static double sun_integral(family f) {
     return 1000.0 * (f->a > 0.0 ? 2.0 * PI / 3.0 : PI) + 2e7 * PI * sine * sine * lab_family_axis[2];
 }
 
-/* 64 caps of a degrees, evenly about the sphere. */
+/* 64 caps of a degrees, uniformly distributed over the sphere. */
 static double spikes(family f, const double *u) {
     const double near = cos(f->a / 180.0 * PI);
     for (int k = 0; k < 64; ++k) {
@@ -246,7 +247,7 @@ static double one(family f) {
     return 1.0;
 }
 
-/* Whether the sum of the coordinates is below half of their number. */
+/* Whether the sum of the coordinates is below half their number. */
 static double step(family f, const double *x) {
     double sum = 0.0;
     for (size_t d = 0; d < f->dimension; ++d)

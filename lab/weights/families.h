@@ -1,4 +1,4 @@
-/* Functions whose integrals have closed forms, of every kind that integration to a tolerance meets. */
+/* Test functions with closed-form integrals, of all kinds that integration to a tolerance may meet. */
 #ifndef LAB_WEIGHTS_FAMILIES_H
 #define LAB_WEIGHTS_FAMILIES_H
 
@@ -8,13 +8,14 @@ typedef struct lab_family {
     const char *name;
     aur_domain domain;
     size_t dimension; /* of the cube */
-    double exponent;  /* of the cosine, on the hemisphere */
-    double a, b;      /* what the function is made with */
+    double exponent;  /* of the cosine weight, on the hemisphere */
+    double a, b;      /* parameters of the function */
     double (*value)(const struct lab_family *family, const double *point);
     double (*integral)(const struct lab_family *family);
-    double tolerance; /* a tenth of it is the other one */
-    bool infinite;    /* its variance */
-    double peak;      /* degrees about the axis, or the exponent of a singularity below 0; 0: not declared */
+    double tolerance; /* of the first target; the second is a tenth of it */
+    bool infinite;    /* infinite variance */
+    double peak;      /* degrees about the axis, or the exponent of a singularity if negative; 0: not declared
+                       */
 } lab_family;
 
 extern const double lab_family_axis[3];
