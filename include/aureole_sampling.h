@@ -358,8 +358,8 @@ typedef struct aureole_fibonacci {
     uint64_t phase;
 } aureole_fibonacci;
 
-/* Azimuths are added: point j turns by (j mod 64)/Phi, from a table, from where point j - (j mod 64) stands,
- * by one complex product. So any point comes from its index alone, to 4.5e-16, and a sine costs a product. */
+/* Azimuths are added by one complex product: point j is point j - (j mod 64) turned by (j mod 64)/Phi, from a
+ * table. Any point is computed from its index to 4.5e-16, and a sine costs a product. */
 enum { AUREOLE_FIBONACCI_BLOCK = 64, AUREOLE_FIBONACCI_WRAPPED = 7 };
 
 /* clang-format off */
@@ -406,7 +406,7 @@ AUREOLE_TABLE double aureole_golden_sines[AUREOLE_FIBONACCI_BLOCK + AUREOLE_FIBO
 };
 /* clang-format on */
 
-/* One point, with the bits of the kernels. */
+/* One point, bit-identical to the kernels. */
 AUREOLE_INLINE void aureole_fibonacci_point(const aureole_fibonacci *set, uint64_t index, double xyz[3]) {
     const uint64_t k = index % AUREOLE_FIBONACCI_BLOCK;
     double sine, cosine;
@@ -427,7 +427,7 @@ AUREOLE_INLINE void aureole_spherical_fibonacci(uint64_t count, double height, u
     aureole_fibonacci_point(&set, index, xyz);
 }
 
-/* b_s/2^level, s below 3 and level at least 1, as what it adds to the index (x times N) and to the phase. */
+/* b_s/2^level, s below 3 and level at least 1, as its change of the index (x times N) and of the phase. */
 typedef struct aureole_grid_shift {
     double index;
     uint64_t phase;
@@ -497,9 +497,9 @@ AUREOLE_INLINE size_t aureole_grid_first_shift(uint64_t base, double stretch) {
  * Pairs are padded: each is a point of its own Owen-scrambled and -shuffled Sobol net, so that all samples of
  * a pixel are even in each pair. They are those that the renderer's sampler `sobol` draws. */
 
-/* The pair of floats in [0,1) of a sample, from its index with reversed bits and a hash of all else. An index
- * is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is a net
- * (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
+/* The pair of floats in [0,1) of a sample, from its bit-reversed index and a hash of pixel and dimension. The
+ * index is scrambled so that aligned blocks of a power of two are shuffled: every such block remains a net
+ * (Burley 2020). In bit-reversed form the first coordinate is the index itself. */
 AUREOLE_INLINE void aureole_sobol_pair(uint32_t reversed_index, uint64_t hash, float *u, float *v) {
     const uint32_t index =
         aureole_reverse_bits(aureole_nested_hash(reversed_index, (uint32_t)aureole_mix64(hash + 1)));

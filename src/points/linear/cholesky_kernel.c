@@ -14,8 +14,7 @@ enum { LANES = 2, ROWS = 4 };
 
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 
-/* A tile is two registers wide; BAND rows of L
- * stay in the cache while all tiles of theirs are updated. */
+/* A tile is two registers wide; BAND rows of L stay in the cache while all their tiles are updated. */
 enum {
     NARROW = AUR_CHOLESKY_NARROW,
     WIDE = AUR_CHOLESKY_WIDE,
@@ -37,7 +36,7 @@ static inline void store(double *target, lanes value) {
 }
 
 /* target[r][c] -= sum of left[r][k] right[k][c] for a tile of `rows` rows and WIDTH columns. Inlined with a
- * constant number of rows, so that the tile lies in registers. */
+ * constant number of rows, so that the tile stays in registers. */
 static inline __attribute__((always_inline)) void subtract(size_t rows, size_t depth, size_t left_stride,
                                                            const double *left, const double *right,
                                                            size_t stride, double *target) {
@@ -60,7 +59,7 @@ static inline __attribute__((always_inline)) void subtract(size_t rows, size_t d
     }
 }
 
-/* The same for one row, of which only `width` columns are there. */
+/* The same for one row, with only `width` columns. */
 static void subtract_edge(size_t width, size_t depth, const double *left, const double *right,
                           double *target) {
     double row[WIDTH] = {0};
@@ -79,7 +78,7 @@ static void pack(size_t stride, size_t depth, size_t first, size_t last, const d
 }
 
 /* target[i][j] -= sum over k < depth of left[i][k] left[j][k] for i from `first` to `rows`, j from `first` to
- * i and below `last`. What stands above the diagonal is lost. */
+ * i and below `last`. Entries above the diagonal are overwritten. */
 typedef struct product {
     const double *left;
     size_t left_stride, depth;
@@ -106,7 +105,7 @@ static void subtract_product(const product *p, double *packed) {
     }
 }
 
-/* Takes what the first `depth` columns have found from the columns up to `last` of all rows below. */
+/* Subtracts the contribution of the first `depth` columns from the columns up to `last` of all rows below. */
 static void update(size_t stride, size_t depth, size_t last, size_t rows, double *a, double *packed) {
     const product p = {a, stride, depth, a, stride, depth, last, rows};
     subtract_product(&p, packed);
@@ -114,7 +113,7 @@ static void update(size_t stride, size_t depth, size_t last, size_t rows, double
 
 static void gram(size_t size, size_t depth, const double *rows, double *matrix, double *work) {
     memset(matrix, 0, size * size * sizeof *matrix);
-    const size_t most = size > WIDE ? WIDE : NARROW; /* as deep as `work` has room */
+    const size_t most = size > WIDE ? WIDE : NARROW; /* limited by the size of `work` */
     for (size_t k = 0; k < depth; k += most) {
         const product p = {rows + k, depth, depth - k < most ? depth - k : most, matrix, size, 0, size, size};
         subtract_product(&p, work);
@@ -156,7 +155,7 @@ static bool factor_narrow(size_t stride, size_t columns, size_t rows, double *a,
     for (size_t k = 0; k < columns; ++k) {
         reduce(k, top, top);
         const double root = sqrt(top[k][k]);
-        if (!(root > 0.0)) /* NaN too */
+        if (!(root > 0.0)) /* also NaN */
             return false;
         inverse[k] = 1.0 / root;
         for (size_t r = 0; r < columns; ++r)
@@ -200,7 +199,7 @@ static bool factor(size_t size, double *matrix, double *inverse, double *work) {
     return true;
 }
 
-/* Sixteen running sums in a fixed order: registers of any width give the same bits. */
+/* Sixteen running sums in a fixed order: bit-identical for all register widths. */
 static double dot(size_t count, const double *a, const double *b) {
     lanes sums[SUMS / LANES] = {{0}};
     size_t j = 0;

@@ -33,14 +33,14 @@ static double one_norm(size_t size, const double *matrix, double *sums) {
     return norm;
 }
 
-/* A factored system, and room for two vectors. */
+/* A factored system, and two vectors of scratch memory. */
 typedef struct factored {
     size_t size;
     const double *matrix, *inverse;
     double *x, *signs;
 } factored;
 
-/* The 1-norm of what x becomes. */
+/* Solves for x in place; returns the 1-norm of the solution. */
 static double solve_in_place(const factored *system) {
     AUR_KERNEL_HERE(aur_cholesky).solve(system->size, system->matrix, system->inverse, 1, system->x);
     double sum = 0.0;

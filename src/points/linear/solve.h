@@ -1,4 +1,4 @@
-/* Symmetric positive definite systems, on one thread. */
+/* Single-threaded solvers for symmetric positive definite systems. */
 #pragma once
 
 #include <stdbool.h>
@@ -8,30 +8,29 @@
 #include "points/base/simd.h"
 
 /* Solves matrix * X = right, in place. `matrix` (size * size, row major) is read on and below its diagonal
- * and destroyed there; `right` holds `columns` vectors one after another. *condition, unless NULL, gets an
+ * and destroyed there; `right` holds `columns` vectors one after another. *condition, unless NULL, becomes an
  * estimate of the 1-norm condition number. INTERNAL when the matrix is not positive definite, MEMORY. */
 aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, double *right, double *condition,
                               aur_error *error);
 
-/* Changes a solution of K X = z, in place, to that of least error among those whose sum is 1; `ones` solves K
- * X = 1. Returns the multiplier of the constraint. */
+/* Changes a solution of K X = z, in place, to the one that minimises the error subject to sum 1; `ones`
+ * solves K X = 1. Returns the Lagrange multiplier of the constraint. */
 double aur_hold_sum(size_t size, double *solution, const double *ones);
 
-/* Refuses a system of that size when its matrix is larger than the machine's memory, saying how much it
- * takes. */
+/* MEMORY with the required size if the matrix of a system is larger than the machine's memory. */
 aur_result aur_check_system_size(size_t size, aur_error *error);
 
 /* The Cholesky factorisation K = L L^T of symmetric positive definite matrices, row by row in memory.
  *
- * Every entry is what the plain algorithm gives, L_ij = (K_ij - L_i0 L_j0 - L_i1 L_j1 - ...) / L_jj, with its
- * terms subtracted one by one in this order, without contraction, and the division done as a product with
- * 1 / L_jj. Blocks, widths of registers and instruction sets change only which entries are worked on at one
- * time, so the bits are the same on every processor. */
+ * Every entry equals that of the plain algorithm, L_ij = (K_ij - L_i0 L_j0 - L_i1 L_j1 - ...) / L_jj, with
+ * terms subtracted one by one in this order, without contraction, and a multiplication by 1 / L_jj instead of
+ * the division. Blocks, register widths and instruction sets change only which entries are computed together,
+ * so results are bit-identical on every processor. */
 
 typedef struct aur_cholesky {
-    /* Replaces matrix[size * size], read on and below its diagonal, by L; inverse[size] gets the reciprocals
-     * of L's diagonal, and work has room for aur_cholesky_work(size) doubles. What stands above the diagonal
-     * is lost. False when the matrix is not positive definite. */
+    /* Replaces matrix[size * size], read on and below its diagonal, by L; inverse[size] becomes the
+     * reciprocals of L's diagonal; work has aur_cholesky_work(size) doubles. Entries above the diagonal are
+     * overwritten. False when the matrix is not positive definite. */
     bool (*factor)(size_t size, double *matrix, double *inverse, double *work);
     /* Solves K X = right in place, for `columns` vectors one after another. */
     void (*solve)(size_t size, const double *matrix, const double *inverse, size_t columns, double *right);
@@ -42,10 +41,10 @@ typedef struct aur_cholesky {
 
 AUR_KERNELS(const aur_cholesky, aur_cholesky);
 
-/* Columns are factored so many at a time, within blocks of so many. */
+/* The number of columns factored at a time, and the size of their blocks. */
 enum { AUR_CHOLESKY_NARROW = 16, AUR_CHOLESKY_WIDE = 128 };
 
-/* Strips of the widest tile, as deep as the widest block of columns. */
+/* Strips with the width of the widest tile and the depth of the widest block of columns. */
 static inline size_t aur_cholesky_work(size_t size) {
     return (size + AUR_CHOLESKY_NARROW) *
            (size > AUR_CHOLESKY_WIDE ? AUR_CHOLESKY_WIDE : AUR_CHOLESKY_NARROW);

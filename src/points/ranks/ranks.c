@@ -122,7 +122,7 @@ bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) 
     return true;
 }
 
-/* Whether a message may be taken for what it says; else it is gone. */
+/* Whether a message is valid in the present step; otherwise it is dropped. */
 static bool accept(aur_ranks *ranks, aur_message *message) {
     const bool asks = message->kind == AUR_MESSAGE_WANT || message->kind == AUR_MESSAGE_STOP;
     ranks->left += message->kind == AUR_MESSAGE_LEAVE;
@@ -133,7 +133,7 @@ static bool accept(aur_ranks *ranks, aur_message *message) {
         aur_ranks_fail(ranks,
                        "rank %u does something else than rank %zu: were all started with the same words?",
                        (unsigned)message->from, ranks->transport.rank);
-    /* Who asked while the work came to its end has no answer. */
+    /* Requests sent while the loop ended are not answered. */
     if (!aur_ranks_have_failed(ranks) && message->step == ranks->step)
         return true;
     free(message->data);
@@ -143,7 +143,7 @@ static bool accept(aur_ranks *ranks, aur_message *message) {
 
 bool aur_ranks_receive(aur_ranks *ranks, size_t from, aur_message *message) {
     while (!aur_ranks_have_failed(ranks)) {
-        if (ranks->kept_count > 0) { /* of rank 0, to another one, which hears from nobody else */
+        if (ranks->kept_count > 0) { /* rank 0's, on other ranks, which receive only from rank 0 */
             *message = ranks->kept[0];
             memmove(ranks->kept, ranks->kept + 1, --ranks->kept_count * sizeof *ranks->kept);
         } else if (!aur_ranks_receive_any(ranks, from, message)) {
@@ -155,12 +155,12 @@ bool aur_ranks_receive(aur_ranks *ranks, size_t from, aur_message *message) {
     return false;
 }
 
-/* While a rank waits for its parent in a broadcast, rank 0 may be ahead of it, or have left. */
+/* While a rank waits for its parent in a broadcast, rank 0 may be a step ahead, or have left. */
 static void listen_to_root(aur_ranks *ranks) {
     aur_message message;
     if (!aur_ranks_receive_any(ranks, 0, &message))
         return;
-    /* Rank 0 may have left in good order: then what is waited for is still on its way. */
+    /* Rank 0 may have left regularly: the expected message is then still in transit. */
     if (message.kind == AUR_MESSAGE_LEAVE && message.step <= ranks->step) {
         (void)accept(ranks, &message);
     } else if (aur_array_reserve(&ranks->kept, &ranks->kept_capacity, ranks->kept_count + 1,
@@ -195,9 +195,9 @@ static bool wait_for(aur_ranks *ranks, size_t from, aur_message_kind kind, aur_m
     return false;
 }
 
-/* --- what all ranks do together */
+/* --- collective operations */
 
-/* Ranks form a binomial tree: the parent's number lacks the lowest bit. */
+/* Ranks form a binomial tree: the parent's number is the rank without its lowest bit. */
 static void send_on(aur_ranks *ranks, bool last, size_t size, const void *data) {
     const size_t rank = ranks->transport.rank, count = ranks->transport.count;
     for (size_t bit = 1; rank + bit < count && (rank & bit) == 0; bit *= 2)

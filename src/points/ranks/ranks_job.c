@@ -1,4 +1,4 @@
-/* Joining a job of several processes, leaving it, and what it has cost. */
+/* Joining and leaving a job of several processes, and its statistics. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 #include "points/ranks/ranks.h"
 
 size_t aur_ranks_started(void) {
-    /* Slurm's count is of every task, so it counts where Slurm has also said how the tasks find each other.
-     */
+    /* Slurm sets its count for every task, so it is used only if Slurm also configured communication between
+     * tasks. */
     static const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
     const size_t known = getenv("PMIX_RANK") != NULL || getenv("PMI_RANK") != NULL ? 3 : 2;
     uint64_t count = 0;
@@ -92,7 +92,7 @@ static aur_result greet(aur_ranks *ranks, aur_error *error) {
 }
 
 static aur_result agree(void *user, size_t size, void *data, aur_error *error) {
-    aur_ranks_agree(size, data); /* in the thread's own job, which `user` is */
+    aur_ranks_agree(size, data); /* in the thread's job, which `user` is */
     return aur_ranks_have_failed(user) ? aur_ranks_failure(user, error) : AUR_OK;
 }
 
@@ -140,7 +140,7 @@ aur_result aur_ranks_join(aur_error *error) {
     return aur_ranks_join_by(&transport, error);
 }
 
-/* Takes what still comes, so that nobody waits to send it, until every rank has left. */
+/* Receives remaining messages until every rank has left, so that no sender blocks. */
 static int see_off(aur_ranks *ranks, int status, aur_error *error) {
     const bool root = ranks->transport.rank == 0;
     bool over = false;
@@ -173,8 +173,8 @@ int aur_ranks_leave(int status, const char *said, aur_error *error) {
     aur_io_use(NULL);
     if (ranks->lost)
         ranks->transport.abort(ranks->transport.state, status);
-    /* Who waits for rank 0 sees by the step whether all was done; where not, nobody may wait for this rank.
-     */
+    /* A rank that waits for rank 0 sees from the step number whether all work was done; if not, no rank may
+     * wait for this one. */
     const size_t own = ranks->transport.rank, count = ranks->transport.count;
     const bool failed = aur_ranks_have_failed(ranks);
     aur_ranks_begin(ranks);

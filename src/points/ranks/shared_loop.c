@@ -1,7 +1,7 @@
-/* The items of one loop, shared out to the ranks of a job (points/base/io.h). Rank 0 gives runs of items to
- * whoever asks, long ones first and single ones in the end, and takes what comes of them; when all are done,
- * every rank gets what the others have found. Threads do the items, the thread of the job exchanges messages.
- */
+/* Distribution of the items of one loop to the ranks of a job (points/base/io.h). Rank 0 sends runs of items
+ * to ranks that request them, long ones first and single items in the end, and receives the results. When all
+ * are done, every rank receives the results of the others. Worker threads run the items; the thread of the
+ * job exchanges messages. */
 #if !defined(_GNU_SOURCE)
 #define _GNU_SOURCE
 #endif
@@ -23,20 +23,20 @@ struct aur_shared_loop {
     aur_shared_loop_options options;
     bool is_root;
     size_t rank_count;
-    pthread_mutex_t lock; /* guards what follows, but for what the talking thread has for itself */
+    pthread_mutex_t lock; /* guards the fields below, except those of the communicating thread */
     pthread_cond_t wake_threads, wake_messages;
-    size_t next, end;     /* items that this rank may begin; of rank 0: that nobody has */
+    size_t next, end;     /* items that this rank may begin; rank 0: items not yet assigned */
     size_t running, idle; /* threads */
-    bool alone;           /* there are no threads: the one that talks does items itself */
-    bool over;            /* no items will come any more */
+    bool alone;           /* no worker threads: the communicating thread runs items itself */
+    bool over;            /* no more items will come */
     aur_bytes results;    /* of this rank's items, to be sent to rank 0 */
-    size_t given_back;    /* items that this rank was given and has not begun */
-    unsigned char *known; /* [count]: this rank has what the item found */
-    uint64_t *rays;       /* [count]: of each item that is known */
-    /* Of the talking thread alone. */
-    size_t *outstanding;   /* rank 0, [ranks]: items that are with a rank */
-    uint64_t foreign_rays; /* of items that other ranks have done */
-    bool asked, told;      /* a rank waits for items; has said, or been told, that the work stops */
+    size_t given_back;    /* items assigned to this rank and not begun */
+    unsigned char *known; /* [count]: this rank has the item's result */
+    uint64_t *rays;       /* [count]: of each item with a result */
+    /* Only for the communicating thread. */
+    size_t *outstanding;   /* rank 0, [ranks]: items assigned to each rank */
+    uint64_t foreign_rays; /* of items that other ranks ran */
+    bool asked, told;      /* a request for items is pending; a stop was sent or received */
 };
 
 static aur_shared_loop *create(void *user, const aur_shared_loop_options *options) {
@@ -117,7 +117,7 @@ typedef struct entry {
     int64_t result;
 } entry;
 
-/* An item that was stopped has what it found until then; one that failed has nothing. */
+/* A cancelled item has a partial result; a failed one has none. */
 static bool has_found(int64_t result) {
     return result == AUR_OK || result == AUR_ERROR_CANCELLED;
 }
@@ -133,7 +133,7 @@ static void put_entry(const aur_shared_loop *loop, size_t index, aur_result resu
         memcpy(bytes->data + at, &e, sizeof e);
 }
 
-/* Takes what others have found; on rank 0 also tells of it. */
+/* Receives results of others; rank 0 also reports progress. */
 static void get_entries(aur_shared_loop *loop, const aur_message *message) {
     aur_bytes_reader all = {.at = message->data, .end = message->data + message->size};
     while (all.at < all.end && !all.failed) {
@@ -165,7 +165,7 @@ static void get_entries(aur_shared_loop *loop, const aur_message *message) {
                        (unsigned)message->from);
 }
 
-/* --- for the threads that do the items */
+/* --- worker threads */
 
 static bool take(aur_shared_loop *loop, size_t *index) {
     pthread_mutex_lock(&loop->lock);
@@ -196,7 +196,7 @@ static void done(aur_shared_loop *loop, size_t index, aur_result result, uint64_
     pthread_mutex_unlock(&loop->lock);
 }
 
-/* --- for the thread that talks */
+/* --- the communicating thread */
 
 static size_t give(aur_shared_loop *loop, size_t *first) {
     pthread_mutex_lock(&loop->lock);
@@ -232,7 +232,7 @@ static void answer(aur_shared_loop *loop, const aur_message *message) {
     }
 }
 
-/* Rank 0: whether all that was begun has ended. */
+/* Rank 0: whether all items that were begun have ended. */
 static bool is_finished(aur_shared_loop *loop) {
     pthread_mutex_lock(&loop->lock);
     bool finished = loop->running == 0 && (loop->next == loop->end || atomic_load(loop->options.stop));
@@ -248,7 +248,7 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Waits for threads, or for messages, which nothing tells of but asking. */
+/* Waits for threads, or for messages, which must be polled. */
 static void wait_a_little(aur_shared_loop *loop, long *pause) {
     enum { FIRST = 50000, LONGEST = 10000000 };
     struct timespec until;
@@ -265,7 +265,7 @@ static void wait_a_little(aur_shared_loop *loop, long *pause) {
 }
 
 static void messages_as_root(aur_shared_loop *loop, bool (*one)(void *work)) {
-    /* What a stopped rank has in hand ends within some milliseconds; one that was killed never answers. */
+    /* Running items of a stopped rank end within some milliseconds; a killed rank never answers. */
     static const double patience = 0.5;
     double stopped = 0.0;
     long pause = 0;
@@ -289,7 +289,7 @@ static void messages_as_root(aur_shared_loop *loop, bool (*one)(void *work)) {
     }
 }
 
-/* Sends what threads have found, what they have not begun, and that they want more. */
+/* Sends the threads' results, returns items not begun, and requests more. */
 static void report_to_root(aur_shared_loop *loop, bool stops) {
     pthread_mutex_lock(&loop->lock);
     aur_bytes results = loop->results;
@@ -365,7 +365,7 @@ static void messages_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
 
 static void exchange_messages(aur_shared_loop *loop, bool (*one)(void *work)) {
     const double start = aur_ranks_messages_begin();
-    if (one != NULL) /* no other thread is there to read it */
+    if (one != NULL) /* no other thread reads it */
         loop->alone = true;
     if (loop->is_root)
         messages_as_root(loop, one);
@@ -381,7 +381,7 @@ static void exchange_messages(aur_shared_loop *loop, bool (*one)(void *work)) {
         aur_ranks_messages_end(loop->ranks, start);
 }
 
-/* Rank 0: all that was found, in the order of items. */
+/* Rank 0: all results in the order of items. */
 static void spread_results(aur_shared_loop *loop) {
     aur_bytes bytes = {0};
     for (size_t i = 0; i < loop->options.count; ++i) {

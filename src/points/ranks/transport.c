@@ -1,10 +1,10 @@
-/* Where a build has MPI, it is a module beside the library, which is looked for when several processes were
- * started; where it has none, this file is the same and finds nothing. */
+/* MPI is in a module next to the library, which is loaded when several processes were started. In builds
+ * without MPI this file is the same and finds no module. */
 #include "points/base/file.h"
 #include "points/ranks/ranks.h"
 
 aur_result aur_transport_find(aur_transport *transport, aur_error *error) {
-    /* MPI's own parts, which it loads itself, look for its names. */
+    /* Components that MPI loads need its symbols. */
     const aur_transport_open_function open =
         (aur_transport_open_function)aur_module_find(AUR_TRANSPORT_MODULE, "aur_transport_open", true);
     if (open == NULL)

@@ -36,7 +36,7 @@ static distribution rows_distribution(const aur_density_image *image) {
 }
 
 /* Turns the masses in cumulative[1..count] into a distribution; an empty one becomes uniform and is never
- * asked. Returns the sum of the masses. */
+ * sampled. Returns the sum of the masses. */
 static double accumulate(size_t count, double *cumulative, uint32_t *guide) {
     cumulative[0] = 0.0;
     for (size_t i = 0; i < count; ++i)
@@ -53,7 +53,7 @@ static double accumulate(size_t count, double *cumulative, uint32_t *guide) {
     return sum;
 }
 
-/* Coordinates outside [0,1), NaN among them, are moved to its nearer end, NaN to 0. */
+/* Clamps coordinates to [0,1); NaN becomes 0. */
 static double clamp_unit(double x) {
     return x >= 0.0 ? fmin(x, 0x1.fffffffffffffp-1) : 0.0;
 }

@@ -1,4 +1,4 @@
-/* Lobes: densities on the hemisphere, and the warps that carry uniform points to them and back. */
+/* Lobes: densities on the hemisphere, and the warps from uniform points to them and back. */
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +30,7 @@ aur_result aur_lobe_check(const aur_lobe *lobe, aur_error *error) {
     return AUR_OK;
 }
 
-/* "A" or "A:B" into values; returns how many there are, 0 for anything else. */
+/* "A" or "A:B" into values; returns their number, 0 for anything else. */
 static size_t parse_pair(const char *text, double values[2]) {
     char first[64];
     const char *const colon = strchr(text, ':');
@@ -152,7 +152,7 @@ static double ggx_pdf(const aur_lobe *lobe, const double direction[3]) {
 
 /* --- powers of the cosine, and the choice between the two */
 
-/* ln z of a unit vector of the upper hemisphere, to full relative precision about the pole too. */
+/* ln z of a unit vector of the upper hemisphere, to full relative precision also near the pole. */
 static double log_cosine(const double direction[3], double across) {
     return direction[2] > 0.5 ? log1p(-across / (1.0 + direction[2])) : log(fmax(direction[2], 0.0));
 }

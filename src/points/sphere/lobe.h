@@ -1,4 +1,4 @@
-/* What the library checks of a lobe that it is given. */
+/* Checks of a caller's lobe. */
 #pragma once
 
 #include <aureole/sphere.h>

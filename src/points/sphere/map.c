@@ -34,12 +34,12 @@ static void concentric_from_disk(const double disk[2], double square[2]) {
     square[1] = 0.5 * (b + 1.0);
 }
 
-/* The first coordinate that belongs to a squared radius. */
+/* The first coordinate for a squared radius. */
 static double area_to(aur_map map, double area) {
     return map == AUR_MAP_POLAR ? sqrt(area) : area;
 }
 
-/* Into [0,1): a coordinate of 1 is the greatest number below it. */
+/* Clamps to [0,1): 1 becomes the greatest number below it. */
 static double clamp_unit(double value) {
     return fmin(fmax(value, 0.0), 0x1.fffffffffffffp-1);
 }
@@ -64,7 +64,7 @@ void aur_point_from_disk(aur_map map, const double disk[2], double square[2]) {
 
 void aur_point_from_cap(aur_map map, double height, const double direction[3], double square[2]) {
     const double across = direction[0] * direction[0] + direction[1] * direction[1];
-    /* 1 - z without cancellation about the pole. */
+    /* 1 - z without cancellation near the pole. */
     const double depth = direction[2] > 0.0 ? across / (1.0 + direction[2]) : 1.0 - direction[2];
     const double area = fmin(fmax(depth / height, 0.0), 1.0);
     if (map == AUR_MAP_CONCENTRIC) {

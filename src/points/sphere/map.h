@@ -52,20 +52,20 @@ static inline void aur_point_to_cap(aur_map map, double height, const double squ
     direction[2] = 1.0 - depth;
 }
 
-/* The inverses, as the public functions have them. */
+/* The inverses, with the conventions of the public functions. */
 void aur_point_from_disk(aur_map map, const double disk[2], double square[2]);
 void aur_point_from_cap(aur_map map, double height, const double direction[3], double square[2]);
 
 /* Unit quaternions w,x,y,z. */
 
-/* A uniformly random one by a hash of the seed (Shoemake 1992). */
+/* A uniformly random quaternion by a hash of the seed (Shoemake 1992). */
 void aur_quaternion_uniform(uint64_t seed, double wxyz[4]);
 
 static inline double aur_dot4(const double a[4], const double b[4]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/* The rotation by b, then by a. */
+/* The product: rotation by b, then by a. */
 static inline void aur_quaternion_multiply(const double a[4], const double b[4], double product[4]) {
     const double w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
     const double x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];

@@ -1,5 +1,5 @@
-/* The inside of a set that is native to the sphere: what each generator's file offers to the table of all
- * sets. */
+/* The interface of sets that are native to the sphere, which each generator's file implements for the table
+ * of all sets. */
 #pragma once
 
 #include <aureole/sphere.h>
@@ -8,7 +8,7 @@
 #include "points/base/error.h"
 #include "points/pointset/sets.h"
 
-/* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and
+/* The domain of a native set: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and
  * axes, 2 sphere), or over the rotations. */
 typedef struct aur_native_request {
     aur_domain domain;
@@ -19,11 +19,11 @@ typedef struct aur_native_request {
 
 typedef struct aur_native_set {
     aur_set_description description;
-    /* Reads the keys and makes *data, one allocation, ready. */
+    /* Reads the keys and prepares *data, one allocation. */
     aur_result (*prepare)(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
                           void **data, aur_error *error);
-    /* Unit vectors first .. first+count-1, which are within the set; quaternions w,x,y,z of a set of
-     * rotations. */
+    /* Writes unit vectors first .. first+count-1, which are inside the set; for rotations quaternions
+     * w,x,y,z. */
     void (*fill)(const void *data, uint64_t first, size_t count, double *points);
     /* The weights of points first .. first+count-1, which add up to 1 over the set; NULL: all equal. */
     void (*weigh)(const void *data, uint64_t first, size_t count, double *weights);
@@ -58,18 +58,18 @@ enum {
 };
 #undef AUR_ONE_MORE
 
-/* Of all sets; for the table of samplers, too, in the other library. */
+/* The tables of all sets; also used for the table of samplers in the rendering library. */
 extern AUR_INTERNAL const aur_row *const aur_set_rows[AUR_SET_COUNT];
 
-/* The native set that a SET's text names, or NULL. */
+/* The native set named by the text of a SET, or NULL. */
 const aur_native_set *aur_native_find(const char *set);
-/* Makes a native set ready; *data is its own. Errors: ARGUMENT for a size that it does not have, UNSUPPORTED
- * for a domain, those of its keys. */
+/* Prepares a native set; *data is its private data. Errors: ARGUMENT for an unsupported size, UNSUPPORTED for
+ * a domain, those of its keys. */
 aur_result aur_native_open(const aur_native_set *native, const char *set, const aur_native_request *request,
                            void **data, aur_error *error);
-/* AUR_OK if a SET's text names a set of either kind, else NAME with a suggestion. */
+/* AUR_OK if the text of a SET names a set of either kind, else NAME with a suggestion. */
 aur_result aur_set_check_name(const char *set, aur_error *error);
-/* Whether the points of a rule are not all worth the same. */
+/* Whether the points of a rule have unequal weights. */
 AUR_INTERNAL bool aur_directions_weighted(const aur_directions *directions);
 
 extern const aur_table aur_set_table;

@@ -1,5 +1,5 @@
-/* Azimuths in 64-bit fixed point: a phase counts 2^-64 turns and wraps by itself, so that neither adding nor
- * multiplying by an index ever loses a digit. */
+/* Azimuths in 64-bit fixed point: a phase counts 2^-64 turns and wraps around, so that adding and multiplying
+ * by an index are exact. */
 #pragma once
 
 #include <math.h>

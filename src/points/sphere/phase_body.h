@@ -1,7 +1,7 @@
-/* Sine and cosine of an eighth of a turn to either side, for a double and for the lanes of a vector with the
- * same bits: a file that includes this defines REAL, the type, and NAME, the function's name. The polynomials
- * on t in [-1,1], in powers of t^2, give sin(pi t/4) to 4e-17 and cos(pi t/4) to 2e-17 (minimax), in plain
- * multiplications and additions. */
+/* Sine and cosine of an eighth of a turn to either side, for a double and for the lanes of a vector,
+ * bit-identical: a file that includes this defines REAL, the type, and NAME, the function's name. The
+ * polynomials on t in [-1,1], in powers of t^2, give sin(pi t/4) to 4e-17 and cos(pi t/4) to 2e-17 (minimax),
+ * in plain multiplications and additions. */
 static inline void NAME(REAL t, REAL *sine, REAL *cosine) {
     const REAL q = t * t, q2 = q * q, q4 = q2 * q2;
     /* by pairs (Estrin), whose chains of dependent operations are half as long as Horner's */

@@ -1,4 +1,4 @@
-/* aur_phase_sincos for all lanes of a vector: the same operations, so the same bits. */
+/* aur_phase_sincos for all lanes of a vector: the same operations, so bit-identical. */
 #pragma once
 
 #include "points/base/simd_lanes.h"

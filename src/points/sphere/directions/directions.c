@@ -1,5 +1,5 @@
-/* Directions from any set: those of the square are lifted by a map, those native to the sphere stand as they
- * are; then come lobe, rotation and weights. And the table of all sets. */
+/* Directions from any set: points of the square are lifted by a map, native directions are used unchanged;
+ * then lobe, rotation and weights are applied. Also the table of all sets. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,17 +19,17 @@ enum { CHUNK = 128 };
 
 struct aur_directions {
     uint64_t size;
-    const aur_native_set *native; /* NULL: a set of the square, or one of the user */
+    const aur_native_set *native; /* NULL: a set of the square, or a user's set */
     void *native_data;
     aur_pointset *square;
-    aur_points *file; /* of directions; NULL when it is something else */
+    aur_points *file; /* of directions; otherwise NULL */
     aur_map map;
     double height;
-    aur_lobe lobe;    /* what the weights are for */
-    aur_lobe density; /* what the points follow */
+    aur_lobe lobe;    /* the lobe of the weights */
+    aur_lobe density; /* the sampling density */
     bool weighted;    /* the density is not the lobe, the map not uniform, or the set has weights */
     bool warped, rotated;
-    bool axes; /* each stands for its opposite too, and is given with z >= 0 */
+    bool axes; /* x and -x are one axis, returned with z >= 0 */
     aur_rotation rotation;
 };
 
@@ -84,7 +84,7 @@ static aur_result choose_density(aur_directions *directions, const aur_direction
     return AUR_OK;
 }
 
-/* Scramblings that are rotations happen here, after the map; the others belong to the square. */
+/* Scramblings that are rotations are applied here, after the map; the others act on the square. */
 static aur_scramble choose_rotation(aur_directions *directions, const aur_directions_options *options) {
     directions->rotated = true;
     if (options->scramble == AUR_SCRAMBLE_ROTATE) {
@@ -245,7 +245,7 @@ static void take_from_file(const aur_directions *directions, uint64_t first, siz
         memcpy(weights, file->weights + first, count * sizeof *weights);
 }
 
-/* A density's weight p/q, or what is below the horizon. */
+/* Weights p/q of a density, or 0 below the horizon. */
 static double density_weight(const aur_directions *directions, const double direction[3]) {
     if (aur_lobe_reflects(&directions->lobe))
         return direction[2] >= 0.0 ? 1.0 : 0.0;
@@ -254,7 +254,7 @@ static double density_weight(const aur_directions *directions, const double dire
     return p != q ? (p + 1.0) / (q + 1.0) * pow(direction[2], p - q) : 1.0;
 }
 
-/* The end of each axis that is not below the horizon. */
+/* Selects the end of each axis with z >= 0. */
 static void turn_up(size_t count, double *xyz) {
     for (size_t i = 0; i < count; ++i) {
         const double sign = xyz[3 * i + 2] < 0.0 ? -1.0 : 1.0;
@@ -263,7 +263,7 @@ static void turn_up(size_t count, double *xyz) {
     }
 }
 
-/* At most CHUNK points, within the set. */
+/* At most CHUNK points, inside the set. */
 static aur_result fill_chunk(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
                              double *weights, aur_error *error) {
     aur_result result = AUR_OK;
@@ -289,7 +289,7 @@ static aur_result fill_chunk(const aur_directions *directions, uint64_t first, s
     return result;
 }
 
-/* Coordinates of points `at` .. at+count-1 from values[dimension * count] to where they are wanted. */
+/* Coordinates of points `at` .. at+count-1 from values[dimension * count] to the output. */
 static void store(const aur_output *to, const aur_strides *strides, size_t dimension, size_t at, size_t count,
                   const double *values) {
     for (size_t d = 0; d < dimension; ++d) {

@@ -1,4 +1,4 @@
-/* Points of any set on any domain, in arrays of their own. */
+/* Points of any set on any domain, in newly allocated arrays. */
 #include <string.h>
 
 #include <aureole/rotations.h>
@@ -9,14 +9,14 @@
 #include "points/sphere/map.h"
 #include "points/sphere/native.h"
 
-/* What is asked for, once domain and size are known. */
+/* The request with domain and size filled in. */
 typedef struct job {
     const char *set;
     const aur_points_request *request;
     const aur_directions_options *options; /* the request's */
     aur_domain domain;
     uint64_t size;
-    aur_points *file; /* what a file holds, if it had to be read to know them */
+    aur_points *file; /* contents of a file, if it was read to find domain and size */
     aur_error *error;
 } job;
 
@@ -30,7 +30,7 @@ static aur_domain natural_domain(const aur_native_set *native) {
     return (native->description.domains & AUR_ON_ROTATIONS) != 0 ? AUR_DOMAIN_ROTATIONS : AUR_DOMAIN_SPHERE;
 }
 
-/* Chooses domain and size when the request leaves them to the set. */
+/* Takes domain and size from the set if the request does not specify them. */
 static aur_result choose_domain(job *j) {
     const aur_points_request *const request = j->request;
     j->domain = j->options->domain;
@@ -64,7 +64,7 @@ static aur_result choose_domain(job *j) {
     return AUR_OK;
 }
 
-/* Room for the part that is asked for of a set that has `size` points. */
+/* Allocates the requested part of a set of `size` points. */
 static aur_result allocate(const job *j, uint64_t size, size_t dimension, bool weighted,
                            aur_points **points) {
     const aur_points_request *const request = j->request;
@@ -77,7 +77,7 @@ static aur_result allocate(const job *j, uint64_t size, size_t dimension, bool w
     return aur_points_create(j->domain, count, dimension, weighted, points, j->error);
 }
 
-/* On the square and the cube, with room for weights where they are wanted. */
+/* Points on the square and the cube, with memory for weights if requested. */
 static aur_result generate_flat(const job *j, size_t dimension, bool weighted, aur_points **points) {
     if (aur_native_find(j->set) != NULL)
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
@@ -120,7 +120,7 @@ static aur_result generate_disk(const job *j, aur_points **points) {
     return result;
 }
 
-/* Points of a file that lie on the disk already. */
+/* Points of a file on the disk. */
 static aur_result copy_disk(const job *j, aur_points **points) {
     if (j->options->scramble != AUR_SCRAMBLE_NONE)
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
@@ -185,7 +185,7 @@ static aur_result generate_rotations(const job *j, aur_points **points) {
     return result;
 }
 
-/* Rotations of a file, as they stand. */
+/* Rotations of a file, unchanged. */
 static aur_result copy_rotations(const job *j, aur_points **points) {
     const aur_points_view *const held = aur_points_get_view(j->file);
     aur_points_warn_of_prefix(held, j->size, strchr(j->set, ':') + 1, &j->options->warnings);

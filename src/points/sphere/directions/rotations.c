@@ -1,4 +1,4 @@
-/* Rotations from any set: those native to them stand as they are, points of the cube are lifted. */
+/* Rotations from any set: native rotations are used unchanged, points of the cube are lifted. */
 #include <stdlib.h>
 
 #include <aureole/rotations.h>

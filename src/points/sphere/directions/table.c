@@ -79,7 +79,7 @@ aur_result aur_set_check_name(const char *set, aur_error *error) {
     return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s': 'aureole sets' lists them", wanted);
 }
 
-/* 2^k, 2^k-1 and 2^k-2 as such where they are large. */
+/* Writes large sizes as 2^k, 2^k-1 and 2^k-2. */
 static void print_size(uint64_t size, size_t capacity, char *text) {
     for (unsigned k = 10; k < 64; ++k)
         for (unsigned below = 0; below < 3; ++below)

@@ -1,11 +1,11 @@
-/* From a direction to the nearest points of a spherical Fibonacci set (Keinert, Innmann, Saenger, Stamminger
+/* The nearest points of a spherical Fibonacci set to a direction (Keinert, Innmann, Saenger, Stamminger
  * 2015).
  *
  * The set is a lattice in (index, azimuth), and two neighbouring basis vectors are nearly orthogonal on the
- * sphere at each latitude; the nearest point is a corner of the cell that they make about the direction. That
- * was checked against all points for every N to 20,000, and against the 16 points about the cell to 10^6. The
- * k nearest come from all lattice points in a cap that is sure to hold them, listed row by row. Both are
- * constant time in N. */
+ * sphere at each latitude; the nearest point is a corner of their cell that contains the direction. That was
+ * checked against all points for every N to 20,000, and against the 16 points about the cell to 10^6. The k
+ * nearest are selected from all lattice points in a cap that certainly contains them, listed row by row. Both
+ * are constant time in N. */
 #include "points/sphere/nearest/inverse.h"
 
 #include <aureole/sphere.h>
@@ -14,7 +14,7 @@
 #include "points/base/vector.h"
 #include "points/sphere/phase.h"
 
-/* 2^50 points keep an index and its neighbours exact. */
+/* Up to 2^50 points an index and its neighbours are exact. */
 static const uint64_t size_limit = UINT64_C(1) << 50;
 
 static aur_result make_lattice(const aur_fibonacci_set *set, aur_sphere_lattice *lattice, aur_error *error) {
@@ -32,8 +32,8 @@ static aur_result make_lattice(const aur_fibonacci_set *set, aur_sphere_lattice 
     return AUR_OK;
 }
 
-/* A direction must be of unit length within 1e-4, and not below the hemisphere where that is the domain; NaN
- * fails. */
+/* A direction must be of unit length within 1e-4, and not below the horizon if the domain is the hemisphere;
+ * NaN fails. */
 static aur_result check_direction(const aur_sphere_lattice *lattice, const double *q, aur_error *error) {
     const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
     if (fabs(square - 1.0) <= 1e-4 && (lattice->limit == lattice->whole || q[2] >= -1e-4))
@@ -48,7 +48,7 @@ static aur_result check_capacity(size_t count, size_t capacity, aur_error *error
                : aur_fail(error, AUR_ERROR_CAPACITY, "%zu indices do not fit into %zu", count, capacity);
 }
 
-/* The nearest ones so far, by distance and then by index. */
+/* The nearest points so far, by distance and then by index. */
 typedef struct candidates {
     size_t count, capacity;
     double distances[AUR_FIBONACCI_NEIGHBOURS_MAX];
@@ -81,7 +81,7 @@ static void offer(const aur_sphere_lattice *lattice, const double *q, double ind
     kept->indices[at] = j;
 }
 
-/* An interval of real numbers, and what of it a lattice row may take. */
+/* An interval of real numbers, and its part in a lattice row. */
 typedef struct interval {
     double low, high;
 } interval;
@@ -94,7 +94,7 @@ static interval steps_within(interval range, double start, double pace) {
     return (interval){fmin(a, b) - slack, fmax(a, b) + slack};
 }
 
-/* All points whose index and azimuth lie in a box, the azimuth modulo a turn and narrower than one. */
+/* All points with index and azimuth in a box; the azimuth range is modulo a turn and less than one turn. */
 static void offer_box(const aur_sphere_lattice *lattice, const double *q, interval index, interval turns,
                       int64_t k, candidates *kept) {
     const double f0 = aur_sphere_lattice_vectors[0][k];
@@ -138,12 +138,13 @@ static void offer_cap(const aur_sphere_lattice *lattice, const double *q, double
               (int64_t)aur_sphere_lattice_zone(lattice->whole, (aur_reals){across * across})[0], kept);
 }
 
-/* A cap that holds the wanted points on average, and then larger ones until the last point kept is within. */
+/* Starts with a cap that contains the requested number on average, and enlarges it until the last selected
+ * point is inside. */
 static void find_neighbours(const aur_sphere_lattice *lattice, const double *q, candidates *kept) {
     double wanted = (double)kept->capacity;
     wanted += 3.0 + 2.0 * sqrt(wanted);
     for (;; wanted *= 2.0) {
-        /* A cap of chord r holds r^2/4 of all points. */
+        /* A cap of chord r contains r^2/4 of all points. */
         const double chord = 2.0 * sqrt(wanted / lattice->whole);
         kept->count = 0;
         offer_cap(lattice, q, chord < 2.0 ? 2.0 * asin(chord / 2.0) : AUR_PI, kept);

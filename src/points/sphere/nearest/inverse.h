@@ -1,4 +1,4 @@
-/* The inside of the inverse map: the lattice of a spherical Fibonacci set and its kernels. */
+/* The implementation of the inverse map: the lattice of a spherical Fibonacci set and its kernels. */
 #pragma once
 
 #include <aureole/core.h>
@@ -38,7 +38,8 @@ typedef void aur_sphere_lattice_kernel(const aur_sphere_lattice *lattice, size_t
                                        double *indices);
 AUR_KERNELS(aur_sphere_lattice_kernel, aur_sphere_lattice_nearest);
 
-/* The nearest of any points in a few dimensions: a k-d tree (Friedman, Bentley and Finkel 1977). */
+/* Nearest neighbours of arbitrary points in a few dimensions: a k-d tree (Friedman, Bentley and Finkel 1977).
+ */
 
 typedef struct aur_tree aur_tree;
 
@@ -54,5 +55,5 @@ aur_result aur_tree_create(size_t dimension, size_t count, size_t stride, const 
 void aur_tree_destroy(aur_tree *tree); /* NULL is allowed */
 
 /* The `wanted` points nearest to `query`, or all if there are fewer, nearest first, ties by index; returns
- * how many. */
+ * their number. */
 size_t aur_tree_find(const aur_tree *tree, const double *query, size_t wanted, aur_found *found);

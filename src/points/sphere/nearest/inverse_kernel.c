@@ -7,7 +7,7 @@ const double aur_sphere_lattice_vectors[2][AUR_SPHERE_LATTICE_VECTORS] = {
 };
 #endif
 
-/* The azimuth in turns, within 1e-12: it only has to find the cell. atan t / (2 pi t) is a polynomial of t^2
+/* The azimuth in turns, within 1e-12: enough to find the cell. atan t / (2 pi t) is a polynomial of t^2
  * within 1.2e-13 up to tan(pi/8); above it atan t = pi/4 + atan((t - 1)/(t + 1)). */
 static inline aur_reals azimuth(aur_reals x, aur_reals y) {
     const aur_reals none = {0};
@@ -36,7 +36,7 @@ static inline void nearest_lanes(const aur_sphere_lattice *lattice, const double
     aur_reals px, py, pz;
     aur_lanes_load3(xyz, &px, &py, &pz);
     const aur_reals across = px * px + py * py;
-    /* 1 - z without cancellation about the pole */
+    /* 1 - z without cancellation near the pole */
     const aur_words up = (aur_words)(pz > 0.0);
     const aur_reals depth = aur_lanes_choose(up, across / (1.0 + aur_lanes_choose(up, pz, across)), 1.0 - pz);
     const aur_reals index = depth * (1.0 / lattice->step) - 0.5;
@@ -53,7 +53,7 @@ static inline void nearest_lanes(const aur_sphere_lattice *lattice, const double
     const aur_reals corner = c0 * f0 + c1 * f1;
     const aur_reals none = {0};
     aur_reals best = none + 1e300, nearest = none - 1.0;
-    /* Written out, the corners wait less for each other: a tenth of the time with AVX-512. */
+    /* Unrolled, the corners have shorter dependency chains: 10 % faster with AVX-512. */
 #pragma GCC unroll 4
     for (size_t i = 0; i < 4; ++i) {
         const aur_reals j = corner + ((i & 1) != 0 ? f0 : none) + ((i & 2) != 0 ? f1 : none);

@@ -1,4 +1,4 @@
-/* The nearest points of every domain, by the tree. */
+/* Nearest neighbours on every domain, by the tree. */
 #include <aureole/nearest.h>
 #include <math.h>
 #include <stdlib.h>
@@ -13,14 +13,14 @@ enum { MOST_DIMENSIONS = 8, QUERIES_PER_ITEM = 256 };
 struct aur_nearest {
     aur_tree *tree;
     aur_domain domain;
-    size_t dimension, count, ends; /* 2 where a point and its opposite are one */
+    size_t dimension, count, ends; /* 2 if a point and its opposite are identified */
 };
 
 static bool are_unit(aur_domain domain) {
     return domain >= AUR_DOMAIN_HEMISPHERE;
 }
 
-/* Copies a point, of unit length where it is a direction; false when that cannot be. */
+/* Copies a point, normalised if it is a direction; false if it cannot be normalised. */
 static bool take(const aur_nearest *nearest, const double *from, double *to) {
     double square = 0.0;
     for (size_t d = 0; d < nearest->dimension; ++d)
@@ -87,7 +87,7 @@ typedef struct batch {
     const double *queries;
     size_t *indices;
     double *distances;
-    size_t *refused; /* one an item: the query that has no place, counted from 1; 0: none */
+    size_t *refused; /* one per item: the invalid query, counted from 1; 0: none */
 } batch;
 
 static double distance_of(aur_domain domain, double square) {
@@ -97,7 +97,7 @@ static double distance_of(aur_domain domain, double square) {
     return (domain == AUR_DOMAIN_ROTATIONS ? 4.0 : 2.0) * asin(fmin(0.5 * distance, 1.0));
 }
 
-/* Of both ends of a point the nearer one is found first; the other one is left out. */
+/* The nearer end of a point is found first; the other end is skipped. */
 static void keep(const batch *b, size_t query, size_t count, const aur_found *found) {
     const size_t points = b->nearest->count;
     size_t *const indices = b->indices + query * b->neighbours;

@@ -20,7 +20,7 @@ struct aur_tree {
     } * splits; /* 2^level_count - 1 */
 };
 
-/* The least and the greatest coordinate of points are farthest apart along this axis. */
+/* The axis of the largest extent of the points. */
 static size_t widest_axis(const aur_tree *tree, size_t stride, const double *given, size_t first,
                           size_t last) {
     size_t widest = 0;
@@ -44,7 +44,7 @@ static size_t widest_axis(const aur_tree *tree, size_t stride, const double *giv
 static void select_half(size_t *order, size_t stride, const double *along, size_t first, size_t middle,
                         size_t last) {
     while (last - first > 1) {
-        const double pivot = along[order[first + (last - first - 1) / 2] * stride]; /* never the last one */
+        const double pivot = along[order[first + (last - first - 1) / 2] * stride]; /* never the last */
         size_t i = first, j = last - 1;
         for (;;) {
             while (along[order[i] * stride] < pivot)
@@ -169,7 +169,7 @@ static void descend(search *s, size_t node, size_t level, size_t first, size_t l
         descend(s, 2 * node + 1, level + 1, first, middle, apart, square);
     const double before = apart[split->axis];
     const double beyond = square - before * before + side * side;
-    /* Ties may have a smaller index, and rounding is no reason to miss a point. */
+    /* Ties may have a smaller index; the slack prevents missing a point by rounding. */
     if (s->count == s->wanted && beyond * (1.0 - 1e-12) > s->found[s->count - 1].square)
         return;
     apart[split->axis] = side;

@@ -9,13 +9,13 @@
 
 enum { MEMORY = 12, ITERATIONS = 2000, HALVINGS = 30 };
 
-/* Where the energy falls by less than this share in a step, it has arrived. */
+/* The relative decrease of the energy in a step below which the descent has converged. */
 static const double least_fall = 1e-14;
 
 typedef struct descent {
     const aur_sphere_energy *of;
     size_t count, stride;
-    double *x;                                           /* the coordinates: x, y and z lie `stride` apart */
+    double *x;                                           /* the coordinates: x, y and z are `stride` apart */
     double *gradient, *direction, *start, *old_gradient; /* 3 * stride each, as the coordinates */
     double *steps, *changes;                             /* MEMORY of them */
     double curvature[MEMORY];                            /* 1 / (step . change) */
@@ -28,7 +28,7 @@ static double dot(size_t count, const double *a, const double *b) {
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-/* Takes the part along each charge's own direction from a vector. */
+/* Removes the radial part of a vector at each charge. */
 static void make_tangent(const descent *d, double *vector) {
     const double *const x = d->x;
     const size_t s = d->stride;
@@ -47,7 +47,7 @@ static double energy_and_gradient(descent *d) {
     return energy;
 }
 
-/* The direction of L-BFGS from the last `kept` steps, of which `next` - 1 is the newest. */
+/* The direction of L-BFGS from the last `kept` steps; `next` - 1 is the newest. */
 static void choose_direction(descent *d, size_t kept, size_t next) {
     const size_t size = 3 * d->stride;
     double factors[MEMORY];
@@ -75,7 +75,7 @@ static void choose_direction(descent *d, size_t kept, size_t next) {
     make_tangent(d, d->direction);
 }
 
-/* From `start` along the direction, back on the sphere. */
+/* Moves from `start` along the direction and projects back to the sphere. */
 static void step_to(descent *d, double length) {
     double *const x = d->x;
     for (size_t i = 0; i < d->count; ++i) {
@@ -101,8 +101,8 @@ static double longest_move(const descent *d) {
     return sqrt(longest);
 }
 
-/* A step downhill by halving (Armijo); false where there is none, and then nothing has moved. No charge moves
- * farther than a third of the mean distance of neighbours. */
+/* A descent step by backtracking (Armijo); false, with no change, if there is none. No charge moves farther
+ * than a third of the mean distance of neighbours. */
 static bool search(descent *d, double slope, bool first, double *energy) {
     const size_t size = 3 * d->stride;
     memcpy(d->start, d->x, size * sizeof *d->start);

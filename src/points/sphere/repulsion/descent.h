@@ -4,14 +4,14 @@
 #include <aureole/core.h>
 #include <stddef.h>
 
-/* The energy of the points as they lie now; adds its gradient, whose part along each point has no meaning, to
- * `gradient`, which lies as the coordinates do. INFINITY: a place that a step must not reach. */
+/* Returns the energy of the points and adds its gradient to `gradient`, in the layout of the coordinates; its
+ * radial parts are ignored. INFINITY: the step is not allowed. */
 typedef struct aur_sphere_energy {
     double (*evaluate)(void *context, double *gradient);
     void *context;
 } aur_sphere_energy;
 
-/* Moves `count` unit vectors, whose x, y and z lie `stride` apart with zeros behind them, downhill until the
- * energy falls no more; returns it. Errors: MEMORY. */
+/* Moves `count` unit vectors, whose x, y and z are `stride` apart and padded with zeros, to a local minimum
+ * of the energy; returns the energy. Errors: MEMORY. */
 aur_result aur_sphere_descend(const aur_sphere_energy *of, size_t count, size_t stride, double *coordinates,
                               double *energy, aur_error *error);

@@ -1,12 +1,11 @@
-/* The sum over charges: eight running sums, so that the bits do not
- * depend on how wide the registers are. */
+/* The sum over charges: eight running sums, so that results are bit-identical for all register widths. */
 #include "points/base/simd_lanes.h"
 #include "points/sphere/repulsion/repulsion.h"
 
 enum { SUMS = 8, PARTS = SUMS / AUR_LANES };
 
-/* 1/d and 1/d^3 of the squared distances a to a charge and b to its opposite. With 1/(a b) both come from one
- * division: 1/a is b/(a b). A `missing` lane counts as nothing. */
+/* 1/d and 1/d^3 of the squared distances a to a charge and b to its opposite. With 1/(a b) both need one
+ * division: 1/a is b/(a b). A `missing` lane contributes 0. */
 static inline __attribute__((always_inline)) void add_lanes(const aur_charges *charges, size_t j,
                                                             const double at[3], aur_words missing, bool axes,
                                                             aur_reals sums[4]) {
@@ -39,7 +38,7 @@ static inline __attribute__((always_inline)) void add_lanes(const aur_charges *c
     sums[3] += z * push;
 }
 
-/* Blocks of eight begin at `first`; the last one may read beyond `last`, where the arrays have room. */
+/* Blocks of eight begin at `first`; the last one may read beyond `last`, within the padding of the arrays. */
 static inline __attribute__((always_inline)) aur_push sum_charges(const aur_charges *charges, size_t index,
                                                                   size_t first, size_t last, bool axes) {
     const double at[3] = {charges->x[index], charges->y[index], charges->z[index]};

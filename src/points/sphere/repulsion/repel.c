@@ -1,4 +1,4 @@
-/* The least energy of charges on the sphere, by L-BFGS (Nocedal 1980) with steps that end on the sphere. */
+/* The minimal energy of charges on the sphere, by L-BFGS (Nocedal 1980) with steps that end on the sphere. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 typedef struct repulsion {
     const aur_shells *shells;
-    aur_charges *charges; /* coordinates in one block: x, y and z lie `stride` apart */
+    aur_charges *charges; /* coordinates in one block: x, y and z are `stride` apart */
     aur_push_kernel *kernel;
     size_t stride;
 } repulsion;
@@ -19,7 +19,7 @@ static double pairs(size_t count) {
     return 0.5 * (double)count * (double)(count - 1);
 }
 
-/* Adds what charges of one range do to each other, times `factor`. */
+/* Adds the interaction of charges of one range, times `factor`. */
 static double add_range(const repulsion *d, size_t first, size_t last, double factor, double *gradient) {
     double sum = 0.0;
     for (size_t i = first; i < last; ++i) {

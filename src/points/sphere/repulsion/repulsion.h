@@ -1,5 +1,4 @@
-/* Charges on the sphere that repel each other: the energy of some of them against one, and its least value.
- */
+/* Repelling charges on the sphere: the energy of one against others, and minimisation of the energy. */
 #pragma once
 
 #include <aureole/core.h>
@@ -9,7 +8,7 @@
 
 #include "points/base/simd.h"
 
-/* Unit vectors, one array a coordinate. With `axes` each charge has a twin at its opposite. */
+/* Unit vectors, one array per coordinate. With `axes` each charge has a twin at its opposite. */
 typedef struct aur_charges {
     size_t count;
     double *x, *y, *z;
@@ -18,11 +17,12 @@ typedef struct aur_charges {
 
 typedef struct aur_push {
     double energy;      /* the sum of 1/|x_i - x_j|, for axes also of 1/|x_i + x_j| */
-    double gradient[3]; /* of it, but for a part along x_i: the sum of x_j / |x_i - x_j|^3, for axes less that
+    double gradient[3]; /* of it, except for a radial part: the sum of x_j / |x_i - x_j|^3, for axes less that
                            of x_j / |x_i + x_j|^3 */
 } aur_push;
 
-/* What charges first .. last-1 but `index` do to charge `index`; no bit depends on the instruction set. */
+/* The force of charges first .. last-1, except `index`, on charge `index`; bit-identical for all instruction
+ * sets. */
 typedef aur_push aur_push_kernel(const aur_charges *charges, size_t index, size_t first, size_t last);
 AUR_KERNELS(aur_push_kernel, aur_push);
 
@@ -34,10 +34,10 @@ typedef struct aur_shells {
     const size_t *sizes;
 } aur_shells;
 
-/* Moves the charges downhill (L-BFGS, Nocedal 1980) until the energy falls no more; returns it. Errors:
+/* Moves the charges to a local minimum of the energy (L-BFGS, Nocedal 1980); returns the energy. Errors:
  * MEMORY. */
 aur_result aur_repel(const aur_shells *shells, aur_charges *charges, double *energy, aur_error *error);
 
-/* Puts charges first .. first+count-1 in an order whose prefixes are even: each next one is where the energy
- * of the earlier ones is the least. Errors: MEMORY. */
+/* Orders charges first .. first+count-1 so that prefixes are uniform: each next charge is where the energy of
+ * the earlier ones is minimal. Errors: MEMORY. */
 aur_result aur_order_charges(aur_charges *charges, size_t first, size_t count, aur_error *error);

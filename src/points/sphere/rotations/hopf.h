@@ -18,8 +18,8 @@ typedef struct aur_hopf_line {
 #define AUR_SUPER_FIBONACCI_TURNS                                                                            \
     { UINT64_C(0xb504f333f9de6484), UINT64_C(0xa6e939cd91ba1a16) }
 
-/* Points first .. first+count-1 of a line, and those of `count` points of the cube u,a,b, as quaternions
- * w,x,y,z. All instruction sets give the same bits. */
+/* Points first .. first+count-1 of a line, and of `count` points u,a,b of the cube, as quaternions w,x,y,z.
+ * Bit-identical for all instruction sets. */
 typedef struct aur_hopf_kernels {
     void (*line)(const aur_hopf_line *line, uint64_t first, size_t count, double *wxyz);
     void (*lift)(size_t count, const double *cube, double *wxyz);

@@ -16,7 +16,7 @@ static const aur_rotation across_y = {{1, 0, 0, 0, -1, 0, 0, 0, 1}};
 static const double x_axis[3] = {1, 0, 0}, z_axis[3] = {0, 0, 1}, diagonal[3] = {1, 1, 1};
 static const double five_fold[3] = {0, 1, 1.6180339887498949}; /* the golden ratio */
 
-/* By 1/order of a turn about an axis (Rodrigues). */
+/* Rotation by 1/order of a turn about an axis (Rodrigues). */
 static aur_rotation turn(unsigned order, const double axis[3]) {
     double u[3] = {axis[0], axis[1], axis[2]};
     aur_normalize3(u);
@@ -63,7 +63,7 @@ static void generate(size_t count, const aur_rotation *generators, aur_point_gro
         }
 }
 
-/* What a symbol says beside its letter: the order of the axis, 0 where there is none, and the last letter. */
+/* The parts of a symbol after its first letter: the order of the axis, 0 if none, and the last letter. */
 static bool parse(const char *name, unsigned *order, char *suffix) {
     int read = 0;
     *order = 0;
@@ -82,7 +82,7 @@ static bool parse(const char *name, unsigned *order, char *suffix) {
     return *order <= AUR_POINT_GROUP_AXIS_MAX && strchr("vhdis", *suffix) != NULL;
 }
 
-/* The generators of a symbol; how many, or 0 for no symbol. */
+/* The generators of a symbol; returns their number, or 0 for an invalid symbol. */
 static size_t generators_of(char letter, unsigned order, char suffix, aur_rotation generators[3]) {
     const bool cubic = letter == 'T' || letter == 'O' || letter == 'I';
     if (cubic != (order == 0) && !(letter == 'C' && order == 0))
@@ -132,8 +132,8 @@ aur_result aur_point_group_from_name(const char *name, aur_point_group *group, a
     return AUR_OK;
 }
 
-/* Whether an image stands in for a direction: it is nearer to the middle of the region, or as near and later
- * in the order of coordinates. */
+/* Whether an image represents the orbit instead of a direction: it is nearer to the middle of the region, or
+ * equally near and later in the order of coordinates. */
 static bool is_better(const double image[3], const double u[3]) {
     static const double middle[3] = {0.6438467239, 0.0257675850, 0.7647219}, tie = 1e-12;
     double ahead = aur_dot3(middle, image) - aur_dot3(middle, u);
@@ -147,7 +147,7 @@ size_t aur_point_group_select(const aur_point_group *group, size_t count, double
     for (size_t i = 0; i < count; ++i) {
         const double *const u = xyz + 3 * i;
         bool first = true;
-        size_t fixed = 1; /* elements that leave it where it is */
+        size_t fixed = 1; /* elements that leave it unchanged */
         for (size_t g = 1; g < group->order && first; ++g) {
             double image[3] = {u[0], u[1], u[2]};
             aur_rotation_apply(&group->elements[g], 1, image);

@@ -1,4 +1,4 @@
-/* Super-Fibonacci spirals (Alexa 2022): the heights u = (i + 1/2)/N beside azimuths (i + 1/2)/sqrt 2 and
+/* Super-Fibonacci spirals (Alexa 2022): the heights u = (i + 1/2)/N paired with azimuths (i + 1/2)/sqrt 2 and
  * (i + 1/2)/psi with psi^4 = psi + 4. Any N up to 2^50; azimuths are exact to 3e-11 turn at i = 1e9. Two
  * sizes share no points: by the paper's erratum there is no refinement (super-fibonacci-grid has one). */
 #include <stdlib.h>

@@ -1,16 +1,15 @@
-/* Super-Fibonacci rotations that refine: what E-SFG is to spherical Fibonacci sets (Marques 2019), one
- * dimension up.
+/* Extensible super-Fibonacci rotations: the analogue of E-SFG (Marques 2019) for rotations.
  *
  * In Hopf coordinates (u, a, b) the points j/N, j/sqrt 2, j/psi of Alexa 2022 are a lattice with the basis
  * (1/N, 1/sqrt 2, 1/psi), (0, 1, 0) and (0, 1/2, 1/2); the last one is not (0, 0, 1), since half a turn of
  * both azimuths takes a quaternion to its opposite, which is the same rotation. A lattice of half the basis
- * vectors has eight times the points and the same shape, so that its evenness is that of the base grid; and
- * so on. Between them one vector after another is halved, (0, 1/4, 1/4) first, (0, 1/2, 0) next, which
- * doubles the points each time. So point i is point i mod N of the base grid, shifted by one vector for each
- * binary digit of i/N.
+ * vectors has eight times the points and the same shape, and so the same uniformity as the base grid; and so
+ * on. Between them one vector after another is halved, (0, 1/4, 1/4) first, (0, 1/2, 0) next, which doubles
+ * the points each time. So point i is point i mod N of the base grid, shifted by one vector for each binary
+ * digit of i/N.
  *
- * The heights are centred for base*8^levels points: smaller sizes are prefixes. A circle's points come
- * together where its radius is small, as at the poles of E-SFG: smallest angle and covering are worse than of
+ * The heights are centred for base*8^levels points: smaller sizes are prefixes. Points of a circle are close
+ * where its radius is small, as at the poles of E-SFG: smallest angle and covering are worse than for
  * super-fibonacci, the energy is not. */
 #include <math.h>
 #include <stdlib.h>
@@ -86,7 +85,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     return AUR_OK;
 }
 
-/* The base grid, shifted by what the digits of one level ask for. */
+/* The base grid, shifted according to the digits of one level. */
 static void shift(aur_hopf_line *line, size_t level, unsigned digits) {
     if ((digits & 1) != 0) {
         line->phases[0] += UINT64_C(1) << 62 >> level;

@@ -28,7 +28,7 @@ const char *aur_symmetry_name(aur_symmetry symmetry) {
     return (size_t)symmetry < SYMMETRY_COUNT ? names[symmetry] : NULL;
 }
 
-/* Two rotations that make a group: about z by 1/first of a turn, and by 1/second about `axis`. */
+/* The two generators of a group: rotations by 1/first of a turn about z, and by 1/second about `axis`. */
 typedef struct generators {
     unsigned first, second;
     double axis[3];
@@ -68,7 +68,7 @@ size_t aur_symmetry_group(aur_symmetry symmetry, double *group) {
     turn(table[symmetry].second, table[symmetry].axis, steps[1]);
     size_t count = 1;
     memcpy(group, identity, sizeof identity);
-    /* All products, until they bring nothing new. */
+    /* Adds all products until the group is closed. */
     for (size_t i = 0; i < count; ++i)
         for (size_t k = 0; k < 2; ++k) {
             double product[4];

@@ -1,7 +1,7 @@
 /* A set that has the opposite of each point is exact for odd polynomials anyway. The means of the even
- * harmonics of degrees 2 .. t-1 are left, t(t+1)/2 - 1 equations for two angles a point of one half, which is
- * why t^2/2 points suffice (Womersley 2018). Solved by damped Gauss-Newton steps (Levenberg 1944, Marquardt
- * 1963) from a spherical Fibonacci set. */
+ * harmonics of degrees 2 .. t-1 remain: t(t+1)/2 - 1 equations for two angles per point of one half, so that
+ * t^2/2 points suffice (Womersley 2018). Solved by damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963)
+ * from a spherical Fibonacci set. */
 #include "points/sphere/sets/design.h"
 
 #include <math.h>
@@ -16,13 +16,13 @@
 
 enum { STARTS = 4, STEPS = 150, POLISHING = 3, SUMS = 8 };
 
-/* A norm of all means that rounding alone leaves, and the largest mean that a design may have. */
+/* The norm of all means at rounding level, and the largest mean allowed in a design. */
 static const double arrived = 1e-13, largest_mean = 1e-14;
 
 typedef struct design {
     size_t degree, count, equations;
     double *points, *trial; /* count unit vectors each */
-    double *jacobian;       /* equations rows: the change of a mean by all points' moves east, then north */
+    double *jacobian; /* equations rows: derivatives of a mean by moves of all points east, then north */
     double *system, *inverse, *work;    /* of aur_cholesky */
     double *means, *trial_means, *step; /* equations, equations, 2 count */
     double *rows;                       /* count numbers each, of `rows_here` */
@@ -55,7 +55,7 @@ static double radius_of(const double *point) {
 }
 
 /* One harmonic of mean square 1, r `part` P: its mean, and the row of the Jacobian unless that is NULL.
- * `other` is what the part's derivative by the azimuth, over m, leaves. */
+ * `other` is the derivative of the part by the azimuth, divided by m. */
 static double add_equation(design *d, size_t m, const double *points, const double *part, const double *other,
                            double sign, double *row) {
     const size_t n = d->count;
@@ -141,7 +141,7 @@ static double find_means(design *d, const double *points, double *means, double 
     return sqrt(dot(k, means, means));
 }
 
-/* The trial points: those of the shortest step that solves the linear equations but for the damping. */
+/* The trial points: after the shortest step that solves the damped linear equations. */
 static bool try_step(design *d, double damping) {
     const size_t n = d->count, size = d->equations;
     const aur_cholesky *const cholesky = &AUR_KERNEL_HERE(aur_cholesky);
@@ -190,7 +190,7 @@ static void start_points(design *d, size_t start) {
     }
 }
 
-/* Steps until rounding alone is left; false where they lead nowhere. */
+/* Iterates until only rounding remains; false if it does not converge. */
 static bool descend(design *d) {
     double damping = 2e-3, norm = find_means(d, d->points, d->means, d->jacobian);
     int polished = 0;

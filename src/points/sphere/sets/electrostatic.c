@@ -1,12 +1,10 @@
-/* Charges that repel each other until they are at rest (Thomson 1904; for axes, where each charge has a twin
- * at its opposite, Jones, Horsfield and Simmons 1999), in several shells at once (Caruyer, Lenglet, Sapiro
- * and Deriche 2013).
+/* Equilibria of repelling charges (Thomson 1904; for axes, where each charge has a twin at its opposite,
+ * Jones, Horsfield and Simmons 1999), in several shells at once (Caruyer, Lenglet, Sapiro and Deriche 2013).
  *
- * Made ready by L-BFGS from a spherical Fibonacci set, from random points, and from the best rest so far with
- * some charges moved; the start whose rest has the
- * least energy is taken. A step costs N^2. In the incremental order each next point is where the energy of
- * those before it is the least (as MRtrix's dirorder does), so that the first n are even for every n: a scan
- * may be stopped at any time. */
+ * Computed by L-BFGS from a spherical Fibonacci set, from random points, and from the best equilibrium so far
+ * with some charges moved; the equilibrium of least energy is used. A step costs N^2. In the incremental
+ * order each next point is where the energy of the previous ones is minimal (as in MRtrix's dirorder), so
+ * that the first n are uniform for every n: a scan may be stopped at any time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +37,7 @@ static const aur_key keys[] = {
                        "incremental: each prefix (of a shell) is even", "incremental", "none")},
 };
 
-/* The numbers of text, a/b/c; 0 when it is not that or adds up to something else than `count`. */
+/* The numbers of a text a/b/c; 0 if it is invalid or does not add up to `count`. */
 static size_t parse_shells(const char *text, size_t count, size_t sizes[SHELLS_CAPACITY]) {
     size_t shells = 0;
     uint64_t total = 0;
@@ -79,8 +77,8 @@ static void start_charges(uint64_t seed, size_t start, size_t shells, aur_charge
     }
 }
 
-/* The best rest so far with the charges about a random place moved by about their distance: rests of low
- * energy lie near to each other (basin hopping, Wales and Doye 1997). */
+/* The best equilibrium so far with the charges around a random point moved by about their distance:
+ * equilibria of low energy are close to each other (basin hopping, Wales and Doye 1997). */
 static void disturb(uint64_t seed, size_t start, aur_charges *q) {
     const double spacing = sqrt((q->axes ? 6.28 : 12.57) / (double)q->count);
     double *const of[3] = {q->x, q->y, q->z}, centre[3];
@@ -102,7 +100,7 @@ static void disturb(uint64_t seed, size_t start, aur_charges *q) {
     }
 }
 
-/* The best rest of all starts into `best`. */
+/* The best equilibrium of all starts into `best`. */
 static aur_result find_rest(const electrostatic_keys *p, size_t starts, const aur_shells *shells,
                             aur_charges *q, size_t size, double *best, aur_error *error) {
     double least = INFINITY;
@@ -125,7 +123,8 @@ static aur_result find_rest(const electrostatic_keys *p, size_t starts, const au
     return AUR_OK;
 }
 
-/* By the size: 420 find the least energy known of 200 charges, and take about as long as 17 of a thousand. */
+/* By the size: 420 starts find the least known energy of 200 charges, and take about as long as 17 starts
+ * with a thousand. */
 static size_t choose_starts(const electrostatic_keys *p, size_t count) {
     if (p->starts != 0)
         return (size_t)p->starts;

@@ -10,7 +10,7 @@
 /* The regions first, first + 1, .. of one collar. */
 typedef struct collar {
     uint64_t first, count;
-    double theta, phase; /* of the centres; of the first one, in turns */
+    double theta, phase; /* of the centres; of the first centre, in turns */
 } collar;
 
 typedef struct partition {
@@ -19,7 +19,7 @@ typedef struct partition {
     collar of[];
 } partition;
 
-/* The polar angle of the cap of so many regions of `all`. */
+/* The polar angle of the cap with the area of `regions` of `all`. */
 static double cap_angle(double regions, double all) {
     return 2.0 * asin(sqrt(fmin(regions / all, 1.0)));
 }
@@ -33,7 +33,7 @@ static uint64_t common_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* Regions of the collars, ideal numbers rounded so that what is lost is made up by the next. */
+/* Regions of the collars: ideal numbers, rounded with the error carried to the next collar. */
 static void divide(partition *made, double fitting) {
     const double all = (double)made->count, cap = cap_angle(1.0, all);
     const size_t inner = made->collars - 2;
@@ -51,7 +51,7 @@ static void divide(partition *made, double fitting) {
         const double above = cap_angle((double)so_far, all);
         so_far += c->count;
         c->theta = 0.5 * (above + cap_angle((double)so_far, all));
-        /* The phase that keeps neighbours of both collars farthest apart. */
+        /* The phase that maximises the distance of neighbours in two collars. */
         if (c->count > 0 && before->count > 1) {
             const double here = (double)c->count, there = (double)before->count;
             const double common = (double)common_divisor(c->count, before->count);

@@ -1,11 +1,11 @@
 /* Extensible spherical Fibonacci grids (Marques 2019) lifted to rotations: each direction of a grid is
- * brought to +x and turned about it by as many equal steps; where directions have grown four times, the steps
- * are halved, so that a grid of eight times the size has the same shape.
+ * rotated to +x and turned about it by `turns` equal steps; when the number of directions has grown four
+ * times, the steps are halved, so that a grid of eight times the size has the same shape.
  *
- * In Hopf coordinates (hopf.h) a direction of height 1 - 2u and azimuth phi with the turn psi is
- * u, a = (psi + phi)/2, b = (psi - phi)/2, so that one turn's rotations of one sub-grid are a line. The turns
- * of direction i begin at i/sqrt 2; any irrational step will do as well. Each size of base * turns * 2^m
- * rotations is a prefix of the next; `aureole lab run domains-lifts` compares lifts. */
+ * In Hopf coordinates (hopf.h) a direction of height 1 - 2u and azimuth phi with the turn psi is u, a = (psi
+ * + phi)/2, b = (psi - phi)/2, so that one turn's rotations of one sub-grid are a line. The turns of
+ * direction i begin at i/sqrt 2; any irrational step works as well. Each size of base * turns * 2^m rotations
+ * is a prefix of the next; `aureole lab run domains-lifts` compares lifts. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -93,8 +93,8 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     return AUR_OK;
 }
 
-/* The line of sub-grid `block`, whose digits of each level are two of a grid of directions and one of the
- * halved steps, with turn number `turn`. */
+/* The line of sub-grid `block` with turn number `turn`. Each level has two binary digits for the grid of
+ * directions and one for the halved steps. */
 static aur_hopf_line line_of(const grid *g, uint64_t block, uint64_t turn) {
     aur_hopf_line line = g->base;
     uint64_t copy = 0, azimuth = 0; /* phases of half of psi and of half of phi */

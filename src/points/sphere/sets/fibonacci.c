@@ -3,8 +3,8 @@
  * z_j = 1 - 2 (j + offset)/N and phi_j = 2 pi j/Phi for 0 <= j < N; offset 1/2 is the best one for
  * integration (0 adds exactly 1/N^2 to the square of the energy). The hemisphere is the first N points of the
  * set of 2N, a cap of height h the first N of the set of 2N/h. With `epsilon` instead, z_j = 1 - 2 (j +
- * epsilon)/(N - 1 + 2 epsilon) (Roberts 2020): above 1/2 it widens the smallest distance and spoils the
- * energy. `region=octant` keeps x, y, z >= 0, N points by a table of their indices. Any N up to 2^50; the
+ * epsilon)/(N - 1 + 2 epsilon) (Roberts 2020): above 1/2 it increases the smallest distance and worsens the
+ * energy. `region=octant` selects x, y, z >= 0, N points by a table of their indices. Any N up to 2^50; the
  * azimuth is exact to 3e-12 turn at j = 1e9 (the 64 digits of the golden ratio, times j). The cost is that of
  * a square root and a complex product. */
 #include "points/sphere/sets/fibonacci.h"
@@ -20,15 +20,15 @@ typedef struct fibonacci_set {
     aur_fibonacci points;
     aur_fibonacci_kernel *kernel;
     int octant;
-    uint64_t indices[]; /* of the points in the octant, where that is the region */
+    uint64_t indices[]; /* of the points in the octant, for region=octant */
 } fibonacci_set;
 
 static int in_first_quarter(uint64_t index) {
     return index * AUR_GOLDEN_PHASE >> 62 == 0;
 }
 
-/* The first `count` points of a hemisphere's set whose azimuth is in the first quarter; the set's size is
- * such that the next one would lie below the horizon, and as near to four times the count as can be. */
+/* The first `count` points of a hemisphere's set whose azimuth is in the first quarter; the size of the set
+ * is as near to four times the count as possible such that the next point would be below the horizon. */
 static void choose_octant(fibonacci_set *set, uint64_t count, double offset) {
     uint64_t next = 0;
     for (uint64_t i = 0; i < count; ++i, ++next) {
@@ -59,7 +59,7 @@ static const aur_key keys[] = {
                        "domain", "octant")},
 };
 
-/* The lattice of the whole sphere that the keys ask for. */
+/* The lattice of the whole sphere according to the keys. */
 static aur_result choose_lattice(const fibonacci_keys *p, const aur_native_request *request,
                                  aur_fibonacci *set, aur_error *error) {
     const double offset = p->offset < 0.0 ? 0.5 : p->offset;

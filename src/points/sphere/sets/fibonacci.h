@@ -1,4 +1,4 @@
-/* Spherical Fibonacci points from their index. */
+/* Spherical Fibonacci points by index. */
 #pragma once
 
 #include <math.h>
@@ -15,13 +15,13 @@ typedef struct aur_fibonacci {
     uint64_t phase;
 } aur_fibonacci;
 
-/* Azimuths are added: point j turns by (j mod 64)/Phi, from a table, from where point j - (j mod 64) stands,
- * by one complex product. So any point comes from its index alone, to 4.5e-16, and a sine costs a product. */
+/* Azimuths are added by one complex product: point j is point j - (j mod 64) turned by (j mod 64)/Phi, from a
+ * table. Any point is computed from its index to 4.5e-16, and a sine costs a product. */
 enum { AUR_FIBONACCI_BLOCK = 64, AUR_FIBONACCI_WRAPPED = 7 };
 extern const double aur_golden_cosines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
 extern const double aur_golden_sines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
 
-/* One point, with the bits of the kernels. */
+/* One point, bit-identical to the kernels. */
 static inline void aur_fibonacci_point(const aur_fibonacci *set, uint64_t index, double xyz[3]) {
     const uint64_t k = index % AUR_FIBONACCI_BLOCK;
     double sine, cosine;
@@ -34,15 +34,15 @@ static inline void aur_fibonacci_point(const aur_fibonacci *set, uint64_t index,
     xyz[2] = 1.0 - depth;
 }
 
-/* Points first .. first+count-1 as x,y,z triples; `stream` writes past the caches, and
- * aur_lanes_end_stream is to follow. */
+/* Points first .. first+count-1 as x,y,z triples; `stream` bypasses the caches; call aur_lanes_end_stream
+ * afterwards. */
 typedef void aur_fibonacci_kernel(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
                                   double *xyz);
 
-/* No kernel fuses a multiplication and an addition: all give the same bits. */
+/* No kernel fuses a multiplication and an addition: all are bit-identical. */
 AUR_KERNELS(aur_fibonacci_kernel, aur_fibonacci_points);
 
-/* Whether the caches cannot hold so many points, so that they are better streamed past them. */
+/* Whether `count` points exceed the caches, so that streaming stores are faster. */
 static inline bool aur_fibonacci_streams(size_t count) {
     return count >= (8 << 20) / (3 * sizeof(double));
 }

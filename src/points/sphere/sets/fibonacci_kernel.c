@@ -1,7 +1,7 @@
 #include "points/sphere/phase_lanes.h"
 #include "points/sphere/sets/fibonacci.h"
 
-enum { BASES = 8 }; /* blocks whose first azimuths are found together, less one */
+enum { BASES = 8 }; /* blocks whose first azimuths are computed together, minus one */
 
 /* The azimuths at which blocks begin. */
 typedef struct bases {
@@ -18,7 +18,7 @@ static inline void find_bases(const aur_fibonacci *set, uint64_t block, size_t c
     }
 }
 
-/* `value` in all lanes. Subtracting 0 keeps the sign of a zero. */
+/* `value` in all lanes. Subtracting 0 preserves the sign of a zero. */
 static inline aur_reals everywhere(double value) {
     return value - (aur_reals){0};
 }
@@ -29,7 +29,7 @@ static inline aur_reals lanes_of(const double *from) {
     return values;
 }
 
-/* AUR_LANES points from `index` on, the first of which is number k of its block. */
+/* AUR_LANES points from `index` on; the first is number k of its block. */
 static inline __attribute__((always_inline)) void put_lanes(const aur_fibonacci *set, aur_reals index,
                                                             size_t k, aur_reals cosine, aur_reals sine,
                                                             bool stream, double *xyz) {
@@ -41,7 +41,7 @@ static inline __attribute__((always_inline)) void put_lanes(const aur_fibonacci 
                      radius * (sine * turn_cosine + cosine * turn_sine), 1.0 - depth, stream);
 }
 
-/* As many points as fill whole vectors; returns how many. A vector may lie in two blocks. */
+/* Writes the points that fill whole vectors; returns their number. A vector may span two blocks. */
 static inline __attribute__((always_inline)) size_t fill_lanes(const aur_fibonacci *set, uint64_t first,
                                                                size_t count, bool stream, double *xyz) {
     const size_t vectors = count / AUR_LANES * AUR_LANES;
@@ -71,8 +71,8 @@ static inline __attribute__((always_inline)) size_t fill_lanes(const aur_fibonac
     return vectors;
 }
 
-/* Points in vectors of which the last may be used in part; its other lanes repeat a point that is asked for.
- * No single numbers: with -mfma gcc 12 fuses their complex product in spite of -ffp-contract=off. */
+/* Points in vectors; the last may be partial, and its other lanes repeat a point. No scalar code: with -mfma
+ * gcc 12 fuses the complex product in spite of -ffp-contract=off. */
 static inline void fill_some(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
                              double *xyz) {
     const aur_words last = first + count - 1 + (aur_words){0};
@@ -91,8 +91,8 @@ static inline void fill_some(const aur_fibonacci *set, uint64_t first, size_t co
     }
 }
 
-/* Streamed vectors begin at the first address that is a multiple of theirs: every eighth point begins where
- * the first does, modulo 64 bytes. */
+/* Streaming begins at the first aligned address: every eighth point has the alignment of the first, modulo 64
+ * bytes. */
 void AUR_KERNEL(aur_fibonacci_points)(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
                                       double *xyz) {
     size_t done = 0;

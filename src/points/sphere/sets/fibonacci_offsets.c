@@ -1,5 +1,5 @@
 /* Cosines and sines of k/Phi turns, rounded to the nearest double, for the points of a block; the first ones
- * stand once more behind the last, so that a vector may begin anywhere. */
+ * are repeated after the last, so that a vector may begin anywhere. */
 #include "points/sphere/sets/fibonacci.h"
 
 /* clang-format off */

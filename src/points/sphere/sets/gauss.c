@@ -1,7 +1,7 @@
 /* Product rules: rings at the heights of a rule of Gauss and Legendre, or of Gauss and Lobatto with a point
- * at each pole, times equal azimuths (Atkinson 1982). With 2n azimuths a ring they are exact for polynomials
- * of degree 2n - 1. Pruned ones leave out of the rings near the poles the azimuths that only orders need
- * whose functions vanish there (Courtier and Naughton 1994, Reinecke and Seljebotn 2013). */
+ * at each pole, times equal azimuths (Atkinson 1982). With 2n azimuths per ring they are exact for
+ * polynomials of degree 2n - 1. Pruned rules have fewer azimuths on rings near the poles, where functions of
+ * high order vanish (Courtier and Naughton 1994, Reinecke and Seljebotn 2013). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -12,7 +12,7 @@
 
 enum { LARGEST = 1024 };
 
-/* Functions are of mean square 1, and the rings' weights add up to 1. */
+/* Functions have mean square 1, and the weights of the rings add up to 1. */
 static const double negligible = 1e-17;
 
 typedef struct ring {
@@ -89,7 +89,7 @@ static bool counts(size_t m, size_t degree, double z, double start, double least
     return false;
 }
 
-/* An even number of azimuths, beyond every order that counts: K azimuths take order K for order 0. */
+/* An even number of azimuths above every relevant order: K azimuths alias order K to order 0. */
 static size_t azimuths_of(size_t degree, const ring *r) {
     double starts[2 * LARGEST], start = sqrt(2.0);
     for (size_t m = 1; m <= degree; ++m)
@@ -100,7 +100,7 @@ static size_t azimuths_of(size_t degree, const ring *r) {
     return (m + 2) / 2 * 2;
 }
 
-/* The rule of 2n azimuths; NULL: no memory. */
+/* The rule of 2n azimuths; NULL: out of memory. */
 static product *create(size_t n, const gauss_keys *p) {
     const bool lobatto = p->rings == LOBATTO;
     const size_t rings = lobatto ? n + 1 : n;

@@ -1,7 +1,7 @@
 /* Greedy points of the sphere (Leja 1957 in the plane; Gotz 2001 and Lopez Garcia, Saff 2010 on the sphere):
- * each is where the sum of distances to all before it is greatest, among the points of a fixed spherical
- * Fibonacci set, so that every prefix is good, whatever its length. The sum of distances is what the distance
- * energy is made of. Of axes both ends count. Memory for the candidates; time 65536 n. */
+ * each maximises the sum of distances to all previous points, among the points of a fixed spherical Fibonacci
+ * set, so that every prefix is good. The distance energy is a function of the sum of distances. For axes both
+ * ends count. Memory for the candidates; time 65536 n. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static void place(bool axes, candidates *c) {
 }
 
 static double root(double square) {
-    return sqrt(square > 0.0 ? square : 0.0); /* rounding may leave less than none */
+    return sqrt(square > 0.0 ? square : 0.0); /* rounding may make it negative */
 }
 
 static void add_distances(bool axes, size_t chosen, candidates *c) {

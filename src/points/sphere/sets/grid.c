@@ -1,15 +1,15 @@
 /* Extensible spherical Fibonacci grids, E-SFG (Marques, Bouville, Bouatouch, Blat 2019, algorithm 1).
  *
- * A planar Fibonacci grid of `base` points x = j/N, y = j/Phi is copied by half its basis vectors b_0 =
- * (0,-1), b_1 = (1/N, 1/Phi), b_2 = (1/N, -1/Phi^2), which makes four times the points, and so on with a
- * quarter, an eighth,
- * ...; z = 1 - h (x + d) on a cap of height h. So point i is point i mod N of the base grid, shifted by
- * one vector for each digit of i/N in base 4: random access, up to 2^48 points. Only sizes with complete
- * sub-grids, N 4^l times 1, 2, 3 or 4, are as even as spherical Fibonacci sets; others draw a warning.
+ * A planar Fibonacci grid of `base` points x = j/N, y = j/Phi is copied with shifts by half its basis vectors
+ * b_0 = (0,-1), b_1 = (1/N, 1/Phi), b_2 = (1/N, -1/Phi^2), which gives four times the points, and so on with
+ * a quarter, an eighth, ...; z = 1 - h (x + d) on a cap of height h. So point i is point i mod N of the base
+ * grid, shifted by one vector for each digit of i/N in base 4: random access, up to 2^48 points. Only sizes
+ * with complete sub-grids, N 4^l times 1, 2, 3 or 4, are as uniform as spherical Fibonacci sets; others give
+ * a warning.
  *
  * The shift d along x centres the points. `final`: d = 1/(2^{L+1} N) suits all N 4^L points, and smaller
- * sizes are prefixes that lose 5 to 8 %. `per-level`: each size has its own, within 1 % of spherical
- * Fibonacci, and old points move. Progression 2 puts the sub-grid first that doubles a grid best. */
+ * sizes are prefixes that lose 5 to 8 %. `per-level`: each size has a separate shift, within 1 % of spherical
+ * Fibonacci, and old points move. Progression 2 adds first the sub-grid that doubles a grid best. */
 #include "points/sphere/sets/reference.h"
 
 #include <math.h>
@@ -88,8 +88,8 @@ static double distance_to_hemisphere(double z) {
     return sum;
 }
 
-/* What is to be small: minus the mean distance of all pairs, plus twice the mean distance to the domain,
- * which is 4/3 everywhere on the sphere. Caps other than the hemisphere are judged as spheres are. */
+/* The objective: minus the mean distance of all pairs, plus twice the mean distance to the domain, which is
+ * 4/3 everywhere on the sphere. Caps other than the hemisphere use the objective of the sphere. */
 static double judge(size_t count, const double *xyz, double height) {
     double pairs = 0.0;
     double domain = 0.0;
@@ -147,7 +147,7 @@ typedef struct grid {
     aur_fibonacci_kernel *kernel;
 } grid;
 
-/* The mean over blocks 0 .. blocks-1 of what their shifts add to the index. */
+/* The mean shift of the index over blocks 0 .. blocks-1. */
 static double mean_index_shift(const grid *g, uint64_t blocks) {
     double sum = 0.0;
     double above = 0.0; /* of the digits already passed */
@@ -166,10 +166,10 @@ static double mean_index_shift(const grid *g, uint64_t blocks) {
     return (sum + (double)left * above) / (double)blocks;
 }
 
-/* Base and levels from the keys and the size that is asked for. */
+/* Base and levels from the keys and the requested size. */
 static aur_result choose_size(uint64_t count, int64_t base, int64_t levels, grid *g, aur_error *error) {
     if (base == 0 && levels < 0) {
-        /* As many levels as leave a whole base of at least 16 points. */
+        /* The most levels that leave an integral base of at least 16 points. */
         for (g->base = count; g->base % 4 == 0 && g->base / 4 >= 16; g->base /= 4)
             ++g->levels;
         return AUR_OK;
@@ -196,7 +196,7 @@ static aur_result choose_size(uint64_t count, int64_t base, int64_t levels, grid
     return AUR_OK;
 }
 
-/* Whether all sub-grids of the size are there: N 4^l times 1, 2, 3 or 4. */
+/* Whether all sub-grids of the size are complete: N 4^l times 1, 2, 3 or 4. */
 static bool is_complete(uint64_t count, uint64_t base) {
     if (count % base != 0)
         return false;

@@ -1,7 +1,7 @@
 /* The centres of HEALPix's pixels in rings (Gorski, Hivon, Banday, Wandelt, Hansen, Reinecke and Bartelmann
- * 2005, eqs 2 to 9): 12 k^2 points of equal areas on rings of equal latitude, to compare with and to read
- * maps by. Point i is pixel i of the ring scheme or of the nested one, in which the 12 first pixels are split
- * in four again and again. */
+ * 2005, eqs 2 to 9): 12 k^2 points of equal areas on rings of equal latitude, for comparisons and for reading
+ * maps. Point i is pixel i of the ring scheme or of the nested one, in which the 12 first pixels are split in
+ * four again and again. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -61,7 +61,7 @@ static void place(double z, double radius, double azimuth, double *xyz) {
 }
 
 /* Ring i = 1, 2, ... about a pole has 4 i pixels, 2 i (i - 1) before it. `sign` is -1 at the south pole,
- * where they are counted from the end. */
+ * where pixels are counted from the end. */
 static void place_near_pole(uint64_t side, uint64_t pixel, double sign, double *xyz) {
     uint64_t ring = (uint64_t)((1.0 + sqrt(2.0 * (double)pixel + 1.0)) / 2.0);
     while (2 * ring * (ring - 1) > pixel)
@@ -96,13 +96,12 @@ static uint64_t spread_bits(uint64_t x) {
     return found;
 }
 
-/* A place on one of the twelve faces: x to the north-east, y to the north-west. */
+/* A position on one of the twelve faces: x to the north-east, y to the north-west. */
 static uint64_t nested_of(uint64_t side, uint64_t face, uint64_t x, uint64_t y) {
     return face * side * side + spread_bits(x) + 2 * spread_bits(y);
 }
 
-/* The face's southern corner is this many sides from the north pole, and so many half sides east of azimuth
- * 0. */
+/* The distance of the face's southern corner from the north pole in sides, and its azimuth in half sides. */
 static const unsigned char face_rows[FACES] = {2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4};
 static const unsigned char face_columns[FACES] = {1, 3, 5, 7, 0, 2, 4, 6, 1, 3, 5, 7};
 
@@ -116,7 +115,7 @@ static uint64_t ring_of_nested(uint64_t side, uint64_t pixel) {
         before = row < side ? 2 * row * (row - 1) : 12 * side * side - 2 * length * (length + 1);
         turned = 0;
     }
-    /* Once around more, so that nothing is negative. */
+    /* One more turn, so that no value is negative. */
     const uint64_t along = (face_columns[face] * length + x + 8 * length + 1 + turned - y) / 2;
     return before + (along - 1) % (4 * length);
 }
@@ -169,7 +168,7 @@ aur_result aur_healpix_pixels(uint64_t side, bool nested, size_t count, const do
             return aur_fail(error, AUR_ERROR_ARGUMENT, "vector %zu has no direction", i + 1);
         const double z = xyz[3 * i + 2] / length, quarters = atan2(y, x) / (AUR_PI / 2.0);
         const double turned = quarters < 0.0 ? quarters + 4.0 : quarters;
-        /* 1 - |z| = sin^2 / (1 + |z|), without its cancellation. */
+        /* 1 - |z| = sin^2 / (1 + |z|), without cancellation. */
         pixels[i] = fabs(z) <= 2.0 / 3.0
                         ? pixel_in_belt(side, nested, z, turned < 4.0 ? turned : 0.0)
                         : pixel_near_pole(side, nested, across / length * sqrt(3.0 / (1.0 + fabs(z))),

@@ -1,6 +1,6 @@
 /* Geodesic grids (Sadourny, Arakawa and Mintz 1968): each edge of an icosahedron is cut into f parts, each
- * face into f^2 triangles, and their corners go out to the sphere: 10 f^2 + 2 points, corners first, then
- * those on edges, then those within faces. */
+ * face into f^2 triangles, and their corners are projected to the sphere: 10 f^2 + 2 points, corners first,
+ * then those on edges, then those within faces. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -78,7 +78,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     return AUR_OK;
 }
 
-/* The point at so many parts of three corners, brought to the sphere. */
+/* The point with the given barycentric parts of three corners, projected to the sphere. */
 static void place(const icosahedral *set, const unsigned char corners[3], const double parts[3],
                   double *xyz) {
     double sum[3] = {0.0};
@@ -92,7 +92,7 @@ static void place(const icosahedral *set, const unsigned char corners[3], const 
 
 static void place_in_face(const icosahedral *set, uint64_t index, double *xyz) {
     const uint64_t f = set->parts, within = (f - 1) * (f - 2) / 2, at = index % within;
-    /* Row r = 1, 2, .. has r places, r (r - 1) / 2 before it. */
+    /* Row r = 1, 2, .. has r points, r (r - 1) / 2 before it. */
     uint64_t r = (uint64_t)((1.0 + sqrt(8.0 * (double)at + 1.0)) / 2.0);
     while (r * (r - 1) / 2 > at)
         --r;

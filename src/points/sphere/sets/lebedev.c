@@ -1,5 +1,6 @@
-/* Quadrature of the sphere with octahedral symmetry (Lebedev 1976; Lebedev and Laikov 1999), about a third
- * fewer points than plain means of the same degree need. scripts/lebedev_table.py solves for the orbits. */
+/* Quadrature of the sphere with octahedral symmetry (Lebedev 1976; Lebedev and Laikov 1999), with about a
+ * third fewer points than equal-weight designs of the same degree. scripts/lebedev_table.py solves for the
+ * orbits. */
 #include "points/sphere/sets/reference.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@ typedef struct node {
 } node;
 
 /* A corner x >= y >= z >= 0 and a weight, which all images of the corner under changes of sign and order
- * have. Coordinates that are equal have the same bits. */
+ * have. Equal coordinates are bit-identical. */
 static const double orbits[][4] = {
 #include "data/lebedev.inc"
 };
@@ -23,8 +24,8 @@ const aur_reference aur_lebedev_rules[AUR_LEBEDEV_COUNT] = {
 #include "data/lebedev_rules.inc"
 };
 
-/* The images of an orbit's corner: the signs of what is not zero, for each different order of its
- * coordinates. The end of what was written. */
+/* Writes the images of an orbit's corner: all signs of nonzero coordinates for each distinct permutation.
+ * Returns the end of the output. */
 static node *unfold(const double orbit[4], node *to) {
     static const unsigned char orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1},
                                                {1, 0, 2}, {0, 2, 1}, {2, 1, 0}};

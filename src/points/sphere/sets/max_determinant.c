@@ -1,7 +1,7 @@
-/* Points of greatest determinant (Fekete points; Sloan and Womersley 2004): (L+1)^2 of them, at which
+/* Points of maximal determinant (Fekete points; Sloan and Womersley 2004): (L+1)^2 of them, at which
  * polynomials of degree L are interpolated best. The determinant is that of the matrix of the reproducing
- * kernel, sum over l of (2l+1)/(4 pi) P_l(x_i . x_j); its logarithm is climbed by L-BFGS from points at rest
- * under repulsion and disturbed ones. Their weights are exact to degree L. O(N^3) a step. */
+ * kernel, sum over l of (2l+1)/(4 pi) P_l(x_i . x_j); L-BFGS maximises its logarithm from equilibria of
+ * repelling charges, plain and perturbed. Their weights are exact to degree L. O(N^3) per step. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,7 +47,7 @@ static double cosine(const determinant *d, size_t i, size_t j) {
     return x[i] * x[j] + x[s + i] * x[s + j] + x[2 * s + i] * x[2 * s + j];
 }
 
-/* By a series: the same bits on every machine. */
+/* By a series: bit-identical on every machine. */
 static double logarithm(double x) {
     int exponent;
     const double mantissa = frexp(x, &exponent), s = (mantissa - 0.75) / (mantissa + 0.75), square = s * s;
@@ -100,7 +100,7 @@ static void invert(size_t n, const double *a, double *inverse) {
             inverse[i * n + j] = dot(n - j, inverse + i * n + j, inverse + j * n + j);
 }
 
-/* Less the logarithm of the determinant of 4 pi times the matrix, over the points. */
+/* Minus the logarithm of the determinant of 4 pi times the matrix, divided by the number of points. */
 static double evaluate(void *context, double *gradient) {
     determinant *const d = context;
     const size_t n = d->count, s = d->stride;
@@ -124,7 +124,7 @@ static double evaluate(void *context, double *gradient) {
     return value;
 }
 
-/* Fibonacci points, or such points disturbed, at rest under repulsion. */
+/* Equilibria of repelling charges from Fibonacci points, plain or perturbed. */
 static aur_result start_points(size_t start, aur_charges *q, aur_error *error) {
     for (size_t i = 0; i < q->count; ++i) {
         const double share =
@@ -142,7 +142,7 @@ static aur_result start_points(size_t start, aur_charges *q, aur_error *error) {
     return aur_repel(&(aur_shells){1, &q->count}, q, &energy, error);
 }
 
-/* Points and, behind them, weights. */
+/* Points, followed by weights. */
 static aur_result climb(size_t degree, double *xyz, aur_error *error) {
     const size_t count = (degree + 1) * (degree + 1), stride = (count + 7) / 8 * 8 + 8;
     double *const room = calloc(6 * stride + 2 * count * count, sizeof *room);

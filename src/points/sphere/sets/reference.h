@@ -1,4 +1,4 @@
-/* Sets of some sizes only, whose points stand in tables. */
+/* Sets of certain sizes whose points are in tables. */
 #pragma once
 
 #include <stddef.h>
@@ -12,8 +12,8 @@ typedef struct aur_reference {
     uint16_t count, degree, first, rows;
 } aur_reference;
 
-/* That of the `size` references, in the order of their counts, which has as many points as are asked for.
- * Errors: ARGUMENT for a number between, with the nearest; UNSUPPORTED for a cap. */
+/* The one of the `size` references, in the order of their counts, with the requested number of points.
+ * Errors: ARGUMENT for other numbers, with the nearest; UNSUPPORTED for a cap. */
 aur_result aur_reference_find(const char *set, size_t size, const aur_reference *references,
                               const aur_native_request *request, const aur_reference **found,
                               aur_error *error);
@@ -40,13 +40,12 @@ size_t aur_grid_shortest_vector(uint64_t base, double stretch);
 /* Which of the shifts b_0/2, b_1/2, b_2/2 doubles a grid best: s = g mod 3 with g the longest of the three
  * vectors that make the Voronoi cell (eq. 56); 1 is the paper's stretch. */
 size_t aur_grid_first_shift(uint64_t base, double stretch);
-/* The same by trying all three on a cap of height `height` (1 hemisphere, 2 sphere) and keeping the doubled
- * grid of the lowest energy. The first point lies `centre` index steps below the pole; a negative one stands
- * for the middle of each doubled grid. Grids of more than 2048 points are judged by the stretch that a cap
- * has on average. */
+/* The same by trying all three on a cap of height `height` (1 hemisphere, 2 sphere) and choosing the doubled
+ * grid of the lowest energy. The first point is `centre` index steps below the pole; a negative `centre`
+ * selects the middle of each doubled grid. For more than 2048 points the mean stretch of a cap decides. */
 size_t aur_grid_best_shift(uint64_t base, double height, double centre);
 
-/* b_s/2^level, s below 3 and level at least 1, as what it adds to the index (x times N) and to the phase. */
+/* b_s/2^level, s below 3 and level at least 1, as its change of the index (x times N) and of the phase. */
 typedef struct aur_grid_shift {
     double index;
     uint64_t phase;

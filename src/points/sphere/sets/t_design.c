@@ -1,7 +1,7 @@
-/* Symmetric spherical t-designs (Delsarte, Goethals and Seidel 1977; Womersley 2018): points whose plain mean
- * is exact for polynomials up to degree t. The table has degrees to 51, made by scripts/t_design_table.py;
- * larger ones are solved for (design.h) and cached. The second half of the points are the opposites of the
- * first. */
+/* Symmetric spherical t-designs (Delsarte, Goethals and Seidel 1977; Womersley 2018): points whose mean with
+ * equal weights is exact for polynomials up to degree t. The table has degrees to 51, computed by
+ * scripts/t_design_table.py; larger ones are computed (design.h) and cached. The second half of the points
+ * are the opposites of the first. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "points/sphere/sets/design.h"
 #include "points/sphere/sets/reference.h"
 
-/* VERSION: of what the cache has. */
+/* VERSION: of the cached data. */
 enum { VERSION = 1, SOLVED = (AUR_DESIGN_DEGREE_MAX - 51) / 2, SIZES = AUR_T_DESIGN_COUNT + SOLVED };
 
 static const double points[][3] = {
@@ -36,7 +36,7 @@ typedef struct design {
     double points[][3];
 } design;
 
-/* Solves for the points, or takes them from the cache. */
+/* Computes the points, or takes them from the cache. */
 static aur_result solve(const char *name, const aur_reference *reference, design *made, aur_error *error) {
     char key[64];
     size_t size;
