@@ -115,8 +115,8 @@ AUREOLE_INLINE uint32_t aureole_sobol_second(uint32_t index) {
     return aureole_reverse_bits(aureole_sobol_second_reversed(index));
 }
 
-/* A permutation of words in which a bit depends on the lower bits only (Laine and Karras 2011, with the
- * constants that Burley 2020 tells how to judge). */
+/* A permutation of words in which a bit depends on the lower bits only (Laine and Karras 2011, with constants
+ * selected by the criteria of Burley 2020). */
 AUREOLE_INLINE uint32_t aureole_nested_hash(uint32_t x, uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -134,12 +134,12 @@ AUREOLE_INLINE uint32_t aureole_owen_scramble(uint32_t x, uint32_t seed) {
 /* The largest double below 1. */
 #define AUREOLE_BELOW_ONE (1.0 - 0x1p-53)
 
-/* Cut to 53 binary digits, never rounded: a point stays in its elementary interval and below 1. */
+/* Truncated to 53 binary digits, never rounded: a point stays in its elementary interval and below 1. */
 AUREOLE_INLINE double aureole_word_to_double(uint64_t word) {
     return (double)(int64_t)(word >> 11) * 0x1p-53;
 }
 
-/* What a scrambling is drawn from: one independent key a seed and dimension. */
+/* The key of a scrambling: independent for each seed and dimension. */
 AUREOLE_INLINE uint64_t aureole_scramble_key(uint64_t seed, size_t dimension) {
     return aureole_hash3(UINT64_C(0x5363726d626c6531), seed, dimension);
 }
@@ -148,7 +148,7 @@ AUREOLE_INLINE uint64_t aureole_reverse64(uint64_t x) {
     return (uint64_t)aureole_reverse_bits((uint32_t)x) << 32 | aureole_reverse_bits((uint32_t)(x >> 32));
 }
 
-/* What flips the digits beyond the 32nd: a hash of the scrambled 32 digits before them (the two rounds of
+/* The flips of digits beyond the 32nd: a hash of the 32 scrambled digits before them (the two rounds of
  * Wellons' lowbias32). */
 AUREOLE_INLINE uint32_t aureole_nested_tail(uint32_t reversed_head, uint32_t key_high) {
     uint32_t x = reversed_head ^ key_high;
@@ -198,13 +198,13 @@ typedef struct aureole_fraction128 {
     uint64_t high, low;
 } aureole_fraction128;
 
-/* 1/Phi = (sqrt 5 - 1)/2, the golden ratio less one, cut after 128 bits: the project's one copy. What works
- * with 64 bits takes AUREOLE_GOLDEN_PHASE of points/sphere/phase.h, which is made from it. */
+/* 1/Phi = (sqrt 5 - 1)/2, the golden ratio minus 1, truncated to 128 bits: the only copy in this project.
+ * Code with 64 bits uses AUREOLE_GOLDEN_PHASE of points/sphere/phase.h, which is derived from it. */
 #define AUREOLE_GOLDEN_HIGH UINT64_C(0x9e3779b97f4a7c15)
 
 #define AUREOLE_GOLDEN_LOW UINT64_C(0xf39cc0605cedc834)
 
-/* The upper half of a product; by halves where the compiler has no numbers of 128 bits. */
+/* The upper half of a product; by halves if the compiler has no 128-bit integers. */
 AUREOLE_INLINE uint64_t aureole_multiply_high(uint64_t a, uint64_t b) {
 #ifdef __SIZEOF_INT128__
     __extension__ typedef unsigned __int128 wide;

@@ -1,4 +1,5 @@
-/* Multiples i a modulo 1 of irrational numbers a, exact to a double: a is kept as a fraction of 128 bits. */
+/* Multiples i a modulo 1 of irrational numbers a, exact to a double: a is stored as a fraction of 128 bits.
+ */
 #pragma once
 
 #include <stdint.h>
@@ -8,8 +9,8 @@ typedef struct aur_fraction128 {
     uint64_t high, low;
 } aur_fraction128;
 
-/* 1/Phi = (sqrt 5 - 1)/2, the golden ratio less one, cut after 128 bits: the project's one copy. What works
- * with 64 bits takes AUR_GOLDEN_PHASE of points/sphere/phase.h, which is made from it. */
+/* 1/Phi = (sqrt 5 - 1)/2, the golden ratio minus 1, truncated to 128 bits: the only copy in this project.
+ * Code with 64 bits uses AUR_GOLDEN_PHASE of points/sphere/phase.h, which is derived from it. */
 #define AUR_GOLDEN_HIGH UINT64_C(0x9e3779b97f4a7c15)
 #define AUR_GOLDEN_LOW UINT64_C(0xf39cc0605cedc834)
 static const aur_fraction128 aur_golden_fraction = {AUR_GOLDEN_HIGH, AUR_GOLDEN_LOW};
@@ -21,7 +22,7 @@ static inline aur_wide aur_phase128(aur_fraction128 fraction, uint64_t index) {
     return ((aur_wide)fraction.high << 64 | fraction.low) * index;
 }
 
-/* The upper half of a product; by halves where the compiler has no numbers of 128 bits. */
+/* The upper half of a product; by halves if the compiler has no 128-bit integers. */
 static inline uint64_t aur_multiply_high(uint64_t a, uint64_t b) {
 #ifdef __SIZEOF_INT128__
     __extension__ typedef unsigned __int128 wide;

@@ -1,6 +1,6 @@
 /* The two-dimensional Sobol net and nested uniform scrambling on 32-bit words, a few instructions each and
- * without a table: for the inner loops of rendering, and as the scalar form that wider code is tested
- * against. A word x stands for the coordinate x / 2^32. */
+ * without a table: for the inner loops of rendering, and as the scalar reference for tests of vector code. A
+ * word x is the coordinate x / 2^32. */
 #pragma once
 
 #include <stdint.h>
@@ -37,8 +37,8 @@ static inline uint32_t aur_sobol_second(uint32_t index) {
     return aur_reverse_bits(aur_sobol_second_reversed(index));
 }
 
-/* A permutation of words in which a bit depends on the lower bits only (Laine and Karras 2011, with the
- * constants that Burley 2020 tells how to judge). */
+/* A permutation of words in which a bit depends on the lower bits only (Laine and Karras 2011, with constants
+ * selected by the criteria of Burley 2020). */
 static inline uint32_t aur_nested_hash(uint32_t x, uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;

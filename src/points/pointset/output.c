@@ -7,10 +7,10 @@
 
 enum {
     BUFFER_LENGTH = 512,
-    PART_LENGTH = 1 << 12, /* coordinates that the first cache keeps until their points are whole */
+    PART_LENGTH = 1 << 12, /* coordinates that fit the first-level cache until their points are complete */
     LEAST_PART = 128,
-    LEAST_PAIRS = 48,      /* fewer are not worth preparing wide registers for */
-    STREAM_BYTES = 4 << 20 /* larger outputs go past the caches */
+    LEAST_PAIRS = 48,      /* fewer do not use the vector kernels */
+    STREAM_BYTES = 4 << 20 /* larger outputs bypass the caches */
 };
 
 size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride) {
@@ -80,7 +80,7 @@ static void fill_pairs(const aur_pointset *set, aur_block block) {
     aur_runs(SIZE_MAX)->end_stream();
 }
 
-/* Points of any number of coordinates, which are made one after another, part by part. */
+/* Points of any number of coordinates, computed one coordinate after another, in parts. */
 static void fill_points(const aur_pointset *set, aur_block block) {
     double buffer[PART_LENGTH];
     double *const out = block.data;

@@ -1,5 +1,5 @@
-/* Runs of one coordinate, and two of them side by side: a plain form and one for wide registers,
- * which write the same bits. */
+/* Runs of one coordinate, and interleaving of two: a plain form and vector kernels, which are bit-identical.
+ */
 #pragma once
 
 #include <stdbool.h>
@@ -12,18 +12,18 @@
  * indices i < count of the series i, i + step, ... modulo `modulus`. */
 typedef struct aur_ascent {
     uint64_t start, count, step, modulus;
-    uint64_t index; /* where the series goes on */
+    uint64_t index; /* the next index of the series */
 } aur_ascent;
 
 enum {
-    AUR_RUN_SLACK = 16, /* numbers behind those of a run of an ascent that it may write, too */
-    AUR_RUN_GROUP = 32  /* a run that goes on later stops after a multiple of it */
+    AUR_RUN_SLACK = 16, /* numbers that a run of an ascent may write beyond its end */
+    AUR_RUN_GROUP = 32  /* a run that is continued stops at a multiple of it */
 };
 
 /* The fractions (position + i step) modulo size, / size, rounded; position, step < size <= 2^48. */
 typedef struct aur_multiples {
     uint64_t position, step, size;
-    bool started; /* the kernel's own from here on */
+    bool started; /* private to the kernel from here on */
     double jump, inverse;
     double positions[AUR_RUN_GROUP];
 } aur_multiples;
@@ -32,7 +32,7 @@ typedef struct aur_multiples {
 typedef struct aur_multiples_of_fraction {
     aur_fraction128 step;
     uint64_t start, first;
-    bool started; /* the kernel's own from here on */
+    bool started; /* private to the kernel from here on */
     uint64_t low[AUR_RUN_GROUP], high[AUR_RUN_GROUP];
 } aur_multiples_of_fraction;
 
@@ -46,21 +46,20 @@ typedef struct aur_run_kernels {
     void (*multiples)(aur_multiples *run, size_t count, double *out);
     void (*fractions)(aur_multiples_of_fraction *run, size_t count, double *out);
     void (*hashes)(aur_hashes *run, size_t count, double *out);
-    /* Values of the ascent, until there is no room for as many as may come at once (AUR_RUN_SLACK); returns
-     * how many it wrote. */
+    /* Writes values of the ascent, until fewer than AUR_RUN_SLACK fit; returns their number. */
     size_t (*ascent)(aur_ascent *ascent, size_t capacity, double *out);
-    /* out[i] = (base + numerators[i]) / divisor, rounded; whole numbers, base + numerators[i] < divisor <=
-     * 2^53. */
+    /* out[i] = (base + numerators[i]) / divisor, rounded; integers, base + numerators[i] < divisor <= 2^53.
+     */
     void (*quotients)(double base, const double *numerators, double divisor, size_t count, double *out);
-    /* out[2 i] = x[i], out[2 i + 1] = y[i]; `stream` goes past the caches, for which `out` is a multiple of
-     * 64 bytes, and end_stream() is called after the last ones. */
+    /* out[2 i] = x[i], out[2 i + 1] = y[i]; `stream` bypasses the caches; `out` is then aligned to 64 bytes,
+     * and end_stream() is called after the last pairs. */
     void (*pairs)(size_t count, const double *x, const double *y, bool stream, double *out);
     void (*end_stream)(void);
 } aur_run_kernels;
 
 AUR_KERNELS(const aur_run_kernels, aur_runs);
 
-/* The kernels for runs that have `count` values in all. */
+/* The kernels for runs of `count` values in total. */
 static inline const aur_run_kernels *aur_runs(size_t count) {
     return count < AUR_RUN_GROUP / 2 ? &aur_runs_portable : &AUR_KERNEL_HERE(aur_runs);
 }

@@ -5,7 +5,7 @@
 
 #if AUR_KERNEL_WIDE
 
-/* Vectors that are made at once, so that what each waits for is hidden by the others. */
+/* The number of vectors computed together, to hide latency. */
 enum { VECTORS = 4, GROUP = VECTORS * AUR_LANES };
 
 static inline aur_reals load(const double *from) {
@@ -26,7 +26,7 @@ static inline void put_group(const aur_reals values[VECTORS], size_t count, doub
     memcpy(out, rest, count * sizeof *out);
 }
 
-/* Whole numbers below 2^53 are added exactly. */
+/* Integers below 2^53 are added exactly. */
 static void start_multiples(aur_multiples *run) {
     uint64_t next = run->position;
     for (unsigned k = 0; k < GROUP; ++k) {
@@ -34,7 +34,7 @@ static void start_multiples(aur_multiples *run) {
         next += run->step;
         next -= next >= run->size ? run->size : 0;
     }
-    /* From group to group, less the size: at most 0. */
+    /* The step between groups, minus the size: at most 0. */
     const double size = (double)(int64_t)run->size;
     run->jump = next >= run->position ? (double)(int64_t)(next - run->position) - size
                                       : -(double)(int64_t)(run->position - next);
@@ -78,7 +78,8 @@ static void quotients(double base, const double *numerators, double divisor, siz
         out[i] = (base + numerators[i]) / divisor;
 }
 
-/* Phases in two words, whose lower one has its sign flipped: whether it overflows, signed numbers tell. */
+/* Phases in two words; the sign of the lower one is flipped, so that signed comparisons detect its overflow.
+ */
 static void fractions(aur_multiples_of_fraction *run, size_t count, double *out) {
     typedef int64_t signed_words __attribute__((vector_size(sizeof(aur_words))));
     const uint64_t sign = UINT64_C(1) << 63;
@@ -130,7 +131,7 @@ static void hashes(aur_hashes *run, size_t count, double *out) {
     run->first += count;
 }
 
-/* Indices that count are below 2^32, and the golden fraction's four quarters are multiplied by them. */
+/* Valid indices are below 2^32 and are multiplied by the four quarters of the golden fraction. */
 static size_t ascent(aur_ascent *ascent, size_t capacity, double *out) {
     typedef int64_t signed_words __attribute__((vector_size(sizeof(aur_words))));
     const aur_words zero = {0};

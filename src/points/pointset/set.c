@@ -1,4 +1,4 @@
-/* What all sets of the square have in common: scramblings, limits, and filling blocks. */
+/* Common code of all sets of the square: scramblings, limits, and filling blocks. */
 #include "points/pointset/set.h"
 
 #include <inttypes.h>
@@ -24,7 +24,7 @@ const char *aur_scramble_name(aur_scramble scramble) {
     return (size_t)scramble < SCRAMBLE_COUNT ? scramble_names[scramble] : NULL;
 }
 
-/* The most points that such a set has. */
+/* The largest number of points of a set. */
 static uint64_t size_limit(const aur_set_description *set, size_t dimension) {
     return set->counts_coordinates && dimension > 0 ? set->maximum_size / dimension : set->maximum_size;
 }
@@ -88,7 +88,7 @@ void aur_fill_table(const aur_pointset *set, const aur_block *block) {
     }
 }
 
-/* Adds SHIFT or ROTATE to coordinates that the generator has left without. */
+/* Adds SHIFT or ROTATE to the generator's coordinates. */
 static void shift(const aur_pointset *set, const aur_block *block) {
     for (size_t d = 0; d < block->dimension_count; ++d) {
         const size_t dimension = block->first_dimension + d;
@@ -103,7 +103,7 @@ static void shift(const aur_pointset *set, const aur_block *block) {
     }
 }
 
-/* The baker's transform (Hickernell 2002): functions become periodic, means stay. */
+/* The baker's transform (Hickernell 2002): functions become periodic with unchanged means. */
 static void fold(const aur_block *block) {
     for (size_t d = 0; d < block->dimension_count; ++d) {
         double *const out = block->data + d * block->coordinate_stride;

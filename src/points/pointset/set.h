@@ -1,4 +1,4 @@
-/* The inside of a point set: what each generator's file offers to the table (sets.h). */
+/* The interface of point sets, which each generator's file implements for the table (sets.h). */
 #pragma once
 
 #include <aureole/pointset.h>
@@ -7,8 +7,8 @@
 #include "points/base/keys.h"
 #include "points/pointset/words.h"
 
-/* Which coordinates of which points, and where they go: coordinate first_dimension + d of point first + i is
- * written to data[i + d * coordinate_stride]. */
+/* A range of coordinates and points, and their destination: coordinate first_dimension + d of point first + i
+ * is written to data[i + d * coordinate_stride]. */
 typedef struct aur_block {
     uint64_t first;
     size_t count;
@@ -18,7 +18,7 @@ typedef struct aur_block {
     double *data;
 } aur_block;
 
-/* Sets that count in 64-bit integers with a power of a base to spare end here. */
+/* The limit of sets that count in 64-bit integers with the next power of a base in range. */
 #define AUR_INDEX_LIMIT (UINT64_C(1) << 48)
 
 enum {
@@ -41,16 +41,15 @@ enum {
 /* One row of the table of square sets. */
 typedef struct aur_square_set {
     aur_set_description description;
-    const void *own;      /* what prepare() and fill() of several kinds tell them apart by; or NULL */
-    unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
-    /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
-     * dimension, scrambling, seed and net_base are set and within the limits above; what a key or a file says
-     * may change them. */
+    const void *own; /* private data that distinguishes kinds with the same prepare() and fill(); or NULL */
+    unsigned scramblings; /* bits 1 << aur_scramble: the supported scramblings */
+    /* Reads the keys and prepares set->data (NULL: no keys and no data). Size, dimension, scrambling, seed
+     * and net_base are set and within the limits above; a key or a file may change them. */
     aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, aur_error *error);
     /* Coordinates in [0,1) with NONE, DIGIT, OWEN and NESTED applied; SHIFT and ROTATE are added by the
      * caller. */
     void (*fill)(const aur_pointset *set, const aur_block *block);
-    /* The same for the first two coordinates, written to data[2 i + d]: true where it has a faster way. Or
+    /* The same for the first two coordinates, written to data[2 i + d]; false if there is no fast path. Or
      * NULL. */
     bool (*fill_pairs)(const aur_pointset *set, const aur_block *block);
 } aur_square_set;
@@ -61,40 +60,38 @@ struct aur_pointset {
     size_t dimension;
     aur_scramble scramble;
     uint64_t seed;
-    bool fold;                           /* the baker's transform comes last */
+    bool fold;                           /* the baker's transform is applied last */
     uint64_t net_base;                   /* the points are a complete net at its powers; 0: no net */
-    const aur_pointset_options *options; /* while the set is made ready; then NULL */
-    void *data;                          /* the generator's own, one allocation; NULL when it needs none */
+    const aur_pointset_options *options; /* while the set is prepared; then NULL */
+    void *data;                          /* private to the generator, one allocation; or NULL */
 };
 
-/* Size, dimension and scrambling against what the kind of set has. */
+/* Checks size, dimension and scrambling against the limits of the kind of set. */
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);
 
-/* Whether a set of `size` points has the points first .. first+count-1. Errors: ARGUMENT. */
+/* Checks that a set of `size` points has the points first .. first+count-1. Errors: ARGUMENT. */
 aur_result aur_check_range(uint64_t size, uint64_t first, uint64_t count, aur_error *error);
 
-/* Where in an output's buffer the coordinates of a point are: coordinate d of point i at i * point_stride +
- * d * coordinate_stride. Errors: ARGUMENT for an output that contradicts itself, CAPACITY where `count`
- * points do not fit. */
+/* The strides of an output's buffer: coordinate d of point i is at i * point_stride + d * coordinate_stride.
+ * Errors: ARGUMENT for an inconsistent output, CAPACITY if `count` points do not fit. */
 typedef struct aur_strides {
     size_t point, coordinate;
 } aur_strides;
 aur_result aur_output_open(const aur_output *output, size_t dimension, size_t count, aur_strides *strides,
                            aur_error *error);
 
-/* Elements that `count` points need (`stride` as above, of no use to POINTS); SIZE_MAX when there is no such
- * number. */
+/* The number of elements for `count` points (`stride` as above, ignored for POINTS); SIZE_MAX on overflow. */
 size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride);
 
 /* Writes coordinates to points first .. first + count - 1 of an output that begins with this coordinate.
- * Floats are cut to 24 binary digits. */
+ * Floats are truncated to 24 binary digits. */
 void aur_output_put(const aur_output *output, aur_strides strides, size_t first, size_t count,
                     const double *values);
-/* From which point on `count` points of two doubles go past the caches: there they begin at a multiple of 64
- * bytes. SIZE_MAX: from none. */
+/* The first of `count` points of two doubles that can be streamed: it is aligned to 64 bytes. SIZE_MAX: none.
+ */
 size_t aur_output_stream_start(size_t count, const double *points);
 
-/* Points into the caller's buffer, scrambled with `seed`. */
+/* Writes points into the caller's buffer, scrambled with `seed`. */
 aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
                              const aur_output *output, aur_error *error);
 

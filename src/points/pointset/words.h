@@ -11,12 +11,12 @@
 /* The largest double below 1. */
 #define AUR_BELOW_ONE (1.0 - 0x1p-53)
 
-/* Cut to 53 binary digits, never rounded: a point stays in its elementary interval and below 1. */
+/* Truncated to 53 binary digits, never rounded: a point stays in its elementary interval and below 1. */
 static inline double aur_word_to_double(uint64_t word) {
     return (double)(int64_t)(word >> 11) * 0x1p-53;
 }
 
-/* What a scrambling is drawn from: one independent key a seed and dimension. */
+/* The key of a scrambling: independent for each seed and dimension. */
 static inline uint64_t aur_scramble_key(uint64_t seed, size_t dimension) {
     return aur_hash3(UINT64_C(0x5363726d626c6531), seed, dimension);
 }
@@ -25,7 +25,7 @@ static inline uint64_t aur_reverse64(uint64_t x) {
     return (uint64_t)aur_reverse_bits((uint32_t)x) << 32 | aur_reverse_bits((uint32_t)(x >> 32));
 }
 
-/* What flips the digits beyond the 32nd: a hash of the scrambled 32 digits before them (the two rounds of
+/* The flips of digits beyond the 32nd: a hash of the 32 scrambled digits before them (the two rounds of
  * Wellons' lowbias32). */
 static inline uint32_t aur_nested_tail(uint32_t reversed_head, uint32_t key_high) {
     uint32_t x = reversed_head ^ key_high;
@@ -62,7 +62,7 @@ static inline bool aur_scrambles_digits(aur_scramble scramble) {
     return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_NESTED;
 }
 
-/* DIGIT, OWEN and NESTED; the other scramblings leave a word as it is. */
+/* Applies DIGIT, OWEN and NESTED; the other scramblings do not change a word. */
 static inline uint64_t aur_scramble_word(aur_scramble scramble, uint64_t word, uint64_t key) {
     switch (scramble) {
     case AUR_SCRAMBLE_DIGIT:

@@ -1,4 +1,4 @@
-/* Checks of what callers pass in. */
+/* Checks of arguments. */
 #pragma once
 
 #include <aureole/quadrature.h>
@@ -10,19 +10,19 @@
 /* ARGUMENT for the first of `count` vectors that is not of unit length. */
 aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error);
 
-/* The set where none is named. */
+/* The default set. */
 static const char aur_set_default[] = "spherical-fibonacci";
 
-/* Reads the caller's options, which may be NULL, over the defaults in *own. */
+/* Copies the caller's options, which may be NULL, over the defaults in *own. */
 aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *own,
                                     aur_error *error);
 
-/* The points of a set, and their weights unless NULL: options->count of them, which the set must have. */
+/* The options->count points of a set, and their weights unless NULL; the set must have that number. */
 aur_result aur_points_of_set(const char *set, const aur_directions_options *options, double *xyz,
                              double *weights, aur_error *error);
 
-/* CAPACITY unless `needed` numbers fit into `capacity`. Inline, with the angle's: a look-up of weights asks
- * both. */
+/* CAPACITY unless `needed` numbers fit into `capacity`. Inline, like the check of angles: every look-up of
+ * weights calls both. */
 static inline aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error) {
     return needed <= capacity ? AUR_OK
                               : aur_fail(error, AUR_ERROR_CAPACITY,

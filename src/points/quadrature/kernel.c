@@ -18,7 +18,7 @@ static void chord_coefficients(double smoothness, size_t count, double *coeffici
     }
 }
 
-/* Adds to polynomial[] in q = 2(1-x) what `factors` times the Legendre polynomials to degree L are. */
+/* Adds `factors` times the Legendre polynomials to degree L to polynomial[] in q = 2(1-x). */
 static void add_legendre(size_t degree, const double *factors, double *polynomial) {
     double here[AUR_KERNEL_DEGREE_MAX + 2] = {1.0}, before[AUR_KERNEL_DEGREE_MAX + 2] = {0.0};
     for (size_t l = 0; l <= degree; ++l) {
@@ -81,7 +81,7 @@ void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t c
     }
 }
 
-/* Eight running sums in a fixed order: vectors of any width give the same bits. */
+/* Eight running sums in a fixed order: bit-identical for all vector widths. */
 static double dot(size_t count, const double *restrict a, const double *restrict b) {
     double lanes[8] = {0};
     size_t j = 0;
@@ -111,7 +111,7 @@ void aur_kernel_coefficients(double smoothness, size_t count, double *coefficien
     chord_coefficients(smoothness, count, coefficients);
     for (size_t l = 0; l < count; ++l)
         coefficients[l] = fabs(coefficients[l]);
-    if (count > 0 && smoothness < 2.0) /* the same but for rounding, with which the kernel agrees */
+    if (count > 0 && smoothness < 2.0) /* equal up to rounding, consistent with the kernel */
         coefficients[0] = pow(2.0, 2.0 * smoothness - 1.0) / smoothness - coefficients[0];
 }
 

@@ -1,8 +1,7 @@
 /* The generalised distance kernel of the Sobolev space H^s of the sphere (Marques 2018 eq. 3; Brauchart,
  * Saff, Sloan and Womersley 2014, section 5, for s > 2): with c_l the Legendre coefficients of |u-v|^{2s-2}
- * it is the sum of |c_l| P_l(u.v). Behind degree L, the integer part of s - 1, all c_l have one sign, so that
- * it is
- * (-1)^{L+1} |u-v|^{2s-2} and a polynomial of degree L. */
+ * it is the sum of |c_l| P_l(u.v). Beyond degree L, the integer part of s - 1, all c_l have the same sign, so
+ * that it is (-1)^{L+1} |u-v|^{2s-2} plus a polynomial of degree L. */
 #pragma once
 
 #include "points/base/simd.h"
@@ -32,7 +31,7 @@ typedef struct aur_kernel_rule {
 /* `smoothness` must be in the range of aur_check_smoothness. */
 aur_kernel_rule aur_kernel_rule_make(double smoothness);
 
-/* row[j] = K(point, columns[j]), 0 <= j < count. The same bits on every instruction set. */
+/* row[j] = K(point, columns[j]), 0 <= j < count. Bit-identical for all instruction sets. */
 void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
                     double *row);
 
@@ -46,5 +45,5 @@ void aur_kernel_coefficients(double smoothness, size_t count, double *coefficien
 /* Splits count x,y,z triples into x[count], y[count], z[count] at `storage` (3 * count). */
 aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
 
-/* Entered through aur_kernel_row only. */
+/* Called only by aur_kernel_row. */
 AUR_KERNELS(aur_kernel_row_function, aur_kernel_row);

@@ -1,5 +1,5 @@
-/* Plain arithmetic without contraction, so that every instruction set gives the same bits. Differences, not
- * the dot product: near samples keep their distance. */
+/* Plain arithmetic without contraction, so that all instruction sets are bit-identical. Differences, not the
+ * dot product: distances of near samples stay accurate. */
 #include <math.h>
 
 #include "points/quadrature/kernel.h"

@@ -6,8 +6,8 @@
 #include "points/pointset/digits/digital_kernels.h"
 
 enum {
-    SHORT_RUN = 16, /* shorter ones are computed one index at a time */
-    WIDE_RUN = 48   /* shorter ones are not worth preparing wide registers for */
+    SHORT_RUN = 16, /* shorter runs are computed one index at a time */
+    WIDE_RUN = 48   /* shorter runs do not use the vector kernels */
 };
 
 /* The first `count` points of coordinate `d` of a run. */
@@ -33,7 +33,7 @@ static void fill_plainly(const aur_digital_run *run, size_t d, size_t count, dou
 }
 
 static void fill_run(aur_digital_run *run, double *out) {
-    if (run->scramble == AUR_SCRAMBLE_NESTED) { /* the kernels have the others */
+    if (run->scramble == AUR_SCRAMBLE_NESTED) { /* the kernels support the others */
         for (size_t d = 0; d < run->dimension_count; ++d)
             fill_plainly(run, d, (size_t)(run->last - run->first), out);
         return;

@@ -16,14 +16,14 @@ static inline uint64_t aur_digital_word(const uint64_t columns[AUR_DIGITAL_COLUM
 /* Writes the matrix of a dimension. */
 typedef void (*aur_digital_matrix)(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]);
 
-/* Of Sobol's sequence, an aur_digital_matrix for as many dimensions as Joe and Kuo's table has. */
+/* An aur_digital_matrix of Sobol's sequence, for the dimensions of Joe and Kuo's table. */
 enum { AUR_SOBOL_DIMENSIONS = 21201 };
 void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]);
 
-/* Makes the first `count` matrices ready as set->data. */
+/* Computes the first `count` matrices into set->data. */
 aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make, aur_error *error);
 
-/* The matrix that is ready, or one that is made in `columns` when set->data is NULL. */
+/* The prepared matrix, or one computed in `columns` if set->data is NULL. */
 const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension, aur_digital_matrix make,
                                       uint64_t columns[AUR_DIGITAL_COLUMNS]);
 
@@ -31,12 +31,13 @@ const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension,
 void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
                       const aur_block *block, size_t d);
 
-/* Fill a block, and one of two coordinates that lie beside each other (aur_square_set.fill_pairs). */
+/* Fill a block of any coordinates, or of two interleaved ones (aur_square_set.fill_pairs). */
 void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
 bool aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
 
 /* Any prime base: matrices of row_count x column_count digits, one after another, column by column; digit 0
- * of the index is the lowest one, row 0 makes the coarsest digit of the coordinate. One allocation. */
+ * of the index is the lowest one, row 0 gives the most significant digit of the coordinate. One allocation.
+ */
 typedef struct aur_digital_rule {
     uint32_t base;
     size_t row_count, column_count;

@@ -1,6 +1,6 @@
 #include "points/pointset/digits/digital_kernels.h"
 
-/* Two words as the kernels add them, see digital_kernels.h; sums of forms are forms of sums. */
+/* Two words in the form of the kernels, see digital_kernels.h; the form is linear. */
 static void put_form(aur_scramble scramble, const uint64_t words[2], uint64_t form[2]) {
     const bool owen = scramble == AUR_SCRAMBLE_OWEN;
     const uint64_t a = words[0], b = words[1];
@@ -33,7 +33,7 @@ void aur_digital_run_start(aur_digital_run *run, size_t slots) {
         }
         words[d] = aur_digital_word(columns, number * size);
     }
-    /* A single coordinate stands for both of a pair. */
+    /* A single coordinate is used for both of a pair. */
     const size_t last = dimensions - 1;
     words[1] = words[last];
     put_form(run->scramble, words, group->words);

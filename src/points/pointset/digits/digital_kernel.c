@@ -1,8 +1,8 @@
 #include "points/base/simd_lanes.h"
 #include "points/pointset/digits/digital_kernels.h"
 
-/* Vectors that are made at once, so that what each waits for is hidden by the others: those of words, and
- * those of halves of words for Owen's hashes. A group is as many points as fill them. */
+/* The number of vectors computed together, to hide latency: vectors of words, and of halves of words for
+ * Owen's hashes. A group is the number of points that fill them. */
 enum {
     VECTORS = 4,
     SLOTS = VECTORS * AUR_LANES,
@@ -21,7 +21,7 @@ typedef struct plain_groups {
     aur_words now;
 } plain_groups;
 
-/* A group, and on to the next one, whose number is `next`. */
+/* Computes a group and advances to the next one, whose number is `next`. */
 static inline void step_plain(const aur_digital_group *group, plain_groups *p, uint64_t next, bool stream,
                               double *out) {
     const aur_words flip = aur_lanes_of_pair(group->flips[__builtin_ctzll(next)]);
@@ -84,12 +84,13 @@ static void prepare_owen(const aur_digital_run *run, const aur_digital_group *gr
     o->factor = o->key_low >> 16 | 1;
 }
 
-/* A head is the mantissa of 2^20, the upper 21 digits of a tail that of 1/2; difference and sum are exact. */
+/* A head is the mantissa of 2^20, the upper 21 digits of a tail are the mantissa of 1/2; difference and sum
+ * are exact. */
 static inline aur_reals owen_double(aur_words head, aur_words tail) {
     return ((aur_reals)head - (0x1p20 + 0.5)) + (aur_reals)tail;
 }
 
-/* The same of aur_owen_word. */
+/* The same for aur_owen_word. */
 static inline void step_owen(const aur_digital_group *group, owen_groups *o, uint64_t next, bool tails,
                              bool stream, double *out) {
     const aur_words zero = {0};

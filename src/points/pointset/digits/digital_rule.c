@@ -4,7 +4,7 @@
 #include "points/pointset/digits/digital.h"
 #include "points/pointset/digits/radical_inverse.h"
 
-enum { SHORT_RUN = 16 }; /* shorter ones are computed one index at a time */
+enum { SHORT_RUN = 16 }; /* shorter runs are computed one index at a time */
 
 aur_digital_rule *aur_digital_rule_create(uint32_t base, size_t row_count, size_t column_count,
                                           size_t dimension) {
@@ -39,12 +39,12 @@ static double coordinate(const aur_digital_rule *rule, const uint16_t *matrix, u
     return aur_digit_sum_value(&sum);
 }
 
-/* Where a run of points is: the digits of a coordinate, before any scrambling, kept from index to index.
- * Adding a column as often as the base says is adding nothing, so a digit that goes back to 0 needs no care:
- * the next one adds its column. */
+/* The state of a run of points: the digits of a coordinate, before any scrambling, updated from index to
+ * index. Adding a column `base` times adds 0, so that a digit that wraps to 0 needs no special case: the next
+ * digit adds its column. */
 typedef struct digit_rows {
-    uint32_t rows[AUR_DIGITAL_COLUMNS];   /* digits, the coarse one first */
-    uint64_t powers[AUR_DIGITAL_COLUMNS]; /* what a digit counts */
+    uint32_t rows[AUR_DIGITAL_COLUMNS];   /* digits, the most significant first */
+    uint64_t powers[AUR_DIGITAL_COLUMNS]; /* the weight of a digit */
     uint64_t numerator, denominator;
 } digit_rows;
 
@@ -73,8 +73,8 @@ static inline void add_column(digit_rows *r, uint32_t base, size_t count, const 
     r->numerator = numerator;
 }
 
-/* Counts through a run: the same fractions as random access. False when the points have more digits than fit.
- */
+/* Increments through a run, with the same fractions as random access. False if the points have more digits
+ * than fit. */
 static bool fill_by_counting(const aur_digital_rule *rule, const uint16_t *matrix, const aur_block *block,
                              double *out) {
     const uint32_t base = rule->base;
@@ -82,7 +82,7 @@ static bool fill_by_counting(const aur_digital_rule *rule, const uint16_t *matri
     if (rows > AUR_DIGITAL_COLUMNS)
         return false;
     digit_rows r = rows_at(rule, matrix, block->first);
-    size_t used = rows; /* of the first column: 1 where the matrix is upper triangular */
+    size_t used = rows; /* of the first column: 1 if the matrix is upper triangular */
     while (used > 0 && matrix[used - 1] == 0)
         --used;
     uint32_t lowest = (uint32_t)(block->first % base);

@@ -49,7 +49,7 @@ double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uin
             sum.denominator *= base;
         }
     } else {
-        /* The index's endless leading zeros are digits too. */
+        /* The infinite leading zeros of the index are digits, too. */
         for (; aur_digit_sum_has_room(&sum); index /= base)
             aur_digit_sum_put(&sum, (uint32_t)(index % base));
     }
@@ -91,7 +91,7 @@ void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, s
         run.next(&run, block->count, out);
         return;
     }
-    /* Permutations belong to the set and stay when it is scrambled again. */
+    /* Permutations are part of the set and do not change with the scrambling. */
     const uint64_t key = aur_scramble_key(digits == AUR_DIGITS_PERMUTE ? set->seed : block->seed, dimension);
     for (size_t i = 0; i < block->count; ++i)
         out[i] = aur_radical_inverse(base, block->first + i, digits, key);

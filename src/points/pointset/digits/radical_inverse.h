@@ -5,24 +5,24 @@
 
 enum { AUR_RADICAL_PRIMES = 6542, AUR_RADICAL_BASE_LIMIT = 1 << 16 }; /* primes below the limit */
 
-/* How digits change, in the order from the coarse digit to the fine one. */
+/* Randomisation of digits, from the most to the least significant. */
 typedef enum aur_digits {
     AUR_DIGITS_PLAIN,
-    AUR_DIGITS_SHIFT,   /* a random digit is added at each place, modulo the base */
-    AUR_DIGITS_PERMUTE, /* a random permutation at each place (Owen 2017) */
-    AUR_DIGITS_NESTED   /* a random permutation at each place for each sequence of digits before it */
+    AUR_DIGITS_SHIFT,   /* a random digit is added at each position, modulo the base */
+    AUR_DIGITS_PERMUTE, /* a random permutation at each position (Owen 2017) */
+    AUR_DIGITS_NESTED   /* a random permutation at each position for each sequence of preceding digits */
 } aur_digits;
 
-/* What DIGIT and OWEN are in a base other than 2. */
+/* DIGIT and OWEN in a base other than 2. */
 static inline aur_digits aur_digits_of(aur_scramble scramble) {
     return scramble == AUR_SCRAMBLE_DIGIT  ? AUR_DIGITS_SHIFT
            : scramble == AUR_SCRAMBLE_OWEN ? AUR_DIGITS_NESTED
                                            : AUR_DIGITS_PLAIN;
 }
 
-/* The fraction whose digits are put one after another, the coarse one first. Permutations are affine in the
- * digit (a d + c modulo the base, a not 0): pairs of digits then go to pairs as under uniformly random
- * permutations, and no more than pairs enters the variance of an estimate. */
+/* A fraction built from digits, the most significant first. Permutations are affine in the digit (a d + c
+ * modulo the base, a not 0): pairs of digits are then distributed as under uniformly random permutations, and
+ * the variance of an estimate depends only on pairs. */
 typedef struct aur_digit_sum {
     uint32_t base; /* a prime below AUR_RADICAL_BASE_LIMIT */
     aur_digits digits;
@@ -37,29 +37,29 @@ static inline aur_digit_sum aur_digit_sum_begin(uint32_t base, aur_digits digits
         .base = base, .digits = digits, .key = key, .prefix = key, .numerator = 0, .denominator = 1};
 }
 
-/* Whether a double has room for another digit. */
+/* Whether another digit fits into a double. */
 static inline bool aur_digit_sum_has_room(const aur_digit_sum *sum) {
     return sum->denominator < UINT64_C(1) << 53 && sum->denominator <= UINT64_MAX / sum->base;
 }
 
-/* To be called while there is room. */
+/* Call it only while a digit fits. */
 void aur_digit_sum_put(aur_digit_sum *sum, uint32_t digit);
 
 /* In [0,1). */
 double aur_digit_sum_value(const aur_digit_sum *sum);
 
-/* How many digits of the base fit into the fraction. */
+/* The number of digits of the base that fit into the fraction. */
 size_t aur_digit_sum_places(uint32_t base);
 
 /* In [0,1). `index` is below AUR_INDEX_LIMIT. */
 double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uint64_t key);
 
-/* The same for points of a block, coordinate `d` of it, with base 2 by bits. */
+/* The same for coordinate `d` of the points of a block, with bit operations for base 2. */
 void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, size_t d, uint32_t base,
                               aur_digits digits);
 
-/* Radical inverses of a dimension of a block as a run, with digits as the set is scrambled; false where there
- * is none. */
+/* Radical inverses of a dimension of a block as a run, with the scrambling of the set; false if a run does
+ * not support it. */
 bool aur_run_of_base(const aur_pointset *set, const aur_block *block, size_t dimension, uint32_t base,
                      aur_run *run);
 

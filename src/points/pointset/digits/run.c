@@ -59,15 +59,14 @@ static void make_table(aur_radical_run *r, uint64_t count) {
     }
 }
 
-/* A fraction of two integers below 2^53 is rounded correctly whatever its terms, so the bits are those of
- * random access. */
+/* A quotient of two integers below 2^53 is rounded correctly, so it is bit-identical to random access. */
 static void next_radical(aur_run *run, size_t count, double *out) {
     aur_radical_run *const r = &run->of.radical;
     while (count > 0) {
         const uint64_t lower = r->index % r->span;
         const size_t within = (size_t)(lower % r->width);
         uint64_t unit = r->denominator / r->span;
-        /* Where the table is too short for the lowest digit it starts again. */
+        /* If the table is too short for the lowest digit, it restarts. */
         uint64_t shared = (lower - within) * unit;
         for (uint64_t rest = r->index / r->span; rest > 0; rest /= r->base) {
             unit /= r->base;
@@ -126,7 +125,7 @@ void aur_run_pairs(aur_run *x, aur_run *y, size_t count, double *out) {
     double b[PART + HELD];
     const aur_run_kernels *const kernels = aur_runs(SIZE_MAX);
     const size_t start = aur_output_stream_start(count, out);
-    size_t held = 0; /* made and not yet written, since they are not a multiple of 64 bytes */
+    size_t held = 0; /* computed and not written, since they are not a multiple of 64 bytes */
     size_t done = 0;
     for (size_t made = 0; made < count;) {
         const size_t part = count - made < PART ? count - made : PART;

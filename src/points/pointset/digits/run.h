@@ -1,5 +1,5 @@
-/* Coordinates of consecutive points that are made part by part, so that pairs of them go past the caches
- * while the next ones are computed. */
+/* Coordinates of consecutive points, computed in parts, so that streaming stores of pairs overlap with the
+ * computation. */
 #pragma once
 
 #include "points/pointset/digits/digital_kernels.h"
@@ -7,17 +7,17 @@
 
 enum { AUR_RUN_TABLE = 1024, AUR_RUN_VALUES = 128 + AUR_RUN_SLACK };
 
-/* Radical inverses in an odd base: numerators of points over one denominator. The point whose lower digits
- * are `lower` has table[lower], and what its higher digits add all points share that have the same. */
+/* Radical inverses in an odd base: numerators of points over one denominator. The numerator of a point is
+ * table[lower] for its lower digits, plus a term that all points with the same higher digits share. */
 typedef struct aur_radical_run {
     uint64_t base, denominator;
     uint64_t index;
-    uint64_t span; /* a power of the base: how many sequences of lower digits there are */
-    size_t width;  /* how many of them the table holds: `span`, or the first ones of a large base */
+    uint64_t span; /* a power of the base: the number of sequences of lower digits */
+    size_t width;  /* the number of them in the table: `span`, or less for a large base */
     double table[AUR_RUN_TABLE];
 } aur_radical_run;
 
-/* Values of an ascent that are made and not taken. */
+/* Values of an ascent that are computed and not used yet. */
 typedef struct aur_ascending_run {
     aur_ascent ascent;
     size_t taken, made;
@@ -25,7 +25,7 @@ typedef struct aur_ascending_run {
 } aur_ascending_run;
 
 typedef struct aur_run {
-    /* The next `count` values: a multiple of AUR_DIGITAL_SLOTS where there are more to come. */
+    /* The next `count` values: a multiple of AUR_DIGITAL_SLOTS unless they are the last. */
     void (*next)(struct aur_run *run, size_t count, double *out);
     union {
         aur_multiples multiples;

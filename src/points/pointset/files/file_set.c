@@ -1,6 +1,5 @@
-/* A user's own points as a set: file:PATH, CSV or NPY, points of the square or the cube, and what
- * user_points.c has beside it. Sets have no
- * weights: a file with weights is refused. */
+/* A user's points as a set: file:PATH, CSV or NPY, points of the square or the cube, and the other sets of
+ * user_points.c. Sets have no weights: a file with weights is an error. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Comma separated numbers; spaces and tabs separate as well. Lines that are empty or begin with # are
- * skipped, and so is what follows a # in the header, but for the domain that such a comment gives. */
+ * skipped, and so is text after a # in the header, except for a comment that gives the domain. */
 #include <ctype.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ static char *skip_spaces(char *text) {
     return text;
 }
 
-/* Goes to the next field: over blanks and over one comma at most. */
+/* Advances to the next field, over blanks and at most one comma. */
 static char *skip_separator(char *text) {
     text = skip_spaces(text);
     return *text == ',' ? skip_spaces(text + 1) : text;
@@ -52,7 +52,7 @@ static size_t count_fields(char *text) {
     return count;
 }
 
-/* Keeps the names, in lower case and without spaces. */
+/* Stores the names in lower case and without spaces. */
 static aur_result read_header(reader *r, char *text) {
     char *const header = r->matrix->header;
     size_t used = 0;
@@ -91,7 +91,7 @@ static aur_result read_row(reader *r, char *text) {
     return AUR_OK;
 }
 
-/* A header is a first line that begins with a letter, but for the spellings of NaN and infinity. */
+/* A header is a first line that begins with a letter, except the spellings of NaN and infinity. */
 static bool is_header(const char *text) {
     double ignored;
     return aur_read_double(text, AUR_NUMBER_ANY, &ignored) == NULL &&

@@ -1,4 +1,4 @@
-/* What the columns of a file of points mean, and whether the points are on their domain. */
+/* The meaning of the columns of a file of points, and checks that the points are on their domain. */
 #include "points/pointset/files/points_file.h"
 
 #include <stdint.h>
@@ -13,7 +13,7 @@
 
 static const size_t file_limit = (size_t)1 << 34;
 
-/* u1,u2,..., and w after them where there are weights. */
+/* u1,u2,..., followed by w with weights. */
 static bool is_cube_header(const char *header, size_t columns) {
     const char *at = header;
     for (size_t c = 1; c <= columns; ++c) {
@@ -26,7 +26,7 @@ static bool is_cube_header(const char *header, size_t columns) {
     return *at == '\0' || strcmp(at, "w") == 0;
 }
 
-/* Domain, coordinates a point, and whether a column of weights follows them. */
+/* Domain, coordinates per point, and whether a column of weights follows them. */
 typedef struct meaning {
     aur_domain domain;
     size_t dimension;
@@ -41,7 +41,7 @@ static bool is_of_directions(aur_domain domain) {
     return domain == AUR_DOMAIN_HEMISPHERE || domain == AUR_DOMAIN_SPHERE || domain == AUR_DOMAIN_AXES;
 }
 
-/* `wanted` is where the points are asked for, or NULL: it decides between the two meanings of x,y. */
+/* `wanted` is the requested domain, or NULL: it decides between the two meanings of x,y. */
 static aur_result by_header(const char *path, const aur_matrix *matrix, const aur_domain *wanted, meaning *m,
                             aur_error *error) {
     char header[sizeof matrix->header];
@@ -81,7 +81,7 @@ static aur_result by_declaration(const char *path, const aur_matrix *matrix, mea
     const size_t columns = matrix->column_count;
     *m = (meaning){is_of_directions(matrix->domain) ? AUR_DOMAIN_SPHERE : matrix->domain,
                    columns - matrix->weighted, matrix->weighted};
-    /* Without the word for them, weights are one column too many. */
+    /* Without a name for weights they are one column too many. */
     const size_t dimension = dimensions[matrix->domain];
     if (!m->weights && dimension != 0 && columns == dimension + 1)
         *m = (meaning){m->domain, dimension, true};
@@ -92,9 +92,9 @@ static aur_result by_declaration(const char *path, const aur_matrix *matrix, mea
                        aur_domain_name(matrix->domain));
 }
 
-/* Without names: two columns are u,v, three unit vectors, four unit vectors with weights; any other number
- * are coordinates on the cube, and so are the three or four columns of an array that are no unit vectors.
- * Where rotations are asked for four columns are quaternions, and a fifth their weights. */
+/* Without names two columns are u,v, three are unit vectors, four are unit vectors with weights. Any other
+ * number are coordinates on the cube, and so are three or four columns of an array that are not unit vectors.
+ * If rotations are requested, four columns are quaternions, and a fifth has their weights. */
 static void by_columns(const aur_matrix *matrix, const aur_domain *wanted, meaning *m) {
     const size_t columns = matrix->column_count;
     *m = (meaning){AUR_DOMAIN_CUBE, columns, false};
@@ -127,7 +127,7 @@ static bool are_unit(const aur_matrix *matrix, bool columns) {
     return some;
 }
 
-/* FSL's bvecs have a direction a column. */
+/* FSL's bvecs have one direction per column. */
 static aur_result refuse_columns(const char *path, const aur_matrix *matrix, aur_error *error) {
     if (matrix->row_count != 3 || !are_unit(matrix, true) || are_unit(matrix, false))
         return AUR_OK;
@@ -136,7 +136,7 @@ static aur_result refuse_columns(const char *path, const aur_matrix *matrix, aur
                        "(numpy.loadtxt(PATH).T), without columns of zeros");
 }
 
-/* What is wrong with a point, or NULL. */
+/* The error of a point, or NULL. */
 static const char *off_domain(const meaning *m, const double *row) {
     if (m->domain == AUR_DOMAIN_SPHERE)
         return aur_is_unit(row)            ? NULL
@@ -157,7 +157,7 @@ static const char *off_domain(const meaning *m, const double *row) {
     return NULL;
 }
 
-/* Whether points of the file's domain can stand on the one that is asked for. */
+/* Whether points of the file's domain are valid on the requested one. */
 static aur_result check_domain(const char *path, const aur_matrix *matrix, const meaning *m,
                                aur_domain wanted, aur_error *error) {
     if (m->domain == wanted || (m->domain == AUR_DOMAIN_SPHERE && is_of_directions(wanted)) ||
@@ -171,12 +171,12 @@ static aur_result check_domain(const char *path, const aur_matrix *matrix, const
         is_flat(m->domain) ? ": to map them there, name them file:" : "", is_flat(m->domain) ? path : "");
 }
 
-/* The domain that is asked for, else the one that is declared, or NULL. */
+/* The requested domain, else the declared one, or NULL. */
 static const aur_domain *known_domain(const aur_matrix *matrix, const aur_domain *wanted) {
     return wanted == NULL && matrix->declared ? &matrix->domain : wanted;
 }
 
-/* Whether a comment and the columns contradict each other. */
+/* Checks that a comment and the columns agree. */
 static bool contradicts(const aur_matrix *matrix, const meaning *m) {
     return matrix->declared && matrix->domain != m->domain &&
            !(is_flat(matrix->domain) && is_flat(m->domain)) &&
@@ -263,7 +263,7 @@ static const char *foreign_format(size_t size, const char *data) {
     return NULL;
 }
 
-/* `data`, which is changed, ends with a zero behind its `size` bytes. */
+/* `data`, which is modified, is followed by a zero byte. */
 static aur_result parse_points(const char *name, size_t size, char *data, const aur_domain *wanted,
                                aur_points **points, aur_error *error) {
     const char *const foreign = foreign_format(size, data);

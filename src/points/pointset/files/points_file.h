@@ -1,4 +1,4 @@
-/* A file of points as a matrix of numbers, before anyone has said what its columns mean. */
+/* A file of points as a matrix of numbers, before its columns are interpreted. */
 #pragma once
 
 #include <aureole/pointset.h>
@@ -13,17 +13,18 @@ typedef struct aur_matrix {
     char header[256]; /* column names with commas between them; empty when there are none */
     bool declared;    /* a comment gives the domain: */
     aur_domain domain;
-    bool weighted; /* declared without names of columns: the last one has weights */
+    bool weighted; /* declared without names of columns: the last column has weights */
 } aur_matrix;
 
-/* What the rows mean, as in aur_points_read; takes `lines`. Errors: FORMAT, UNSUPPORTED, MEMORY. */
+/* Interprets the rows as aur_points_read does; takes ownership of `lines`. Errors: FORMAT, UNSUPPORTED,
+ * MEMORY. */
 aur_result aur_points_interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
                                 aur_points **points, aur_error *error);
 
-/* Takes up a comment "domain: NAME", or "domain: NAME; weights"; others say nothing. */
+/* Reads a comment "domain: NAME", or "domain: NAME; weights"; other comments are ignored. */
 void aur_matrix_read_comment(aur_matrix *matrix, const char *text);
 
-/* `text` is changed and ends with a zero byte. `path` is for messages. */
+/* `text` is modified and ends with a zero byte. `path` is for messages. */
 AUR_INTERNAL aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix,
                                       aur_error *error);
 AUR_INTERNAL aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_matrix *matrix,

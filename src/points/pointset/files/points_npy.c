@@ -12,7 +12,7 @@
 enum { HEADER_CAPACITY = 4096 };
 
 typedef struct npy_layout {
-    size_t width; /* bytes a number */
+    size_t width; /* bytes per number */
     bool big_endian;
     bool fortran_order;
 } npy_layout;

@@ -107,7 +107,7 @@ static void write_json(const aur_points_view *points, const aur_points_origin *o
     aur_json_close(&json, '}');
 }
 
-/* NPY and PLY files say that their numbers are little-endian, whatever the machine is. */
+/* NPY and PLY files are little-endian on every machine. */
 static void write_little(size_t bytes, const void *value, FILE *stream) {
     unsigned char bytes_of[sizeof(double)];
     memcpy(bytes_of, value, bytes);
@@ -119,7 +119,7 @@ static void write_little(size_t bytes, const void *value, FILE *stream) {
     fwrite(bytes_of, bytes, 1, stream);
 }
 
-/* `cut`: numbers in [0, 1) stay there. */
+/* `cut`: truncate, so that numbers in [0, 1) stay below 1. */
 static void write_numbers(const double *values, size_t count, bool single, bool cut, FILE *stream) {
     for (size_t i = 0; i < count && !single; ++i)
         write_little(sizeof values[i], &values[i], stream);
@@ -131,7 +131,7 @@ static void write_numbers(const double *values, size_t count, bool single, bool 
     }
 }
 
-/* Each point's coordinates, `padding` zeros, and its weight where there are weights. */
+/* Each point's coordinates, `padding` zeros, and its weight, if any. */
 static void write_binary_rows(const aur_points_view *points, size_t padding, bool single, FILE *stream) {
     static const double zeros[3] = {0.0};
     const bool cut = points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE;
@@ -144,11 +144,11 @@ static void write_binary_rows(const aur_points_view *points, size_t padding, boo
 }
 
 /* NumPy's format, version 1.0, whose header is a Python literal and may end in a comment: an array of float64
- * (or float32) with a row a point, whose last column is the weight where there are weights. */
+ * (or float32) with one row per point; the last column is the weight, if any. */
 static void write_npy(const aur_points_view *points, bool single, FILE *stream) {
     char header[118];
     const size_t columns = points->dimension + (points->weights != NULL);
-    /* What a GGX lobe hides lies below the hemisphere. */
+    /* Hidden samples of a GGX lobe are below the hemisphere. */
     const bool below = points->domain == AUR_DOMAIN_HEMISPHERE && !aur_points_are_above(points);
     const aur_domain domain = below ? AUR_DOMAIN_SPHERE : points->domain;
     const int length = snprintf(
@@ -173,7 +173,7 @@ static void write_ply_comment(const char *name, const char *text, FILE *stream) 
 }
 
 /* Binary little-endian vertices x,y,z (0 where there is no such coordinate), with a property `quality` for
- * the weight, which is where mesh viewers look for a scalar. */
+ * the weight, which mesh viewers show as a scalar. */
 static aur_result write_ply(const aur_points_view *points, const aur_points_origin *origin, bool single,
                             FILE *stream, aur_error *error) {
     if (points->dimension > 3)

@@ -16,8 +16,8 @@ bool aur_set_is_user(const char *set) {
            strncmp(set, callback_prefix, sizeof callback_prefix - 1) == 0;
 }
 
-/* --- registered functions: names are what scenes, integrators and experiments take, so that the table is of
- * the process */
+/* --- registered functions: scenes, integrators and experiments refer to them by name, so the table is global
+ * to the process */
 
 static pthread_mutex_t table_lock = PTHREAD_MUTEX_INITIALIZER;
 static aur_set_callback *table;
@@ -36,7 +36,7 @@ static size_t find(const char *name) {
     return index;
 }
 
-/* Under the lock. */
+/* Call it with the lock held. */
 static aur_result replace(const aur_set_callback *callback, aur_error *error) {
     const size_t index = find(callback->name);
     if (callback->generate == NULL) {
@@ -84,7 +84,7 @@ static size_t coordinates_of(aur_domain domain, size_t asked) {
     return dimensions[domain] != 0 ? dimensions[domain] : asked != 0 ? asked : 2;
 }
 
-/* Calls the function, and makes rows of points and weights of what it writes. */
+/* Calls the function, and copies its points and weights into rows. */
 static aur_result call(const aur_set_callback *callback, const aur_user_request *request, aur_matrix *matrix,
                        aur_error *error) {
     aur_error unseen = {0};

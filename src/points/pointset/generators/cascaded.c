@@ -1,8 +1,7 @@
-/* Cascaded Sobol' points (Paulin, Coeurjolly, Iehl, Bonneel, Keller, Ostromoukhov 2021): the coordinate
- * before, cut to the digits of the number of points, is the index of the next one in Sobol's sequence, so
- * that each coordinate with its neighbour is a (0,m,2)-net. All coordinates are digital: their matrices are
- * products. The direction numbers are those of Joe and Kuo 2008, not the paper's. Points of another size are
- * others. */
+/* Cascaded Sobol' points (Paulin, Coeurjolly, Iehl, Bonneel, Keller, Ostromoukhov 2021): each coordinate,
+ * truncated to the digits of the number of points, is the index of the next one in Sobol's sequence, so that
+ * consecutive coordinates are a (0,m,2)-net. All coordinates are digital: their matrices are products. The
+ * direction numbers are those of Joe and Kuo 2008, not the paper's. Sets of different sizes are different. */
 #include <stdlib.h>
 
 #include "points/base/error.h"

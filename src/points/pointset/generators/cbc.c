@@ -1,5 +1,5 @@
-/* Rank-1 lattices whose vector is found for functions with square integrable mixed second derivatives that
- * are periodic, in a space with product weights: the squared worst-case error is the mean over the points of
+/* Rank-1 lattices whose vector is optimised for periodic functions with square integrable mixed second
+ * derivatives, in a space with product weights: the squared worst-case error is the mean over the points of
  * the products of 1 + g_d w(x_d), less 1, with w(x) = 2 pi^2 (x^2 - x + 1/6) and g_d the dimension to the
  * power of -decay. cbc takes component after component (Sloan and Reztsov 2002): sizes of a power of two by
  * Fourier transforms in O(dimension N log N) (Nuyens and Cools 2006), others in O(dimension N^2). korobov
@@ -33,15 +33,15 @@ static double kernel(uint64_t k, uint64_t n) {
     return 2.0 * AUR_PI * AUR_PI * (x * x - x + 1.0 / 6.0);
 }
 
-/* Rounding decides between vectors that are mirror images: the smallest component of those as good. */
+/* Mirror images differ only by rounding: take the smallest of the equally good components. */
 static bool is_better(double sum, double best, uint64_t n) {
     return sum < best - 1e-15 * (double)n;
 }
 
 /* --- sizes of a power of two */
 
-/* The points k = 2^i odd, whose products are one sequence over the powers of 5 modulo size = N / 2^i, as both
- * signs give the same: multiplying by 5^b turns it. */
+/* The points k = 2^i times an odd number. Their products are a sequence over the powers of 5 modulo size = N
+ * / 2^i, since both signs are equal: multiplication by 5^b rotates it. */
 typedef struct level {
     size_t size, length; /* length: size / 4 */
     double *kernel, *product;
@@ -53,7 +53,7 @@ typedef struct search {
     uint64_t size;
     size_t levels;
     level of[LEVELS];
-    double *re, *im, *work, *sums; /* of the longest */
+    double *re, *im, *work, *sums; /* for the longest level */
     double *storage;
 } search;
 
@@ -110,7 +110,7 @@ static void correlate(search *s, const level *l) {
         s->sums[b] += scale * s->re[b % length];
 }
 
-/* The component that makes the sum least, as a power of 5; the first one is 1. */
+/* The component that minimises the sum, as a power of 5; the first component is 1. */
 static size_t choose(search *s, bool first) {
     if (first)
         return 0;
@@ -190,7 +190,7 @@ static double korobov_error(uint64_t size, size_t dimension, const double *weigh
     return sum / (double)size;
 }
 
-/* The best of some multipliers, spread evenly: as many as take about a second. */
+/* The best of evenly spaced multipliers, limited to about a second of work. */
 static uint64_t choose_multiplier(uint64_t size, size_t dimension, double decay) {
     const double work = (double)size * (double)dimension;
     const uint64_t tries = (uint64_t)fmax(16.0, fmin((double)size / 2.0, 0x1p27 / work));
@@ -221,7 +221,7 @@ typedef struct lattice_keys {
     uint64_t multiplier;
 } lattice_keys;
 
-/* The first two are of both sets. */
+/* The first two keys are those of both sets. */
 static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(lattice_keys, "decay", decay, 0.0, 16.0, "2", "the weight of dimension d is d^-decay")},
     {AUR_KEY_OF_BOOLEAN(lattice_keys, "baker", baker, "false",

@@ -1,10 +1,10 @@
 /* Faure 1982: the generator matrix of coordinate d is Pascal's triangle to the power d modulo a prime base
  * that is at least the dimension; every aligned run of base^m points is a (0,m,s)-net. With
  * scramble=lower-triangular each matrix is multiplied from the left by a random nonsingular lower-triangular
- * one (Matousek 1998, "random linear scrambling"), drawn from the seed: the points stay such a net and lose
- * their alignment, without which large bases are worse than random points. Random access, n up to 2^48 and up
- * to base^digits where a double ends. n that is not a power of the base leaves the net incomplete: a warning.
- * Error O(log^d N / N). */
+ * one (Matousek 1998, "random linear scrambling"), drawn from the seed: the points are still such a net but
+ * lose their alignment, with which large bases are worse than random points. Random access, n up to 2^48 and
+ * up to base^digits of a double's precision. n that is not a power of the base leaves the net incomplete: a
+ * warning. Error O(log^d N / N). */
 #include <stdlib.h>
 #include <string.h>
 

@@ -19,7 +19,7 @@ static inline uint64_t aur_golden_start(double s) {
 }
 
 /* The step from the index of one value of G_s(0..count-1) to that of the next larger one: add `increment`
- * below `decrement`, else subtract `decrement`; an index beyond the set is skipped by stepping again (eq. 7).
+ * below `decrement`, else subtract `decrement`; an index beyond the set is skipped by another step (eq. 7).
  */
 typedef struct aur_golden_order {
     uint64_t count, increment, decrement;
@@ -39,7 +39,7 @@ static inline uint64_t aur_golden_next(const aur_golden_order *order, uint64_t i
 
 typedef struct aur_recurrence {
     uint64_t start;          /* in units of 2^-64 */
-    aur_fraction128 steps[]; /* one a dimension */
+    aur_fraction128 steps[]; /* one per dimension */
 } aur_recurrence;
 
 /* Rank-1 lattices and the golden-ratio limit of Fibonacci ones. */

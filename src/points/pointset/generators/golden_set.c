@@ -1,8 +1,7 @@
-/* Golden point sets (Schretter 2012, sec. 3 and appendix): the golden ratio sequence beside the same sequence
- * in ascending order, found without sorting. One coordinate is looked up, so the ordered one is made ready in
- * a table of N indices; n up to 2^32. form=one-seed: (G_s(i), sorted G_s) for i = 1..N; form=two-seeds:
- * (sorted G_s, G_r(i)) as in the appendix, r drawn from the options' seed. Error about O(log N / N)
- * (measured). */
+/* Golden point sets (Schretter 2012, sec. 3 and appendix): the golden ratio sequence paired with the same
+ * sequence in ascending order, without sorting. The ordered coordinate is prepared in a table of N indices; n
+ * up to 2^32. form=one-seed: (G_s(i), sorted G_s) for i = 1..N; form=two-seeds: (sorted G_s, G_r(i)) as in
+ * the appendix, r drawn from the options' seed. Error about O(log N / N) (measured). */
 #include <stdlib.h>
 
 #include "points/pointset/digits/run.h"
@@ -18,8 +17,8 @@ typedef struct golden_set {
 } golden_set;
 
 /* The index of the smallest value of G_s(0..count-1), by the records on the way to it: the next smaller value
- * after a record is as many indices on as the first number whose multiple of the golden ratio lies below the
- * next whole number by no more than the record. Numbers that come nearer to it than all before are the
+ * after a record is n indices later, where n is the first number whose multiple of the golden ratio is below
+ * the next integer by no more than the record. Numbers n with smaller differences than all before are the
  * Fibonacci numbers of every other rank (1/Phi is above 1/2, so 1, 3, 8, ...). */
 static uint64_t smallest_of(uint64_t seed_word, uint64_t count) {
     uint64_t index = 0;

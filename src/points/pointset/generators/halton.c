@@ -1,7 +1,7 @@
 /* van der Corput 1935: the radical inverse in base 2, one dimension, equally spaced when n is a power of two.
  * Halton 1960: coordinate d of point i is the radical inverse of i in the d-th prime base. Hammersley 1960:
  * the first coordinate is i/N and the others are Halton's. Random access, up to 6542 dimensions (primes below
- * 2^16), n below 2^48; any n is as good as another. Error O(log^d N / N), log^(d-1) for Hammersley. In many
+ * 2^16), n below 2^48; there are no preferred sizes. Error O(log^d N / N), log^(d-1) for Hammersley. In many
  * dimensions neighbouring large bases are correlated unless digits are permuted. */
 #include <stdlib.h>
 
@@ -21,7 +21,7 @@ static const aur_key keys[] = {
                        "random")},
 };
 
-/* Of both sets: hammersley has no keys. */
+/* Of both sets; hammersley has no keys. */
 static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     halton_keys p = {PERMUTE_NONE};
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
@@ -41,7 +41,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
     return AUR_OK;
 }
 
-/* The prime of a dimension, found when the set has none ready. */
+/* The prime of a dimension, computed if the set has no table. */
 static uint32_t prime_of(const halton *data, size_t dimension) {
     if (data != NULL)
         return data->primes[dimension];

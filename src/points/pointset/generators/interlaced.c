@@ -1,12 +1,12 @@
-/* Digital nets of order 2 and 3 (Dick 2008, 2011): a coordinate takes its binary digits in turn from 2 or 3
- * coordinates of Sobol's sequence, one of each at a time. Error O(log^.. N / N^order) for functions with as
- * many square integrable mixed derivatives, in the mean over OWEN, which scrambles the coordinates before,
- * N^-1/2 less. Random access, n up to 2^53. */
+/* Digital nets of order 2 and 3 (Dick 2008, 2011): the binary digits of a coordinate are interleaved from 2
+ * or 3 coordinates of Sobol's sequence. Error O(log^.. N / N^order) for functions with as many square
+ * integrable mixed derivatives; the RMS error over OWEN, which scrambles the coordinates before interleaving,
+ * is smaller by N^-1/2. Random access, n up to 2^53. */
 #include <stdlib.h>
 
 #include "points/pointset/digits/digital.h"
 
-enum { BYTES = 4, VALUES = 256 }; /* of a component's first digits, all that a double takes */
+enum { BYTES = 4, VALUES = 256 }; /* of a component's first digits, as many as fit a double */
 
 /* The matrices of all components follow. */
 typedef struct interlaced {

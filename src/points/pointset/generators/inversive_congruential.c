@@ -1,5 +1,5 @@
 /* The inversive congruential generator of Eichenauer and Lehn 1986, x <- 9102 / x + 36884165 modulo 2^31 - 1
- * with 1/0 = 0, consumed point by point: value i d + c makes coordinate c of point i. Its period is the full
+ * with 1/0 = 0, consumed point by point: value i d + c gives coordinate c of point i. Its period is the full
  * 2^31 - 1, so n d is at most that. Seed 0 starts at x = 0. Error N^-1/2.
  *
  * Random access: the step is the map (b x + a) / x of the projective line, where 0 goes to infinity and
@@ -44,7 +44,7 @@ static matrix power_of_step(uint64_t exponent) {
     return result;
 }
 
-/* Value k of the stream that starts at 0, by jumping: infinity stands between the values 0 and 1. */
+/* Value k of the stream that starts at 0, by jumping: infinity is between the values 0 and 1. */
 static uint64_t value_at(uint64_t k) {
     k %= modulus;
     if (k == 0)
@@ -80,7 +80,7 @@ static void go_on(run *r) {
     const bool leaves_zero = r->k == 0;
     r->k += r->stride;
     if (leaves_zero || r->k >= modulus) {
-        /* The generator has no infinity: the run goes on behind it. */
+        /* The generator has no infinity: the run continues after it. */
         r->k %= modulus;
         r->p = value_at(r->k);
         r->q = 1;

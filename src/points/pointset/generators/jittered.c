@@ -1,6 +1,6 @@
 /* One random point in each of N cells of equal area (Cook 1986): the square is cut into floor(sqrt N) columns
- * and each column into floor or ceil(N / columns) cells; a column is as wide as its share of the cells.
- * Random access, N up to 2^40. Error O(N^-1) for smooth functions, O(N^-3/4) across an edge. */
+ * and each column into floor or ceil(N / columns) cells; the width of a column is proportional to its number
+ * of cells. Random access, N up to 2^40. Error O(N^-1) for smooth functions, O(N^-3/4) across an edge. */
 #include <math.h>
 
 #include "points/pointset/set.h"

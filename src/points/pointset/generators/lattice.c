@@ -10,7 +10,7 @@
 
 #include "points/pointset/generators/lattice.h"
 
-/* False for coordinates with an offset, which are no fractions of whole numbers. */
+/* False for coordinates with an offset, which are not fractions of integers. */
 static bool make_run(const aur_pointset *set, size_t dimension, uint64_t first, aur_run *run) {
     const aur_lattice *const data = set->data;
     if (dimension == 0 && data->offset > 0.0)

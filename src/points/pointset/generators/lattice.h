@@ -1,4 +1,4 @@
-/* What rank-1 lattices share: coordinate d of point i is i g_d / N modulo 1. */
+/* Common code of rank-1 lattices: coordinate d of point i is i g_d / N modulo 1. */
 #pragma once
 
 #include "points/pointset/digits/run.h"

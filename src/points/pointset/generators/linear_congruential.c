@@ -1,5 +1,5 @@
 /* The minimal standard generator, x <- 16807 x modulo 2^31 - 1 (Park and Miller 1988), consumed point by
- * point: value i d + c makes coordinate c of point i. Random access by modular powers; n d at most the period
+ * point: value i d + c gives coordinate c of point i. Random access by modular powers; n d at most the period
  * 2^31 - 2. Seed 0 starts at x = 1, so that the stream begins 16807, 282475249, ... Error N^-1/2. */
 #include "points/pointset/set.h"
 

@@ -1,10 +1,10 @@
-/* A digital sequence from the user's own generator matrices.
+/* A digital sequence from the user's generator matrices.
  *
  * The file is text. Lines that are empty or begin with # separate matrices. A first line "base B" with a
  * prime B sets the base, otherwise it is 2. Each matrix is some lines of digits 0..B-1 with spaces between
- * them (in base 2 to 10 the spaces may be left out): the first line makes the coarsest digit of the
- * coordinate, the first column meets the lowest digit of the index. All matrices have the same shape, at most
- * 64 x 64; a set has as many dimensions as matrices and at most B^columns points. Random access. */
+ * them (in base 2 to 10 the spaces may be left out): the first line gives the most significant digit of the
+ * coordinate, the first column belongs to the lowest digit of the index. All matrices have the same shape, at
+ * most 64 x 64; a set has as many dimensions as matrices and at most B^columns points. Random access. */
 #include <ctype.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -23,9 +23,9 @@ typedef struct reader {
     aur_error *error;
     uint32_t base;
     size_t row_count, column_count, matrix_count;
-    size_t row; /* of the matrix that is being read */
+    size_t row; /* of the current matrix */
     size_t digit_count, capacity;
-    uint16_t *digits; /* as they stand in the file: row by row */
+    uint16_t *digits; /* as in the file: row by row */
 } reader;
 
 static aur_result fail(const reader *r, const char *what, uint64_t number) {
@@ -117,7 +117,7 @@ static aur_result read_lines(reader *r, char *text, size_t size) {
     return result;
 }
 
-/* Digits beyond what a double holds are left out. */
+/* Digits beyond the precision of a double are dropped. */
 static aur_result make_rule(aur_pointset *set, const reader *r) {
     if (set->dimension > r->matrix_count)
         return aur_fail_at(r->error, (aur_location){.file = r->path}, AUR_ERROR_ARGUMENT,

@@ -1,4 +1,4 @@
-/* Niederreiter 1988 in base 2 (Bratley, Fox and Niederreiter 1992): row j of coordinate d's matrix holds the
+/* Niederreiter 1988 in base 2 (Bratley, Fox and Niederreiter 1992): row j of coordinate d's matrix has the
  * Laurent coefficients of x^u / p(x)^(q + 1), where p is the d-th irreducible polynomial over GF(2), e its
  * degree and j = q e + u. A (t,s)-sequence with t the sum of e - 1; the first two coordinates are Sobol's.
  * Random access, n up to 2^53, up to 1024 dimensions. n that is not a power of two leaves a net incomplete: a

@@ -1,9 +1,9 @@
-/* Progressive multi-jittered (0,2) sequences (Christensen, Kensler, Kilpatrick 2018): random points of which
- * the first 2^m, for every m, have one in each elementary interval of area 2^-m. Each pass doubles the
- * points: the new one of a cell goes into the quarter opposite to the old one's (from 4^k to 2 4^k), then
- * into the two that are left. Free intervals are found digit by digit (Pharr 2019), not by trials. A table of
- * 2^16 points at most, the same whatever the size. Error N^-3/2 for smooth functions, N^-3/4 across an edge.
- */
+/* Progressive multi-jittered (0,2) sequences (Christensen, Kensler, Kilpatrick 2018): random points; for
+ * every m each elementary interval of area 2^-m contains one of the first 2^m points. Each pass doubles the
+ * points: the new point of a cell goes into the quarter opposite to the old one (from 4^k to 2 4^k), then
+ * into the two remaining quarters. Free intervals are found digit by digit (Pharr 2019), not by rejection. A
+ * table of 2^16 points at most, the same whatever the size. Error N^-3/2 for smooth functions, N^-3/4 across
+ * an edge. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@
 
 enum { LARGEST_LOG = 16, ATTEMPTS = 64 };
 
-/* A pass makes 2^digits points; a flag an elementary interval, shape b has 2^b rows. */
+/* A pass gives 2^digits points. One flag per elementary interval; shape b has 2^b rows. */
 typedef struct pass {
     unsigned digits;
     uint64_t seed, draws;
@@ -67,7 +67,7 @@ static bool place(pass *p, unsigned cell, uint32_t corner_x, uint32_t corner_y, 
     return false;
 }
 
-/* Digits that do not matter for this pass yet are random, below those that do. */
+/* Random digits below those determined by this pass. */
 static void settle(pass *p, size_t first, size_t last) {
     const uint32_t low = (UINT32_C(1) << (LARGEST_LOG - p->digits)) - 1;
     for (size_t i = first; i < last; ++i) {
@@ -76,7 +76,7 @@ static void settle(pass *p, size_t first, size_t last) {
     }
 }
 
-/* From half as many points to 2^digits. False: the choices made leave no room, and others must be. */
+/* Doubles the points to 2^digits. False: earlier choices left no free interval, and must be repeated. */
 static bool double_points(pass *p) {
     const size_t half = (size_t)1 << (p->digits - 1);
     const bool diagonal = p->digits % 2 != 0; /* half is a power of 4 */
@@ -95,8 +95,7 @@ static bool double_points(pass *p) {
                 return false;
             continue;
         }
-        /* The two quarters that are left, in random order; where one leaves no room for the other, the other
-         * way round. */
+        /* The two remaining quarters in random order; if that leaves no room, in the other order. */
         const bool swap = (draw(p) & 1u) != 0;
         if (!place(p, cell, x ^ (swap ? bit : 0), y ^ (swap ? 0 : bit), half + i) ||
             !place(p, cell, x ^ (swap ? 0 : bit), y ^ (swap ? bit : 0), half + cells + i))

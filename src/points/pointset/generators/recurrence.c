@@ -1,7 +1,7 @@
 /* Additive recurrences, random access, any n, exact to a double for every i.
  *
  * golden (Schretter 2012, eq. 4): G_s(i) = s + i/Phi modulo 1 for i = 1, 2, ..., so that point k is G_s(k +
- * 1); one dimension. Any prefix is evenly spread. Error O(log N / N).
+ * 1); one dimension. Every prefix is uniform. Error O(log N / N).
  *
  * r2 (Roberts 2018): coordinate d of point i is 1/2 + i t^(d+1) modulo 1, where 1/t is the root above 1 of
  * x^(s+1) = x + 1 in s dimensions: the golden ratio for s = 1, the plastic number for s = 2. Error
@@ -13,7 +13,7 @@
 #include "points/pointset/generators/golden.h"
 #include "points/pointset/set.h"
 
-/* The upper 128 bits of the product of two 128-bit fractions, cut; at most a few units too small. */
+/* The upper 128 bits of the product of two 128-bit fractions, truncated; at most a few units too small. */
 static aur_wide multiply(aur_wide a, aur_wide b) {
     const aur_wide a_high = a >> 64, a_low = (uint64_t)a;
     const aur_wide b_high = b >> 64, b_low = (uint64_t)b;
@@ -30,7 +30,7 @@ static aur_wide root(size_t dimension) {
         for (size_t k = 1; k < dimension; ++k)
             power = multiply(power, candidate);
         const aur_wide sum = power + multiply(power, candidate);
-        if (sum >= power) /* else the sum went past 1 */
+        if (sum >= power) /* else the sum exceeded 1 */
             t = candidate;
     }
     return t;

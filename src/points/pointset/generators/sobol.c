@@ -7,8 +7,8 @@
 
 enum { DIMENSIONS = AUR_SOBOL_DIMENSIONS, DEGREE_MAX = 18, LETTERS = 32 };
 
-/* Of each dimension after the first its degree and the bits of its polynomial and numbers, as the table's
- * head says. */
+/* For each dimension after the first: its degree and the bits of its polynomial and numbers, in the format
+ * described in the table's header. */
 static const char packed[DIMENSIONS - 1][LETTERS] = {
 #include "data/sobol.inc"
 };
@@ -27,7 +27,7 @@ static unsigned value_of(char letter) {
                            : (unsigned)(letter - 'a') + 26u;
 }
 
-/* The next bits of a row, from bit *at on. */
+/* Reads the next bits of a row, from bit *at on. */
 static uint32_t take_bits(const char *letters, unsigned count, unsigned *at) {
     uint32_t bits = 0;
     for (unsigned k = 0; k < count; ++k, ++*at)
@@ -64,7 +64,8 @@ void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
     }
 }
 
-/* Nested uniform scrambling of an index whose lowest bit counts last: blocks of 2^m go to blocks of 2^m. */
+/* Nested uniform scrambling of an index, with its lowest bit as the last digit: blocks of 2^m are mapped to
+ * blocks of 2^m. */
 static uint64_t shuffle_index(uint64_t index, uint64_t key) {
     uint64_t x = aur_reverse64(index);
     x ^= x * UINT64_C(0xa24baed4963ee406);

@@ -1,9 +1,9 @@
-/* Blue noise by capacity-constrained Voronoi tessellation (Balzer, Schloemer, Deussen 2009), periodic: every
- * site owns the same share of the square and lies near the middle of it. The paper shares out points of a
- * fine uniform set and swaps them between sites while that shortens the sum of squared distances; this is the
- * limit of infinitely many such points, where the shares are the cells of a power diagram. As many rounds as
- * leave the sites as regular as the paper's: less than those of bnot. A table: n up to 2^20. Error about
- * N^-3/4 and lower for smooth functions; no alignments. */
+/* Blue noise by capacity-constrained Voronoi tessellation (Balzer, Schloemer, Deussen 2009), periodic: each
+ * site has an equal part of the area and is near its centre. The paper distributes points of a fine uniform
+ * set to the sites and swaps them while that reduces the sum of squared distances; this is the limit of
+ * infinitely many such points, where the parts are the cells of a power diagram. The number of rounds makes
+ * the sites as regular as in the paper: less than in bnot. A table: n up to 2^20. Error about N^-3/4 and
+ * lower for smooth functions; no alignments. */
 #include "points/pointset/relax/relaxation.h"
 
 enum { VERSION = 2, ROUNDS = 8 };

@@ -1,7 +1,7 @@
-/* Blue noise through optimal transport (de Goes, Breeden, Ostromoukhov, Desbrun 2012), periodic: points in
- * the middles of cells of equal area. The number of rounds is fixed and small: a full descent ends in
- * crystals, whose patches the paper breaks up by jitter. A table: n up to 2^20. Error about N^-3/4 and lower
- * for smooth functions; no alignments. */
+/* Blue noise through optimal transport (de Goes, Breeden, Ostromoukhov, Desbrun 2012), periodic: points at
+ * the centres of cells of equal area. The number of rounds is fixed and small: a full minimisation ends in
+ * crystalline patches, which the paper breaks up by jitter. A table: n up to 2^20. Error about N^-3/4 and
+ * lower for smooth functions; no alignments. */
 #include "points/pointset/relax/relaxation.h"
 
 enum { VERSION = 2, ROUNDS = 30 };

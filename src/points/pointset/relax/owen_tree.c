@@ -1,8 +1,8 @@
-/* Owen's scrambling of Sobol's first two coordinates whose flips are chosen, not drawn, so that points keep
- * their distances (after Perrier, Coeurjolly, Xie, Pharr, Hanrahan, Ostromoukhov 2018, who choose them for
- * tiles that repeat; here for the set as a whole): every power of 2 of the first points stays a (0,m,2)-net.
- * From random flips, each node of both trees is turned over where that lowers the sum over pairs of
- * (1 - distance^2 / radius^2)^3, on the torus. A table: n up to 2^11, O(n^2 log n) a pass. */
+/* Owen scrambling of Sobol's first two coordinates with optimised instead of random flips, which increase the
+ * distances of points (after Perrier, Coeurjolly, Xie, Pharr, Hanrahan, Ostromoukhov 2018, who choose them
+ * for tiles that repeat; here for the whole set): the first 2^m points are still a (0,m,2)-net for every m.
+ * From random flips, each node of both trees is flipped if that lowers the sum over pairs of (1 - distance^2
+ * / radius^2)^3, on the torus. A table: n up to 2^11, O(n^2 log n) per pass. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,7 @@ typedef struct tree_search {
     uint32_t *order;
 } tree_search;
 
-/* The energy of some points with all others and among each other. */
+/* The energy of a range of points with all others and among each other. */
 static double energy(const tree_search *s, size_t count, const uint32_t *points) {
     const double scale = 1.0 / s->radius_square;
     double sum = 0.0;
@@ -40,7 +40,7 @@ static double energy(const tree_search *s, size_t count, const uint32_t *points)
     return sum;
 }
 
-/* Turns the halves of a node over. */
+/* Swaps the halves of a node. */
 static void flip(const tree_search *s, size_t d, unsigned level, size_t count, const uint32_t *points) {
     for (size_t k = 0; k < count; ++k) {
         s->word[d][points[k]] ^= UINT64_C(1) << (63 - level);
@@ -53,7 +53,7 @@ static int by_word(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Points in the order of a coordinate: those below a node are one run. */
+/* Points sorted by a coordinate: those below a node are contiguous. */
 static bool sort_points(const tree_search *s, size_t d) {
     uint64_t(*const pairs)[2] = malloc(s->count * sizeof *pairs);
     for (size_t i = 0; i < s->count && pairs != NULL; ++i) {

@@ -8,7 +8,7 @@
 enum {
     VERTICES = 64,
     BATCH = 64,
-    WARM_COUNT = 64 /* of so many sites none meets two images of another */
+    WARM_COUNT = 64 /* with so many sites no cell meets two images of another site */
 };
 
 /* A convex polygon about the origin; edge k goes from vertex k to the next one. */
@@ -36,7 +36,7 @@ static aur_point2 crossing(aur_point2 a, aur_point2 b, double side_a, double sid
     return (aur_point2){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
-/* Keeps the part where x.normal <= offset. */
+/* Clips to the part where x.normal <= offset. */
 static void clip(polygon *p, aur_point2 normal, double offset, uint32_t neighbour, double distance) {
     double sides[VERTICES];
     bool cut = false;
@@ -126,7 +126,7 @@ static bool is_known(size_t known_count, const uint32_t *known, uint32_t other, 
     return false;
 }
 
-/* By all images of the sites of one cell of the grid, which may lie outside the torus' one copy. */
+/* Clips by all images of the sites of one grid cell, which may be outside the fundamental square. */
 static void clip_by_cell(const aur_power_diagram *d, size_t site, ptrdiff_t column, ptrdiff_t row,
                          size_t known_count, const uint32_t *known, polygon *p) {
     const ptrdiff_t side = (ptrdiff_t)d->grid.side;
@@ -145,7 +145,7 @@ static void clip_by_cell(const aur_power_diagram *d, size_t site, ptrdiff_t colu
 static void compute_cell(const search *s, size_t site) {
     const aur_power_diagram *const d = s->diagram;
     aur_power_cell *const cell = &d->cells[site];
-    /* Images of the site itself cut the cell to the unit square at most; begin with more than that. */
+    /* Images of the site itself cut the cell to the unit square at most; start with a larger cell. */
     polygon p = {.count = 4,
                  .reach = 2.0,
                  .vertices = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}},
@@ -164,8 +164,7 @@ static void compute_cell(const search *s, size_t site) {
     const ptrdiff_t row = (ptrdiff_t)(d->sites[site].y * side);
     clip_by_cell(d, site, column, row, known_count, known, &p);
     for (ptrdiff_t ring = 1; p.count > 0; ++ring) {
-        /* Sites of this ring are at least this far; their borders are beyond the cell when distance^2 + w -
-         * w'
+        /* Sites of this ring are at least this far; their edges are beyond the cell when distance^2 + w - w'
          * >= 2 distance reach, which grows with the distance from `reach` on. */
         const double distance = (double)(ring - 1) / side;
         const double reach = sqrt(p.reach);

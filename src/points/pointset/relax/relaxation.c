@@ -36,7 +36,7 @@ void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sit
         ++start[cell_of(grid, sites[i]) + 2];
     for (size_t c = 0; c <= cells; ++c)
         start[c + 1] += start[c];
-    /* start[c + 1] is where cell c begins; placing its sites moves it to where the cell ends. */
+    /* start[c + 1] is the beginning of cell c; inserting its sites advances it to the end of the cell. */
     for (size_t i = 0; i < count; ++i)
         grid->sites[start[cell_of(grid, sites[i]) + 1]++] = (uint32_t)i;
 }

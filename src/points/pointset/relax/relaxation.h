@@ -1,4 +1,4 @@
-/* What the two blue-noise sets share: wrapped differences, a grid of sites, and a cache of results. */
+/* Common code of the two blue-noise sets: wrapped differences, a grid of sites, and a cache of results. */
 #pragma once
 
 #include "points/pointset/set.h"
@@ -27,7 +27,7 @@ static inline double aur_unwrap(double x) {
     return x >= 0.0 && x < 1.0 ? x : 0.0;
 }
 
-/* Sites by cell of a square grid with about one site a cell: sites[start[c]] .. sites[start[c + 1] - 1] are
+/* Sites by cell of a square grid with about one site per cell: sites[start[c]] .. sites[start[c + 1] - 1] are
  * those of cell c = row * side + column, in ascending order. */
 typedef struct aur_site_grid {
     size_t side;
@@ -39,36 +39,36 @@ bool aur_site_grid_create(aur_site_grid *grid, size_t count); /* false: out of m
 void aur_site_grid_destroy(aur_site_grid *grid);
 void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sites);
 
-/* How points are relaxed: kind->own of a set whose prepare() is aur_prepare_relaxed. */
+/* Parameters of a relaxation: kind->own of a set whose prepare() is aur_prepare_relaxed. */
 typedef struct aur_relaxation {
-    unsigned version; /* changes whenever the points do */
-    /* Writes `count` points or fails. */
+    unsigned version; /* changes with the points */
+    /* Writes `count` points. */
     aur_result (*relax)(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error);
 } aur_relaxation;
 
-/* Makes set->data a table of the points that are computed from the seed, or takes it from what an earlier
- * call has kept (points/base/file.h). */
+/* Fills set->data with the points computed from the seed, or takes them from the cache of an earlier call
+ * (points/base/file.h). */
 aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error);
 
 /* Blue noise by optimal transport on the torus. */
 
-/* Points that own equal areas, each near the middle of its own, in random order. In each of the rounds all
- * points move to the middles: few leave the points irregular, many make crystals. A round takes time about
- * n. Errors: MEMORY. */
+/* Points with cells of equal area, each near the centre of its cell, in random order. In each round all
+ * points move to the centres: few rounds leave the points irregular, many give crystals. A round takes O(n)
+ * time. Errors: MEMORY. */
 aur_result aur_transport_relax(uint64_t seed, unsigned rounds, size_t count, aur_point2 *sites,
                                aur_error *error);
 
-/* Power diagrams of weighted sites on the torus [0,1)^2: the cell of a site is where |x - site|^2 - weight is
- * least. */
+/* Power diagrams of weighted sites on the torus [0,1)^2: the cell of a site is the set of points where |x -
+ * site|^2 - weight is minimal. */
 
-enum { AUR_POWER_EDGES = 24 }; /* more edges than a cell ever has here; beyond them none is recorded */
+enum { AUR_POWER_EDGES = 24 }; /* more edges than any cell has here; further ones are not recorded */
 
 typedef struct aur_power_cell {
     double area;
     aur_point2 centre; /* of mass, from the site */
     size_t edge_count;
     uint32_t neighbours[AUR_POWER_EDGES]; /* the site across each edge; the site itself for an image of it */
-    double slopes[AUR_POWER_EDGES];       /* how the area grows with the difference of weights: length / (2
+    double slopes[AUR_POWER_EDGES];       /* derivative of the area by the difference of weights: length / (2
                                              distance) */
 } aur_power_cell;
 
@@ -78,7 +78,7 @@ typedef struct aur_power_diagram {
     const double *weights;
     aur_site_grid grid; /* filled with the sites */
     aur_power_cell *cells;
-    bool warm; /* the cells are those of sites and weights that were much like these: where to begin */
+    bool warm; /* the cells are those of similar sites and weights: a starting point */
 } aur_power_diagram;
 
 /* Computes all cells; they are independent of each other and of the number of threads. */

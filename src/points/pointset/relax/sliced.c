@@ -1,6 +1,6 @@
 /* Sliced optimal transport (Paulin, Bonneel, Coeurjolly, Iehl, Webanck, Desbrun, Ostromoukhov 2020) on the
- * square: in each step points move along some directions to where the sorted projections of the uniform
- * density lie. Small star discrepancy and distances that are even; not periodic. A table: n up to 2^16. */
+ * square: in each step points move along some directions to the quantiles of the projected uniform density.
+ * Small star discrepancy and uniform distances; not periodic. A table: n up to 2^16. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -26,8 +26,8 @@ static int compare(const void *a, const void *b) {
     return (p->index > q->index) - (p->index < q->index);
 }
 
-/* Where the share `q` of the square [0,1]^2 lies below along (a, b), both >= 0: the sum of two uniform
- * variables on [0,a] and [0,b] has a trapezoid for its density. */
+/* The quantile `q` of the projection of the square [0,1]^2 to (a, b), both >= 0: the density of the sum of
+ * two uniform variables on [0,a] and [0,b] is a trapezoid. */
 static double quantile(double a, double b, double q) {
     const double small = fmin(a, b), large = fmax(a, b), edge = 0.5 * small / large;
     if (q < edge)
@@ -37,7 +37,7 @@ static double quantile(double a, double b, double q) {
     return large * q + 0.5 * small;
 }
 
-/* Adds to the moves what the direction (c, s) asks for. */
+/* Adds the moves along the direction (c, s). */
 static void add_direction(double c, double s, size_t count, const aur_point2 *sites, projection *sorted,
                           aur_point2 *moves) {
     const double lowest = fmin(c, 0.0) + fmin(s, 0.0);
@@ -65,7 +65,7 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
     for (size_t step = 0; step < STEPS; ++step) {
         for (size_t i = 0; i < count; ++i)
             moves[i] = (aur_point2){0.0, 0.0};
-        /* Sine and cosine by a series, which has the same bits on every machine, and by a fixed turn. */
+        /* Sine and cosine by a series, which is bit-identical on every machine, and by a fixed rotation. */
         const double angle = AUR_PI / DIRECTIONS * aur_unit_double(aur_hash3(seed, step, 2)),
                      a = angle * angle;
         double s = angle * (1.0 - a / 6.0 * (1.0 - a / 20.0 * (1.0 - a / 42.0 * (1.0 - a / 72.0))));
@@ -76,7 +76,7 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
             s = c * turn_sine + s * turn_cosine;
             c = next;
         }
-        /* The mean over directions of what lies along each is half of a move. */
+        /* The mean over directions of the components along each is half of a move. */
         for (size_t i = 0; i < count; ++i) {
             sites[i].x = fmin(fmax(sites[i].x + 2.0 / DIRECTIONS * moves[i].x, 0.0), AUR_BELOW_ONE);
             sites[i].y = fmin(fmax(sites[i].y + 2.0 / DIRECTIONS * moves[i].y, 0.0), AUR_BELOW_ONE);

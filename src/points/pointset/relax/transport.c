@@ -2,8 +2,8 @@
  * near the centres of mass of their cells (Balzer, Schloemer, Deussen 2009; de Goes, Breeden, Ostromoukhov,
  * Desbrun 2012). Weights for given sites by damped Newton steps on the concave transport energy (the Hessian
  * is the graph Laplacian with length / (2 distance) on each edge; conjugate gradients), sites for given
- * weights by moving to the centres. From one random site in each of n cells, whose density is even already,
- * so that nothing has to move far. */
+ * weights by moving to the centres. Starts with one random site in each of n cells, whose density is nearly
+ * uniform, so that moves are short. */
 #include "points/pointset/relax/relaxation.h"
 
 #include <math.h>
@@ -13,13 +13,13 @@
 #include "points/pointset/sets.h"
 
 enum {
-    NEWTON_STEPS = 1, /* a round; after the last one until the areas are right */
+    NEWTON_STEPS = 1, /* per round; after the last round until the areas are equal */
     LAST_NEWTON_STEPS = 60,
     HALVINGS = 30,
     SOLVER_STEPS = 600
 };
 
-/* Relative error of an area that is as good as none, and of the linear solutions. */
+/* Tolerated relative error of an area, and of the linear solutions. */
 static const double area_tolerance = 1e-9;
 static const double solver_tolerance = 1e-3;
 
@@ -75,8 +75,8 @@ static double apply(size_t count, const laplacian *m, const double *x, double *y
     return curvature;
 }
 
-/* t->step solves the Laplacian for the missing areas; conjugate gradients scaled by the diagonal, in
- * sequence. */
+/* Solves the Laplacian for t->step with the area errors as right-hand side; conjugate gradients scaled by the
+ * diagonal, in sequence. */
 static void solve(transport *t) {
     const size_t n = t->diagram.count;
     make_matrix(&t->diagram, &t->matrix);
@@ -135,8 +135,8 @@ static double norm_of_missing(const aur_power_diagram *diagram) {
     return sqrt(sum);
 }
 
-/* One Newton step, halved until no cell is much smaller than the smallest one was and the areas come nearer
- * to what they should be (Kitagawa, Merigot, Thibert 2019). False when no step is short enough. */
+/* One Newton step, halved until no cell is much smaller than the smallest one before and the area errors
+ * decrease (Kitagawa, Merigot, Thibert 2019). False when no step is short enough. */
 static bool newton_step(transport *t) {
     const size_t n = t->diagram.count;
     const double floor_area = 0.5 * fmin(least_area(&t->diagram), 1.0 / (double)n);
@@ -157,7 +157,8 @@ static bool newton_step(transport *t) {
     return false;
 }
 
-/* Sites to the centres of their cells. Weights are kept as a start unless they leave a cell empty. */
+/* Moves sites to the centres of their cells. Weights are the next starting point unless they leave a cell
+ * empty. */
 static void move_sites(transport *t) {
     const size_t n = t->diagram.count;
     for (size_t i = 0; i < n; ++i) {
@@ -187,14 +188,14 @@ static void iterate(transport *t, unsigned rounds) {
             break;
 }
 
-/* One random site in each cell, in an order that keeps neighbours near. */
+/* One random site in each cell, in an order with locality. */
 static aur_result begin(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error) {
     const aur_pointset cells = {.kind = &aur_set_jittered, .size = count, .dimension = 2, .seed = seed};
     const aur_output output = {.capacity = 2 * count, .doubles = &sites[0].x};
     return aur_pointset_emit(&cells, 0, 0, count, &output, error);
 }
 
-/* Puts the sites into a random order, by way of `from`. */
+/* Shuffles the sites, with `from` as scratch memory. */
 static void mix(uint64_t seed, size_t count, aur_point2 *sites, uint32_t *order, aur_point2 *from) {
     for (size_t i = 0; i < count; ++i)
         order[i] = (uint32_t)i;

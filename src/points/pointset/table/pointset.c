@@ -1,4 +1,4 @@
-/* The table of the sets of the square, and making one of them ready from its text. */
+/* The table of the sets of the square, and preparing a set from its text. */
 #include <aureole/pointset.h>
 
 #include <inttypes.h>
@@ -33,7 +33,7 @@ static aur_result find_set(const char *name, const aur_square_set **kind, aur_er
     return result;
 }
 
-/* A size that is no power of its base leaves a net incomplete. */
+/* A size that is not a power of the base leaves a net incomplete. */
 static void warn_incomplete_net(const aur_pointset *set) {
     uint64_t rest = set->size;
     while (set->net_base != 0 && rest % set->net_base == 0)
@@ -61,7 +61,7 @@ static aur_result make(aur_pointset *set, aur_parameters *keys, aur_error *error
     return result;
 }
 
-/* What follows "file:" is a path, whatever characters it has; sets of the user are one row of the table. */
+/* The text after "file:" is a path with any characters; all user sets are one row of the table. */
 static aur_result parse(const char *text, aur_parameters *keys, aur_error *error) {
     if (!aur_set_is_user(text))
         return aur_parameters_parse(keys, "set", text, error);

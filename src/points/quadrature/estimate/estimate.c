@@ -22,7 +22,8 @@ aur_moments aur_levels_moments(const aur_levels *levels, size_t index) {
     return moments;
 }
 
-/* Points of a randomisation on the first level; points after which a functional of one value is given up. */
+/* Points of a randomisation on the first level; points after which a constant functional ends the estimate.
+ */
 enum { MOST_REPLICATES = 64, MOST_VALUES = 4096, FIRST = 128, CONSTANT = 65536 };
 
 static aur_result check(const aur_estimate_options *o, aur_error *error) {
@@ -47,7 +48,7 @@ static aur_result check(const aur_estimate_options *o, aur_error *error) {
     return AUR_OK;
 }
 
-/* What an estimate works with. */
+/* The state of an estimate. */
 typedef struct work {
     const aur_estimate_options *options;
     aur_functional functional;
@@ -120,9 +121,9 @@ static int ascending(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/* What one point more can do, as far as replicates tell: the smallest step between their values where at most
- * half of them are distinct, as counts of points of a stratified set are. 0: they are distinct; infinite: all
- * are equal, but for rounding, and nothing is known. */
+/* The effect of one more point, estimated from replicates: the smallest step between their values if at most
+ * half of them are distinct, as with counts of points of a stratified set. 0: they are distinct; infinite:
+ * all are equal up to rounding, which gives no information. */
 static double step_between(const work *w, size_t value) {
     const size_t count = w->options->replicates;
     double sorted[MOST_REPLICATES];
@@ -140,8 +141,8 @@ static double step_between(const work *w, size_t value) {
     return distinct > count / 2 ? 0.0 : least;
 }
 
-/* If all R replicates hold the same count, the probability that one holds one more is, at alpha/2, below
- * about ln(2/alpha)/R: the mean is uncertain by that part of the step. */
+/* If all R replicates have the same count, the probability that one has one more is, at alpha/2, below about
+ * ln(2/alpha)/R: the uncertainty of the mean is that fraction of the step. */
 static aur_estimated estimated(const work *w, size_t value) {
     const aur_moments moments = aur_levels_moments(&w->levels, value);
     const aur_estimate_options *const o = w->options;

@@ -1,7 +1,7 @@
-/* Levels of independent randomisations, put together: the one way in which estimates to an error come about
- * (aur_estimate, irradiance). Level after level has more points, all of its own. The variance of a level
- * falls with its size n as n^-1, where points are as good as random, to n^-2; levels are weighed by n^1.5,
- * which costs little at either end, and not by what they say, so that the mean has no bias. */
+/* Combination of levels of independent randomisations, for all estimates to a target error (aur_estimate,
+ * irradiance). Each level has more points, independent of the others. The variance of a level falls with its
+ * size n as n^-1, for random points, to n^-2. Levels have weights n^1.5, which is nearly optimal at either
+ * end and independent of their values, so that the mean is unbiased. */
 #pragma once
 
 #include <aureole/statistics.h>
@@ -11,10 +11,10 @@
 typedef struct aur_levels {
     size_t replicates, values;
     double weight;
-    double *sums; /* replicates * values, the caller's; 0 in the beginning */
+    double *sums; /* replicates * values, owned by the caller; initially 0 */
 } aur_levels;
 
-/* Adds one level: values of each replicate, found by `points` points. */
+/* Adds one level: values of each replicate from `points` points. */
 AUR_INTERNAL void aur_levels_add(aur_levels *levels, size_t points, const double *values);
 
 /* The moments of value `index` over the randomisations. */

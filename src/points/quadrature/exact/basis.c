@@ -32,8 +32,8 @@ typedef struct heights {
     double *storage;
 } heights;
 
-/* The nodes are Gauss-Legendre's in t with z = t^4 for densities that vanish at the equator, whose broken
- * powers t^{4 exponent + 3} are smooth enough then, and z linear in t for even ones. */
+/* Gauss-Legendre nodes in t. For densities that vanish at the equator z = t^4, which makes their fractional
+ * powers t^{4 exponent + 3} smooth enough; for even ones z is linear in t. */
 static bool make_heights(size_t degree, double lowest, double exponent, heights *h) {
     const bool stretched = exponent > 0.0;
     h->count = degree + 2;
@@ -88,8 +88,8 @@ static void fill_order(const heights *h, size_t count, aur_basis_step *steps) {
     }
 }
 
-/* Order m lives on the density times (1-z^2)^m, which is scaled by the ratio of its sum to that of order m-1
- * as m grows, so that nothing underflows. */
+/* Order m uses the density times (1-z^2)^m, scaled by the ratio of its sum to that of order m-1, so that
+ * nothing underflows. */
 static void fill_cap(const heights *h, aur_basis *basis) {
     const size_t degree = basis->degree;
     basis->start[0] = 1.0;

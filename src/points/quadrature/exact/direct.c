@@ -1,6 +1,6 @@
 /* The Gram matrix of the rows of A, scaled by the roots of the weights, is factored row by row, degree after
- * degree: what is found for one degree stays for the next. Rows that depend on those before are left out;
- * where they contradict them, no weights are exact. */
+ * degree; each degree extends the factorisation of the previous one. Linearly dependent rows are left out; if
+ * they are inconsistent, no weights are exact. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,22 +8,23 @@
 #include "points/base/parallel.h"
 #include "points/quadrature/exact/system.h"
 
-/* A row whose squared distance from those before is this part of its square depends on them. */
+/* A row is dependent if its squared distance from the span of the previous rows is at most this fraction of
+ * its square. */
 static const double dependent = 1e-11;
-/* What a dependent row may miss by rounding. */
+/* The tolerated residual of a dependent row. */
 static const double contradiction = 1e-7;
 
 typedef struct factor {
     const aur_exact_system *system;
     const aur_transform_kernel *kernel;
     const aur_basis *basis;
-    size_t count, rank, capacity; /* points; rows that count, and how many there can be */
+    size_t count, rank, capacity; /* points; independent rows, and their maximum */
     double *rows;                 /* of count each: row l^2 is order 0, l^2 + 2m - 1 and l^2 + 2m order m */
     double *lower;                /* of capacity each */
-    double *diagonal;             /* reciprocals of the diagonal of the rows that count */
+    double *diagonal;             /* reciprocals of the diagonal of the independent rows */
     size_t *kept;                 /* their numbers */
     double *y;                    /* the solution of lower y = right */
-    double *roots;                /* of the weights to stay near to */
+    double *roots;                /* of the weights to approximate */
     double *gram, *right, *best;
     double *storage;
 } factor;
@@ -64,7 +65,7 @@ static void fill_degree(const factor *f, size_t l) {
     fill_sectoral(f, l);
 }
 
-/* The column that row `pivot` makes, in the rows from `first` on. */
+/* The column of the factor for row `pivot`, in the rows from `first` on. */
 static void fill_column(const factor *f, size_t column, size_t pivot, size_t first, size_t count) {
     double *const lower = f->lower + first * f->capacity;
     f->kernel->dots(f->count, row_at(f, pivot), count, f->count, row_at(f, first), 1, f->gram);
@@ -82,7 +83,7 @@ static double dot(const factor *f, size_t count, const double *a, const double *
     return sum;
 }
 
-/* Takes the rows of degree l in. False where they contradict those before. */
+/* Adds the rows of degree l. False if they are inconsistent with the previous rows. */
 static bool add_degree(factor *f, size_t l) {
     fill_degree(f, l);
     const size_t first = l * l, last = (l + 1) * (l + 1);
@@ -110,7 +111,7 @@ static bool add_degree(factor *f, size_t l) {
     return true;
 }
 
-/* Adds to the weights what the solution y of the first `rank` rows gives; y is overwritten. */
+/* Adds the weights of the solution y of the first `rank` rows; y is overwritten. */
 static void add_solution(const factor *f, size_t rank, double *y, double *weights) {
     for (size_t k = rank; k-- > 0;) {
         const double *const lower = f->lower + f->kept[k] * f->capacity;
@@ -129,7 +130,7 @@ static void add_solution(const factor *f, size_t rank, double *y, double *weight
         weights[i] += f->roots[i] * f->gram[i];
 }
 
-/* The same for what the weights still miss. */
+/* The same for the residual of the weights (iterative refinement). */
 static void refine(const factor *f, size_t rank, double *weights) {
     double *const part = f->best;
     for (size_t i = 0; i < f->count; ++i)

@@ -9,7 +9,7 @@
 #include "points/quadrature/exact/system.h"
 #include "points/sphere/lobe.h"
 
-/* Points this far below the rim still belong to a domain: rounding. */
+/* The tolerance of points below the rim of a domain: rounding. */
 static const double rim = 1e-9;
 
 static aur_result check_degree(const aur_exact_options *o, size_t most, aur_error *error) {
@@ -78,8 +78,8 @@ static bool hidden(const aur_exact_options *o, const double *direction) {
     return o->lobe.kind == AUR_LOBE_GGX && direction[2] < 0.0;
 }
 
-/* Fills near[count], unless they are given equal ones which points at one place share, and returns the number
- * of different places of points that have weight. */
+/* Fills near[count]: the given weights, else equal ones that coincident points share. Returns the number of
+ * distinct points with weight. */
 static size_t share(size_t count, size_t dimension, const double *points, const aur_exact_options *o,
                     place *order, double *near) {
     const double *const given = o->near;
@@ -139,8 +139,8 @@ static size_t least_of(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-/* The degrees that so many places can have: a function of degree k that vanishes at all of them exists where
- * there are more functions than places, and its square has a positive integral. */
+/* An upper bound of the degree for so many distinct points: with more functions than points, a function of
+ * degree k vanishes at all points, and its square has a positive integral. */
 static size_t degree_bound(const aur_exact_system *system) {
     if (system->space == NULL)
         return least_of(2 * (size_t)sqrt((double)system->places) - 1, AUR_BASIS_DEGREE_MAX);
@@ -150,7 +150,7 @@ static size_t degree_bound(const aur_exact_system *system) {
     return least_of(2 * degree - 1, AUR_BASIS_DEGREE_MAX);
 }
 
-/* The largest degree whose rows have room. */
+/* The largest degree whose rows fit the limit of entries. */
 static size_t room_bound(const aur_exact_system *system, size_t bound) {
     const size_t most = system->space != NULL ? AUR_EXACT_ENTRIES_MAX / system->points.count : SIZE_MAX;
     while (bound > 0 && aur_exact_functions(system, bound) > most)
@@ -158,7 +158,7 @@ static size_t room_bound(const aur_exact_system *system, size_t bound) {
     return bound;
 }
 
-/* A search for the largest degree by solving for one after the other. */
+/* A search for the largest degree by solving for a sequence of degrees. */
 typedef struct ladder {
     const aur_exact_system *system;
     double *best, *trial;
@@ -167,13 +167,13 @@ typedef struct ladder {
     aur_result result;
     aur_progress progress;
     aur_progress_share share;
-    double done;          /* work of the degrees before: steps, each as long as there are functions */
-    size_t degree, bound; /* the present one, and the largest that there can be */
+    double done;          /* work of the previous degrees: steps times functions */
+    size_t degree, bound; /* the current degree, and the upper bound */
     size_t low, high;     /* with positive weights, and without */
-    size_t
-        ceiling; /* no exact weights, and so none from there on: each degree's are those of lower ones too */
-    double steps[2]; /* that these two took */
-    bool hard;       /* the first guess had no positive weights */
+    size_t ceiling;  /* no exact weights from this degree on, since weights of a degree are exact for lower
+                        degrees, too */
+    double steps[2]; /* of these two */
+    bool hard;       /* the initial guess had no positive weights */
     bool failed[AUR_BASIS_DEGREE_MAX + 1];
 } ladder;
 
@@ -181,8 +181,8 @@ static double functions_of(double degree) {
     return (degree + 1.0) * (degree + 1.0);
 }
 
-/* The work that the present degree and those after it are thought to take; INFINITY: nobody knows. The
- * largest degree of sets that are not even is anywhere below the first guess. */
+/* The predicted work of the current and later degrees; INFINITY: unknown. The largest degree of non-uniform
+ * sets may be anywhere below the initial guess. */
 static double work_left(const ladder *l, double steps) {
     enum { USUAL_TRIALS = 4, USUAL_STEPS = 90, NARROW = 2 };
     const bool bracketed = l->high <= l->bound, narrow = l->low > 0 && l->high - l->low <= NARROW;
@@ -195,7 +195,7 @@ static double work_left(const ladder *l, double steps) {
         trials = 0.0;
     for (size_t more = l->high + 1; bracketed && more <= l->high + 2 && more < l->ceiling; ++more)
         last += l->failed[more] || more <= l->degree ? 0.0 : functions_of((double)more) * l->steps[1];
-    if (l->high > l->low + 1) /* one of them may be the degree `high`, which is known */
+    if (l->high > l->low + 1) /* one of them may be the degree `high`, which is done */
         last *= 0.75;
     return functions_of((double)l->degree) * fmax(usual - steps, 0.25 * usual) +
            functions_of(middle) * trials * usual + last;
@@ -236,8 +236,8 @@ static bool climbs(ladder *l, size_t degree) {
     return true;
 }
 
-/* Bisection from a first guess, and two degrees more: weights next to the limit need not be positive for all
- * lower degrees. */
+/* Bisection from an initial guess, and two degrees more: near the limit positivity is not monotonic in the
+ * degree. */
 static aur_result search(const aur_exact_system *system, size_t bound, double *weights,
                          aur_exact_found *found, aur_error *error) {
     const size_t count = system->points.count;
@@ -257,7 +257,8 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
         reporting.progress = (aur_progress){report, &l};
     l.system = &reporting;
     climbs(&l, 0);
-    /* Even sets on the sphere have positive weights to about this degree; elsewhere low degrees are quick. */
+    /* Uniform sets on the sphere have positive weights to about this degree; elsewhere low degrees are fast.
+     */
     size_t next = system->space == NULL ? (size_t)sqrt((double)system->places / 1.3) : 1;
     for (size_t step = 1; l.low + 1 < l.high && l.result == AUR_OK;) {
         if (next >= l.high || next <= l.low)
@@ -297,7 +298,8 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
     return AUR_OK;
 }
 
-/* By the factorisation; where rounding hid that a degree has no exact weights, by the next lower one. */
+/* Solves by the factorisation; if rounding hid that a degree has no exact weights, with the next lower
+ * degree. */
 static aur_result factor(const aur_exact_system *system, size_t degree, bool search, double *weights,
                          aur_exact_found *found, aur_error *error) {
     for (;;) {
@@ -367,8 +369,8 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
     return result;
 }
 
-/* All images of each point have an equal part of its weight: with them functions without the symmetry are
- * integrated as their means over the group, as they must. Axes have the group of x and -x. */
+/* All images of a point share its weight equally: functions without the symmetry are then integrated as their
+ * means over the group. Axes have the group of x and -x. */
 static aur_result weigh_orbits(size_t count, const double *xyz, const aur_exact_options *options,
                                const aur_point_group *group, double *weights, aur_exact_report *report,
                                aur_error *error) {
@@ -404,7 +406,7 @@ static aur_result weigh_orbits(size_t count, const double *xyz, const aur_exact_
     return result;
 }
 
-/* Weights that stay near to the options' or to equal ones, of points that have been checked. */
+/* Weights nearest to those of the options or to equal ones, for checked points. */
 static aur_result weigh(size_t count, const double *points, const aur_exact_options *o, double lowest,
                         aur_exact_space *space, double *weights, aur_exact_report *report, aur_error *error) {
     double *const storage = calloc(6 * count, sizeof *storage);
@@ -449,7 +451,7 @@ static aur_result weigh_space(size_t count, const double *points, const aur_exac
     return result;
 }
 
-/* Of axes, and with a point group. */
+/* For axes and with a point group. */
 static aur_result weigh_symmetric(size_t count, const double *xyz, const aur_exact_options *o,
                                   double *weights, aur_exact_report *report, aur_error *error) {
     static const aur_point_group ends = {

@@ -16,8 +16,8 @@ struct aur_fast_transform {
     aur_window shape;
     size_t side;     /* cells around the torus */
     size_t rows;     /* of the half torus and a window: row r is the angle (r - WIDTH) 2 pi / side */
-    size_t stride;   /* of a row: side cells and, behind them, the first WIDTH once more */
-    size_t pitch;    /* of the sums of one order: no multiple of a page */
+    size_t stride;   /* of a row: side cells, followed by a copy of the first WIDTH */
+    size_t pitch;    /* of the sums of one order: not a multiple of a page */
     size_t turn;     /* rings around the torus, enough for the degree */
     size_t rings;    /* theta = 0 to pi / 2 in steps of 2 pi / turn, and zeros up to a multiple of LANE */
     aur_spot *spots; /* count, by rows */
@@ -32,10 +32,9 @@ struct aur_fast_transform {
     double *to;
 };
 
-/* --- making it */
+/* --- creation */
 
-/* The points by the keys of theirs below `keys`, in their order where keys are equal; from[keys + 1] says
- * where each key begins. */
+/* Sorts points by their keys below `keys`, stably; from[keys + 1] are the beginnings of each key. */
 static void sort_by(size_t count, const uint32_t *key, const uint32_t *order, size_t keys, size_t *from,
                     uint32_t *sorted) {
     memset(from, 0, (keys + 2) * sizeof *from);
@@ -167,7 +166,7 @@ static size_t bands(const aur_fast_transform *f) {
     return (f->rows + BAND - 1) / BAND;
 }
 
-/* Weights to the rows of one band, spot after spot. */
+/* Adds weights to the rows of one band, spot after spot. */
 static aur_result spread(void *context, size_t band) {
     aur_fast_transform *const f = context;
     const size_t from = band * BAND, to = from + BAND < f->rows ? from + BAND : f->rows;
@@ -190,12 +189,12 @@ static aur_result gather(void *context, size_t band) {
     return AUR_OK;
 }
 
-/* The place of a row on the torus. */
+/* The position of a row on the torus. */
 static size_t around(const aur_fast_transform *f, size_t row) {
     return (row + f->side - WIDTH) % f->side;
 }
 
-/* Two rows of the grid, as real and imaginary parts, to the sums over columns of e^{-i m phi}. */
+/* Transforms two rows of the grid, as real and imaginary parts, to sums over columns of e^{-i m phi}. */
 static aur_result analyse_rows(void *context, size_t pair) {
     aur_fast_transform *const f = context;
     const size_t n = f->side;
@@ -219,7 +218,7 @@ static aur_result analyse_rows(void *context, size_t pair) {
     return AUR_OK;
 }
 
-/* From the real parts of sums over orders of e^{i m phi} to two rows of the grid. */
+/* Transforms the real parts of sums over orders of e^{i m phi} to two rows of the grid. */
 static aur_result synthesise_rows(void *context, size_t pair) {
     aur_fast_transform *const f = context;
     const size_t n = f->side;
@@ -247,7 +246,7 @@ static aur_result synthesise_rows(void *context, size_t pair) {
     return AUR_OK;
 }
 
-/* Sums around the torus on two grids, of cells and of rings, each with room for a transform. */
+/* Sums around the torus on two grids, of cells and of rings, each with scratch memory for a transform. */
 typedef struct column {
     double *re, *im, *work; /* side */
     double *ring_re, *ring_im, *ring_work;
@@ -255,7 +254,7 @@ typedef struct column {
     aur_transform_order order;
 } column;
 
-/* Ends the frequencies at the degree and divides them by those of the window. */
+/* Truncates the frequencies at the degree and divides them by those of the window. */
 static void filter(const aur_fast_transform *f, size_t m, size_t from_size, const double *from,
                    size_t to_size, double *to) {
     const double scale = f->window[m] / (double)f->turn;

@@ -3,10 +3,10 @@
  * By the slope (x, y) of the half-vector of a view (s, 0, c) and a direction the lobe is D(x, y) (s x + c) G
  * dx dy with D = 1 / (1 + (x^2 + y^2) / alpha^2)^2 and the height-correlated masking G. Directions above the
  * surface are the disk of radius 1/c about (s/c, 0). In polar coordinates about the slope 0 it ends at R =
- * s/c cos phi + sqrt((s/c cos phi)^2 + 1), which is analytic, and with r = alpha sinh(tau) all that is
- * analytic in r stays so within pi/2 of the real axis, however narrow the lobe. Gauss-Legendre in tau, nodes
- * crowding at the horizon, where G bends within alpha; equal steps in psi with tan phi = c^{-1/2} tan psi,
- * which moves the branch points of R and the poles of polynomials equally far away. */
+ * s/c cos phi + sqrt((s/c cos phi)^2 + 1), which is analytic, and with r = alpha sinh(tau) functions analytic
+ * in r remain analytic within pi/2 of the real axis, however narrow the lobe. Gauss-Legendre in tau, with
+ * nodes concentrated at the horizon, where G changes within alpha; equal steps in psi with tan phi = c^{-1/2}
+ * tan psi, which moves the branch points of R and the poles of polynomials equally far away. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,7 +23,7 @@ static double masked_cosine(double alpha, double cosine) {
     return 0.5 * (cosine + sqrt(cosine * cosine + alpha * alpha * (1.0 - cosine * cosine)));
 }
 
-/* The direction and the mass over dr dphi at a slope. */
+/* The direction and the mass per dr dphi at a slope. */
 static double place(const ggx_lobe *lobe, double r, double phi, double direction[3]) {
     const double x = r * cos(phi), y = r * sin(phi), scale = 1.0 / (1.0 + r * r);
     const double seen = lobe->sine * x + lobe->cosine; /* view . half-vector over the latter's height */
@@ -64,7 +64,7 @@ aur_result aur_exact_ggx_nodes(const aur_lobe *lobe, size_t degree, aur_exact_no
         const double reach = middle < 0.0 ? 1.0 / (root - middle) : root + middle;
         const double length = asinh(reach / ggx.alpha);
         for (size_t j = 0; j < along; ++j) {
-            const double rest = 0.5 * (1.0 - gauss[j]); /* of the way, before its square */
+            const double rest = 0.5 * (1.0 - gauss[j]); /* of the interval, before squaring */
             const double tau = length * (1.0 - rest * rest);
             const size_t at = k * along + j;
             nodes->mass[at] = length * rest * share[j] * step * cosh(tau) *

@@ -1,5 +1,5 @@
-/* Conjugate gradients on A D A' x = b - A near, D the weights to stay near to; w = near + D A' x. For sets
- * that are even the matrix is near to the identity, unless there are hardly more points than functions. */
+/* Conjugate gradients on A D A' x = b - A near, D the weights to approximate; w = near + D A' x. For uniform
+ * sets the matrix is close to the identity, unless there are hardly more points than functions. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,25 +8,25 @@
 #include "points/quadrature/exact/fast.h"
 #include "points/quadrature/exact/system.h"
 
-/* From so many points and degrees on the steps are taken by fast transforms. */
+/* From this number of points and degrees on fast transforms are used. */
 enum { FAST_POINTS = 2048, FAST_DEGREE = 24 };
 
-/* How often the steps begin again with what is missing in truth; and that they are within rounding where what
- * is missing is small and so many of them do not halve it. */
+/* The number of restarts with the exact residual, and the criterion of stagnation: a small residual that this
+ * many steps do not halve is rounding. */
 enum { PASSES = 3, PATIENCE = 20 };
 static const double small = 1e-12;
 
 typedef struct gradients {
     const aur_exact_system *system;
     aur_transform transform;
-    aur_fast_transform *fast;             /* NULL: `transform` is fast enough */
+    aur_fast_transform *fast;             /* NULL: `transform` is used */
     size_t size, limit;                   /* of coefficients; of steps */
     double *rest, *direction, *image, *t; /* t is of points */
     double *storage;
-    size_t steps; /* that have been taken */
+    size_t steps; /* taken so far */
 } gradients;
 
-/* Within a step the same is reported as at its beginning. */
+/* Within a step the progress is that of its beginning. */
 static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     const gradients *const g = user;
     (void)what, (void)done, (void)total;
@@ -96,7 +96,7 @@ static aur_result descend(gradients *g, double *weights, size_t *steps, aur_erro
         ++*steps;
         const double curvature = square(g->size, g->direction, g->image);
         if (!(curvature > 1e-14 * square(g->size, g->direction, g->direction)))
-            return AUR_OK; /* what is left no weights change */
+            return AUR_OK; /* the residual cannot be reduced by weights */
         const double length = rest / curvature;
         for (size_t i = 0; i < system->points.count; ++i)
             weights[i] += length * g->t[i];
@@ -127,7 +127,7 @@ static aur_result solve(gradients *g, double *weights, aur_exact_found *found, a
     return result;
 }
 
-/* The transforms to a degree, ready, and room for the steps. */
+/* The transforms to a degree, and memory for the steps. */
 static aur_result open_gradients(const aur_exact_system *system, size_t degree, aur_basis *basis,
                                  gradients *g, aur_error *error) {
     aur_exact_space *const space = system->space;

@@ -8,19 +8,20 @@
 #include "points/base/parallel.h"
 #include "points/base/vector3d.h"
 
-/* A function whose part beside those before is less than this of its length over the points depends on them;
- * what its integral over the lobe may then be, of its length there. */
+/* A function is dependent if its part orthogonal to the previous ones is below this fraction of its length
+ * over the points; the second number bounds its integral over the lobe, relative to its length there. */
 static const double dependent = 1e-11, contradiction = 1e-9;
 
 typedef struct measured {
     const aur_transform_kernel *kernel;
     const aur_exact_nodes *nodes;
     aur_progress progress;
-    size_t points, all;                    /* points that have weight; with the nodes behind them */
-    size_t *place;                         /* of each point among those of the caller */
-    double *near, *ratio, *best, *scratch; /* of points: weights over near ones in `ratio` */
-    double *depth, *across, *aside; /* of all: 1 - cos to the lobe's middle, and the two axes beside it */
-    double **rows;                  /* of a degree l: 2 l + 1 rows of all */
+    size_t points, all;                    /* points with weight; points and nodes */
+    size_t *place;                         /* index of each point in the caller's array */
+    double *near, *ratio, *best, *scratch; /* of points; `ratio`: weights divided by near */
+    double *depth, *across,
+        *aside;    /* of all: 1 - cos to the lobe's centre, and the two perpendicular coordinates */
+    double **rows; /* of a degree l: 2 l + 1 rows of all */
     double *integral, *length, *product; /* of rows: over the nodes; root mean square there; dot products */
     void *storage;
 } measured;
@@ -38,7 +39,7 @@ static double length_of(const measured *m, const double *row) {
     return sqrt(square);
 }
 
-/* Takes from row k of degree l what lies along the rows before. */
+/* Orthogonalises row k of degree l against the previous rows. */
 static void take_parts(const measured *m, size_t l, size_t k) {
     double *const row = row_at(m, l, k);
     length_of(m, row);
@@ -74,7 +75,7 @@ static void scale(double factor, size_t count, double *row) {
         row[i] *= factor;
 }
 
-/* False where the row vanishes at the points but its integral does not: no weights are exact then. */
+/* False if the row vanishes at the points but its integral does not: then no weights are exact. */
 static bool settle(const measured *m, size_t l, size_t k) {
     double *const row = row_at(m, l, k);
     const size_t at = l * l + k;
@@ -84,7 +85,7 @@ static bool settle(const measured *m, size_t l, size_t k) {
     const double left = length_of(m, row);
     m->integral[at] = integrate(m, row, &m->length[at]);
     if (l == 0)
-        m->integral[at] = 1.0; /* beside which the sum of the masses has rounding */
+        m->integral[at] = 1.0; /* exact, while the sum of the masses has rounding errors */
     if (left > dependent * before) {
         scale(1.0 / left, m->all, row);
         m->integral[at] /= left;
@@ -102,8 +103,8 @@ static bool settle(const measured *m, size_t l, size_t k) {
     return true;
 }
 
-/* As with harmonics those of degree l are the ones before times the height, and two of order l: leading parts
- * of all orders below l come from the former. */
+/* As with harmonics, functions of degree l are those of degree l - 1 times the height, and two of order l;
+ * the former give the leading parts of all orders below l. */
 static bool add_degree(const measured *m, size_t l) {
     bool exact = true;
     if (l == 0)
@@ -130,7 +131,7 @@ static bool add_degree(const measured *m, size_t l) {
     return exact && settle(m, l, orders) && settle(m, l, orders + 1);
 }
 
-/* Adds what the weights still miss, and returns the largest of it, for functions of mean square 1. */
+/* Adds a correction for the residual, and returns the largest residual for functions of mean square 1. */
 static double refine(const measured *m, size_t degree, double *ratio) {
     double worst = 0.0;
     for (size_t i = 0; i < m->points; ++i)
@@ -148,7 +149,7 @@ static double refine(const measured *m, size_t degree, double *ratio) {
     return worst;
 }
 
-/* Points and nodes in the frame of the lobe's middle: differences keep their digits where it is narrow. */
+/* Points and nodes in the frame of the lobe's centre: differences are accurate for narrow lobes. */
 static void fill_frame(measured *m, const double *xyz) {
     double axis[3] = {0.0}, frame[2][3];
     for (size_t i = 0; i < m->nodes->count; ++i)
@@ -230,8 +231,8 @@ static aur_result solve(const measured *m, const aur_exact_system *system, size_
     const size_t count = system->points.count;
     size_t last = 0;
     for (size_t l = 0; l <= degree && l <= last + (search ? AUR_EXACT_PATIENCE : degree); ++l) {
-        /* Nobody knows how long weights stay positive. Where they are not, a search soon ends, unless it
-         * begins again with more nodes. */
+        /* The degree up to which weights are positive is unknown. Beyond it a search soon ends, unless it
+         * restarts with more nodes. */
         const bool ends = l > last + 1 + factoring->gap && last + AUR_EXACT_PATIENCE < degree;
         const size_t end = !search ? degree + 1 : ends ? last + AUR_EXACT_PATIENCE + 1 : 0;
         if (aur_exact_factoring_stops(&m->progress, factoring, l, end))

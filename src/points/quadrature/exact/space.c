@@ -9,7 +9,7 @@
 #include "points/base/parallel.h"
 #include "points/quadrature/exact/transform.h"
 
-/* Coordinates this far outside of a domain still belong to it: rounding. */
+/* The tolerance of coordinates outside a domain: rounding. */
 static const double rim = 1e-9;
 
 bool aur_exact_space_has(aur_domain domain) {
@@ -40,7 +40,7 @@ static aur_result check_point(const aur_exact_space *s, size_t index, double *x,
         ++leading;
     const double scale = copysign(1.0 / sqrt(square), x[leading]);
     for (size_t d = 0; d < 4; ++d)
-        x[d] = x[d] * scale + 0.0; /* no -0, which would be another place */
+        x[d] = x[d] * scale + 0.0; /* no -0, which would be a distinct point */
     return AUR_OK;
 }
 
@@ -122,12 +122,12 @@ static void fill_legendre(const aur_exact_space *s, size_t dimension, size_t pow
     }
 }
 
-/* What a product of powers is made of: the one without its last factor, and the dimension of that factor. */
+/* A product of powers: the product without its last factor, and the dimension of that factor. */
 typedef struct factors {
     size_t parent, last;
 } factors;
 
-/* Products in the order of their total degrees: those of a degree have each product of a lower one times a
+/* Products in the order of their total degrees: those of a degree are all products of lower degree times a
  * power of a later dimension. */
 static void fill_products(const aur_exact_space *s, size_t degree, factors *of, size_t *single,
                           double *rows) {
@@ -137,7 +137,7 @@ static void fill_products(const aur_exact_space *s, size_t degree, factors *of, 
     for (size_t i = 0; i < n; ++i)
         rows[i] = 1.0;
     for (size_t l = 1; l <= degree; ++l) {
-        for (size_t k = 0; k < d; ++k) { /* powers of one dimension stand first among those of a degree */
+        for (size_t k = 0; k < d; ++k) { /* powers of one dimension are first in each degree */
             single[k * (degree + 1) + l] = at;
             const size_t here = l > 1 ? single[k * (degree + 1) + l - 1] : 0;
             const size_t before = l > 2 ? single[k * (degree + 1) + l - 2] : 0;
@@ -231,7 +231,7 @@ aur_result aur_exact_space_fill(aur_exact_space *space, size_t degree, aur_error
                                             : fill_cube(space, degree, size, space->rows, error);
 }
 
-/* One of the two sums, in pieces of rows or of points, whatever the threads. */
+/* One of the two sums, in parts of rows or of points that do not depend on the threads. */
 typedef struct sum_work {
     const aur_exact_space *space;
     size_t size;

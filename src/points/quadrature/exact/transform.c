@@ -23,7 +23,7 @@ aur_polar_points aur_polar_points_make(size_t count, const double *xyz, double *
 typedef struct band_work {
     const aur_transform *transform;
     const double *from;
-    double *values; /* of points; NULL: sums are wanted */
+    double *values; /* of points; NULL: compute sums */
 } band_work;
 
 /* A multiple of CHUNK in transform_kernel.c. */
@@ -38,7 +38,7 @@ static aur_result do_band(void *context, size_t band) {
     double *const sums = work->values == NULL ? t->sums + band * aur_transform_room(t->basis->degree) : NULL;
     if (sums != NULL)
         memset(sums, 0, size * sizeof *sums);
-    /* Pieces of whole chunks of the kernels, which change no bit. */
+    /* Parts of whole chunks of the kernels, which do not affect results. */
     for (size_t at = first; at < last; at += PIECE) {
         const size_t end = last - at < PIECE ? last : at + PIECE;
         if (aur_parallel_stops())

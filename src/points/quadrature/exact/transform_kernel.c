@@ -1,5 +1,5 @@
-/* The inner loops. Blocks of BLOCK points lie in registers while the
- * degree runs; sums run in GROUP numbers side by side, which are added at the end. */
+/* The inner loops. Blocks of BLOCK points stay in registers over all degrees; sums have GROUP partial sums,
+ * which are added at the end. */
 #include "points/base/simd_lanes.h"
 #include "points/quadrature/exact/transform.h"
 
@@ -17,7 +17,7 @@ static inline void store(double *target, aur_reals value) {
 
 /* Points of one chunk: cosine, sine (of m phi) and start (q_mm sin^m) follow the order m. */
 typedef struct chunk {
-    size_t count; /* a multiple of BLOCK; what is missing is 0 */
+    size_t count; /* a multiple of BLOCK, padded with 0 */
     double z[CHUNK], sine[CHUNK], first_cosine[CHUNK], first_sine[CHUNK];
     double cosine[CHUNK], azimuth_sine[CHUNK], start[CHUNK];
     double a[CHUNK], b[CHUNK]; /* weights of, or sums over, the cosine and the sine functions */
@@ -39,7 +39,7 @@ static void open_chunk(chunk *c, const aur_polar_points *points, size_t first, s
         c->cosine[i] = c->start[i] = 1.0;
 }
 
-/* What is smaller adds nothing to any degree, and would end in denormal numbers, which are slow. */
+/* Smaller values contribute nothing to any degree, and would give denormal numbers, which are slow. */
 static const double negligible = 1e-280;
 
 /* From order m - 1 to m, whose functions start with the factor `start`. */

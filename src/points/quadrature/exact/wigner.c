@@ -1,5 +1,5 @@
 /* Real Wigner functions: the matrices that turn real spherical harmonics (Ivanic and Ruedenberg 1996, with
- * the correction of 1998), and their parts that crystal and sample symmetries leave unchanged. */
+ * the correction of 1998), and their parts that are invariant under crystal and sample symmetries. */
 #include <aureole/rotations.h>
 #include <math.h>
 #include <stdlib.h>
@@ -66,7 +66,8 @@ static void next_matrix(const turned *first, const turned *before, double *value
         }
 }
 
-/* The matrix of degree `degree`: `values` has that of the degree before, whose `room` may be overwritten. */
+/* The matrix of degree `degree`: `values` has that of the previous degree, whose `room` may be overwritten.
+ */
 static void step(const double quaternion[4], long degree, const double *before, double *values) {
     static const size_t axis[] = {1, 2, 0}; /* the orders -1, 0, 1 are y, z, x */
     aur_rotation rotation;
@@ -82,7 +83,7 @@ static void step(const double quaternion[4], long degree, const double *before, 
         next_matrix(&(turned){1, one}, &(turned){degree - 1, before}, values);
 }
 
-/* The number of functions of a degree that a group leaves unchanged: the mean of its characters. */
+/* The number of functions of a degree that are invariant under a group: the mean of its characters. */
 static size_t invariants(aur_symmetry symmetry, size_t degree) {
     double group[4 * AUR_SYMMETRY_ORDER_MAX], sum = 0.0;
     const size_t order = aur_symmetry_group(symmetry, group);
@@ -99,8 +100,7 @@ size_t aur_wigner_size(aur_symmetry crystal, aur_symmetry sample, size_t degree)
     return invariants(crystal, degree) * invariants(sample, degree);
 }
 
-/* Orthonormal rows that span what the group leaves unchanged: columns of the mean matrix, the longest first.
- */
+/* Orthonormal rows that span the invariant subspace: columns of the mean matrix, the longest first. */
 static void span(const double *mean, size_t width, size_t count, double *basis, double *room) {
     memcpy(room, mean, width * width * sizeof *room);
     for (size_t k = 0; k < count; ++k) {
@@ -126,7 +126,7 @@ static void span(const double *mean, size_t width, size_t count, double *basis, 
     }
 }
 
-/* Of one degree: the invariant parts of both sides, and room for matrices. */
+/* For one degree: the invariant parts of both sides, and memory for matrices. */
 typedef struct degree_work {
     size_t width, sides[2]; /* of the sample, on the left, and of the crystal */
     double *basis[2], *mean, *room[2];

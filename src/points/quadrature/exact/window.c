@@ -20,7 +20,7 @@ size_t aur_fourier_size(size_t least) {
 
 aur_window aur_window_make(size_t degree) {
     aur_window window = {.side = aur_fourier_size((7 * (2 * degree + 1) + 3) / 4)};
-    /* The shape parameter that balances aliases and the cut of the window (Barnett et al. 2019). */
+    /* The shape parameter that balances aliasing and the truncation of the window (Barnett et al. 2019). */
     const double cells = (double)window.side / (2.0 * (double)degree + 1.0);
     window.shape = 0.98 * AUR_PI * AUR_WINDOW_WIDTH * (1.0 - 0.5 / cells);
     return window;

@@ -4,10 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Values that must differ from the most frequent one: the count of 64 rare ones is uncertain by a quarter. */
+/* The required number of values that differ from the most frequent one: the count of 64 rare values has an
+ * uncertainty of a quarter. */
 enum { SPARSE = 64, BUCKETS = 4096 };
 
-/* A tail whose largest value is smaller, relative to the mean magnitude, does not move a mean. */
+/* A tail whose largest value is smaller than this, relative to the mean magnitude, does not affect the mean.
+ */
 static const double NEGLIGIBLE = 0.01;
 
 static int ascending(const void *left, const void *right) {
@@ -15,8 +17,8 @@ static int ascending(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/* Puts the value of rank k there, smaller ones before and larger ones behind (Hoare 1961; equal ones in the
- * middle, as functions have many). */
+/* Quickselect: moves the value of rank k to index k, with smaller ones before and larger ones after it (Hoare
+ * 1961; equal values in the middle, since functions have many). */
 static double select_rank(size_t count, double *values, size_t k) {
     size_t from = 0, to = count;
     while (to - from > 1) {
@@ -105,8 +107,8 @@ static double pareto_shape(size_t count, const double *x) {
     return ((double)count * k + 5.0) / ((double)count + 10.0);
 }
 
-/* The same of the `tail` largest of ascending magnitudes, over the one before them. NaN: too few, or too many
- * alike for a fit. */
+/* The same for the `tail` largest of ascending magnitudes, above the one before them. NaN: too few, or too
+ * many equal ones for a fit. */
 static double tail_shape(size_t count, const double *magnitudes, size_t tail, double *x) {
     if (tail < 5 || tail >= count)
         return (double)NAN;
@@ -128,8 +130,8 @@ static void judge_tail(size_t count, size_t others, double *magnitudes, double *
     const double shape = tail_shape(tail + 1, top, tail, scratch);
     const double narrow = tail_shape(tail + 1, top, tail / 4, scratch);
     const bool flat = top[tail] == top[tail - 2];                      /* the function has a largest value */
-    const bool matters = top[tail] > NEGLIGIBLE * evidence->magnitude; /* else it may be rounding */
-    if (shape > 0.1 && narrow > 0.1) /* singular or not resolved: the larger ones are not seen yet */
+    const bool matters = top[tail] > NEGLIGIBLE * evidence->magnitude; /* else possibly rounding */
+    if (shape > 0.1 && narrow > 0.1) /* singular or not resolved: larger values were not sampled yet */
         evidence->jump = fmax(evidence->jump, top[tail]);
     evidence->heavy_tail = shape > 0.7 && narrow > 0.5 && !flat && matters;
 }
@@ -147,8 +149,8 @@ aur_evidence aur_evidence_of(size_t count, size_t older, double *values, double 
     if (evidence.all_equal)
         return evidence;
     evidence.dominated = largest > 0.5 * sum;
-    /* A gap that four times as many values leave as it was is a jump of the function or a place that is not
-     * resolved; those of smooth functions close. */
+    /* A gap that remains with four times as many values is a jump of the function or an unresolved feature;
+     * gaps of smooth functions close. */
     const double gap = largest_gap(count, values);
     if (older < 2 || gap > 0.5 * largest_gap(older, values))
         evidence.jump = gap;

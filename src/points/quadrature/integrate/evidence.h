@@ -1,4 +1,4 @@
-/* What the values of a function say of how far an interval over replicates can be trusted. */
+/* Evidence from the values of a function on the reliability of an interval over replicates. */
 #pragma once
 
 #include <stdbool.h>
@@ -6,14 +6,14 @@
 
 typedef struct aur_evidence {
     size_t count;              /* of values */
-    bool all_equal;            /* 0 values are */
+    bool all_equal;            /* also for 0 values */
     bool sparse;               /* few values differ from the most frequent one */
-    bool dominated;            /* one value has most of the sum of magnitudes */
+    bool dominated;            /* one value contributes most of the sum of magnitudes */
     bool heavy_tail;           /* as of infinite variance */
     double magnitude, largest; /* mean and largest magnitude */
-    double jump;               /* what a point may add that no value has shown */
+    double jump;               /* the possible effect of a point beyond the sampled values */
 } aur_evidence;
 
-/* Judges values[count] (reordered), of which the first `older` were there two levels ago; scratch has room
- * for as many. */
+/* Evaluates values[count], which it reorders; the first `older` are those of two levels ago. scratch has
+ * `count` elements. */
 aur_evidence aur_evidence_of(size_t count, size_t older, double *values, double *scratch);

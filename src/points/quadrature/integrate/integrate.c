@@ -13,8 +13,8 @@
 #include "points/quadrature/integrate/shape.h"
 #include "points/quadrature/integrate/values.h"
 
-/* Evaluations of the first level and the fewest of a result, unless the caller says how many; those that make
- * a constant function believed; numbers that are stored at most, 1 GiB. */
+/* Default evaluations of the first level and the minimum for a result; evaluations after which a function
+ * counts as constant; the largest number of stored values, 1 GiB. */
 static const uint64_t FIRST = 2048, FEWEST = 8192, CONSTANT = 65536, STORED = UINT64_C(1) << 27;
 
 static aur_result check_orbits(const aur_integrate_options *o, aur_error *error) {
@@ -30,7 +30,7 @@ static aur_result check_orbits(const aur_integrate_options *o, aur_error *error)
     return AUR_OK;
 }
 
-/* Points that see the smallest feature with 95 % probability; 0: no size is given. */
+/* Points that sample the smallest feature with 95 % probability; 0: no size is given. */
 static double seen_points(const aur_integrate_options *o) {
     return o->resolution > 0.0 ? 3.0 / o->resolution : 0.0;
 }
@@ -111,8 +111,9 @@ static aur_moments moments_of(const aur_integration *work, size_t only) {
     return moments;
 }
 
-/* The variance of a mean, given that of this level and what those of the levels before let expect: where
- * replicates agree by chance, the work would end. Variances fall between n^-1 (random points) and n^-4. */
+/* The variance of a mean from that of this level and the prediction from earlier levels: replicates that
+ * agree by chance would otherwise end the integration. Variances fall between n^-1 (random points) and n^-4.
+ */
 static double pooled(const double variance[3], size_t levels) {
     if (levels < 2 || !(variance[2] > 0.0))
         return variance[0];
@@ -120,7 +121,7 @@ static double pooled(const double variance[3], size_t levels) {
     return fmax(variance[0], 0.5 * (variance[0] + fall * variance[1]));
 }
 
-/* A value and its interval over the replicates alone; adds the strata's variances to their shares. */
+/* A value and its interval over the replicates only; adds the strata's variances to their shares. */
 static void judge_replicates(aur_integration *work, size_t value) {
     add_up(work, value);
     const aur_moments all = moments_of(work, work->strata);
@@ -134,8 +135,9 @@ static void judge_replicates(aur_integration *work, size_t value) {
     }
 }
 
-/* The values of one stratum, a quarter that is a set by itself first, for `evidence`; how many are of it. The
- * quarter is that of two levels ago; of sets without levels, which may go along z, every fourth point. */
+/* Collects the values of one stratum for `evidence`, beginning with a quarter that is a set by itself;
+ * returns the size of the quarter. It is the set of two levels ago; for sets without levels, which may be
+ * ordered along z, every fourth point. */
 static size_t gather(const aur_integration *work, const aur_stratum *part, size_t value, size_t *older) {
     const bool levels = work->options.set == NULL;
     size_t count = 0;
@@ -152,9 +154,9 @@ static size_t gather(const aur_integration *work, const aur_stratum *part, size_
     return count;
 }
 
-/* Widens the interval by what one more point in one replicate may do. If all R replicates hold the same
- * count, the probability phi that one holds one more is, at alpha/2, below 1 - (alpha/2)^(1/R), about
- * ln(2/alpha)/R: the mean is uncertain by ln(2/alpha) jump/(R n), which the half width is made to contain.
+/* Widens the interval by the possible effect of one more point in one replicate. If all R replicates have the
+ * same count, the probability phi that one has one more is, at alpha/2, below 1 - (alpha/2)^(1/R), about
+ * ln(2/alpha)/R: the uncertainty of the mean is ln(2/alpha) jump/(R n), which is included in the half width.
  */
 static void widen(aur_integration *work, size_t value, size_t s, const aur_evidence *evidence) {
     const aur_stratum *const part = &work->parts[s];
@@ -168,13 +170,13 @@ static void widen(aur_integration *work, size_t value, size_t s, const aur_evide
     work->shares[s] += pow(floor / work->quantile, 2.0);
 }
 
-/* What is known of the function beside the spread of replicates, over all values. */
+/* Evidence on the function in addition to the spread of replicates, over all values. */
 typedef struct doubts {
     bool all_equal; /* all values of all points */
     unsigned bits;
 } doubts;
 
-/* The error that one value of the level may have. */
+/* The tolerated error of one value of the level. */
 static double target_of(const aur_integration *work, size_t value) {
     const aur_integrate_options *const o = &work->options;
     double largest = fabs(work->found[value].value);
@@ -183,9 +185,8 @@ static double target_of(const aur_integration *work, size_t value) {
     return fmax(o->absolute, o->relative * largest);
 }
 
-/* The doubts of one stratum. Beside peaks that were declared, where the function is small, they do not count:
- * where the share of the domain that may be unseen, with a hundred times the largest value, does not matter.
- */
+/* The doubts of one stratum. They are ignored outside declared peaks if the function is small there: if the
+ * unsampled fraction of the domain, with a hundred times the largest value, is negligible. */
 static unsigned bits_of(const aur_integration *work, size_t value, size_t s, const aur_evidence *evidence) {
     const aur_stratum *const part = &work->parts[s];
     const double unseen = 3.0 / (double)(part->count * work->options.replicates);
@@ -203,7 +204,7 @@ static void judge_all_replicates(aur_integration *work) {
         judge_replicates(work, v);
 }
 
-/* The same intervals by all evidence. */
+/* The intervals with all evidence. */
 static aur_result judge_values(aur_integration *work, doubts *doubt, aur_error *error) {
     size_t most = 0;
     for (size_t s = 0; s < work->strata; ++s)
@@ -220,11 +221,11 @@ static aur_result judge_values(aur_integration *work, doubts *doubt, aur_error *
             const aur_evidence evidence = aur_evidence_of(count, older, work->scratch, work->scratch + count);
             widen(work, v, s, &evidence);
             const unsigned bits = bits_of(work, v, s, &evidence);
-            work->shares[s] = bits != 0 ? INFINITY : work->shares[s]; /* it is this one that must grow */
+            work->shares[s] = bits != 0 ? INFINITY : work->shares[s]; /* this stratum must grow */
             doubt->bits |= bits;
             equal = equal && evidence.all_equal;
         }
-        /* A peak that was declared may well be flat, but nothing is known of 0 everywhere. */
+        /* A declared peak may be constant, but 0 everywhere gives no information. */
         equal = equal && (work->options.peak_count == 0 || work->found[v].half_width == 0.0);
         work->all_equal[v] = equal;
         varies = varies || !equal;
@@ -256,13 +257,13 @@ static bool compare(aur_integration *work) {
 
 /* --- levels */
 
-/* Whether the rest of the domain has fewer points than the smallest feature needs to be seen. */
+/* Whether the rest of the domain has too few points to sample the smallest feature. */
 static bool lacks_points(const aur_integration *work) {
     const aur_integrate_options *const o = &work->options;
     return (double)(work->parts[o->peak_count].count * o->replicates) < seen_points(o);
 }
 
-/* Doubles the strata that matter. False: it would take more evaluations than allowed. */
+/* Doubles the points of the relevant strata. False: it would exceed the allowed evaluations. */
 static bool choose(aur_integration *work) {
     double largest = 0.0;
     uint64_t evaluations = 0, stored = 0;
@@ -280,7 +281,7 @@ static bool choose(aur_integration *work) {
     return evaluations <= work->options.evaluations && stored <= STORED;
 }
 
-/* All values were equal: nothing is known of what differs from them. */
+/* All values were equal: there is no information on other values. */
 static void judge_constant(aur_integration *work) {
     aur_integral *const integral = &work->integral;
     integral->doubts |= AUR_INTEGRATE_ALL_EQUAL;

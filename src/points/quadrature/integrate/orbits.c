@@ -9,7 +9,7 @@
 #include "points/base/vector.h"
 #include "points/quadrature/integrate/values.h"
 
-/* Points of the first rule; those that make a constant function believed. */
+/* Points of the first rule; points after which a function counts as constant. */
 enum { FIRST = 256, CONSTANT = 65536 };
 
 typedef struct orbits {
@@ -19,7 +19,7 @@ typedef struct orbits {
     size_t width;
     double *values; /* of one call */
     double scale;
-    bool equal; /* all values of the rule are as the first ones */
+    bool equal; /* all values of the rule equal the first ones */
 } orbits;
 
 /* Adds a rule's values to found[width]. */
@@ -59,7 +59,7 @@ static aur_result evaluate(orbits *w, size_t n, aur_estimated *found, size_t *co
     return result;
 }
 
-/* The largest change from the rule before, and the largest value. */
+/* The largest change from the previous rule, and the largest value. */
 static double change_of(const orbits *w, const aur_estimated *found, const double *before, double *largest) {
     double change = 0.0;
     *largest = 0.0;

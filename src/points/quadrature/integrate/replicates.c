@@ -12,16 +12,16 @@
 #include "points/quadrature/integrate/shape.h"
 #include "points/sphere/map.h"
 
-/* Points of the last level with weights of a high degree: what is not smooth enough to be done then gains
- * nothing by them. A set of one level is worth more. Beyond, degree 6 makes up for grids that are uneven
- * between their complete levels. */
+/* Points of the last level with weights of a high degree: functions that have not converged by then do not
+ * benefit from them. A set of one level may use more. Beyond, degree 6 compensates for the nonuniformity of
+ * grids between complete levels. */
 enum { EXACT_POINTS = 1024, EXACT_POINTS_OF_SETS = 16384, EXACT_DEGREE = 6 };
 
 struct aur_replicates {
     const aur_integrate_options *options;
     size_t peak;
-    aur_directions *grid;                       /* turned by the rotations; or NULL */
-    aur_rotations *turns;                       /* a set of rotations, turned likewise; or NULL */
+    aur_directions *grid;                       /* rotated by `rotations`; or NULL */
+    aur_rotations *turns;                       /* a set of rotations, rotated likewise; or NULL */
     aur_pointset *sets[AUR_REPLICATES_MAX];     /* elsewhere */
     aur_rotation rotations[AUR_REPLICATES_MAX]; /* of the grid */
     double quaternions[AUR_REPLICATES_MAX][4];  /* of the set of rotations */
@@ -75,7 +75,7 @@ static aur_result make_sets(aur_replicates *r, size_t capacity, aur_error *error
     return result;
 }
 
-/* A whole domain that random rotations take to itself. */
+/* A whole domain that is invariant under random rotations. */
 static bool is_turned(const aur_replicates *r) {
     const aur_integrate_options *const o = r->options;
     return is_rest(r) && !o->has_axis && aur_shape_is_directions(o) &&
@@ -120,7 +120,7 @@ double aur_replicates_measure(const aur_replicates *replicates) {
     return measure * (o->has_axis ? o->axis_to - o->axis_from : 1.0);
 }
 
-/* Points that a peak before this stratum's has are none of it. */
+/* Points of an earlier peak do not belong to this stratum. */
 static void exclude(const aur_replicates *r, size_t count, const double *points, double *factors) {
     const aur_integrate_options *const o = r->options;
     const size_t coordinates = aur_integrate_coordinates(o);
@@ -194,7 +194,7 @@ aur_result aur_replicates_weights(const aur_replicates *r, size_t count, double 
     options.degree = count > most && degree > EXACT_DEGREE ? EXACT_DEGREE : degree;
     aur_result result = aur_directions_points(r->grid, 0, count, 3 * count, xyz, near, error);
     if (r->options->set != NULL && result == AUR_OK) {
-        /* A set's own weights may be exact to a higher degree: the nearest to them are they themselves. */
+        /* The set's weights may be exact to a higher degree already: then they are the result. */
         double sum = 0.0;
         for (size_t i = 0; i < count; ++i)
             sum += near[i];
@@ -205,5 +205,5 @@ aur_result aur_replicates_weights(const aur_replicates *r, size_t count, double 
     if (result == AUR_OK)
         result = aur_weights_exact(count, xyz, &options, count, weights, NULL, error);
     free(xyz);
-    return result == AUR_ERROR_ARGUMENT ? AUR_OK : result; /* no positive ones: they stay */
+    return result == AUR_ERROR_ARGUMENT ? AUR_OK : result; /* no positive weights: the set's remain */
 }

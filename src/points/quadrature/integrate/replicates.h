@@ -1,10 +1,9 @@
-/* The same points many times over, each time moved at random so that no mean has a bias: what integrals are
- * estimated from. */
+/* Independent randomisations of the same points, with unbiased means, from which integrals are estimated. */
 #pragma once
 
 #include <aureole/integrate.h>
 
-/* The replicates of one stratum of the domain: of one peak, or of what the peaks leave. */
+/* The replicates of one stratum of the domain: of one peak, or of the rest of the domain. */
 typedef struct aur_replicates aur_replicates;
 
 enum { AUR_REPLICATES_MAX = 64 };
@@ -15,11 +14,11 @@ aur_result aur_replicates_create(const aur_integrate_options *options, size_t pe
                                  aur_replicates **replicates, aur_error *error);
 void aur_replicates_destroy(aur_replicates *replicates); /* NULL is allowed */
 
-/* The measure that means over the points are multiplied by, with the axis. */
+/* The measure of the stratum, including the axis, by which means over the points are multiplied. */
 double aur_replicates_measure(const aur_replicates *replicates);
 
 /* Points first .. first + count - 1 of one replicate: points[count * coordinates], along[count] with an axis,
- * and factors[count] of the function there: 0 where the point is not of this stratum. */
+ * and factors[count] of the function: 0 if the point is not in this stratum. */
 aur_result aur_replicates_points(const aur_replicates *replicates, size_t replicate, size_t first,
                                  size_t count, double *points, double *along, double *factors,
                                  aur_error *error);

@@ -10,8 +10,8 @@
 #include "points/sphere/map.h"
 #include "points/sphere/rotations/hopf.h"
 
-/* No point is nearer to a singularity, in units of the square of the distance: coordinates are rounded, and a
- * function would see another distance. The map gives the function nearly one value there. */
+/* The smallest squared distance of points from a singularity: nearer points would be affected by the rounding
+ * of coordinates. The map makes the function nearly constant there. */
 static const double NEAREST = 1e-24;
 
 bool aur_shape_is_directions(const aur_integrate_options *options) {
@@ -66,7 +66,7 @@ double aur_shape_measure(const aur_integrate_options *options) {
            (options->exponent > 0.0 ? 1.0 / (options->exponent + 1.0) : aur_shape_cap_height(options));
 }
 
-/* The simplex from the cube (Devroye 1986, ch. V.2): one root a dimension, one after another. */
+/* The simplex from the cube (Devroye 1986, ch. V.2): one root per dimension, one after another. */
 static void to_simplex(size_t dimension, const double *cube, double *point) {
     double rest = 1.0;
     for (size_t d = 0; d < dimension; ++d) {
@@ -109,7 +109,7 @@ static double peak_height(const aur_integrate_options *options, const aur_integr
     return 2.0 * pow(sin(0.5 * degrees / 180.0 * AUR_PI), 2.0);
 }
 
-/* The part of one side of the cube that a box has. */
+/* The interval of a box along one side of the cube. */
 static double peak_side(const aur_integrate_peak *peak, size_t d, double *from) {
     const double half = peak->radius > 0.0 ? peak->radius : 1.0;
     *from = fmax(peak->centre[d] - half, 0.0);
@@ -140,8 +140,8 @@ bool aur_shape_peak_holds(const aur_integrate_options *options, const aur_integr
     return true;
 }
 
-/* Heights t = h s^b with b = 2 / (2 - exponent): the function goes as t^(-exponent/2), and dt/ds makes up
- * for it. */
+/* Heights t = h s^b with b = 2 / (2 - exponent): the function is proportional to t^(-exponent/2), which dt/ds
+ * cancels. */
 static void cap_point(const aur_integrate_options *options, const aur_integrate_peak *peak,
                       const double *cube, double *point, double *factor) {
     const double height = peak_height(options, peak), power = 2.0 / (2.0 - peak->exponent);
@@ -166,8 +166,9 @@ static void cap_point(const aur_integrate_options *options, const aur_integrate_
         *factor *= pow(fmax(point[2], 0.0), options->exponent);
 }
 
-/* Towards the centre along every side by a power that makes up for the singularity: the product of the
- * derivatives goes as s^(d (b - 1)) and the function as s^(-b exponent), b = d / (d - exponent). */
+/* Moves coordinates towards the centre by a power that cancels the singularity: the product of the
+ * derivatives is proportional to s^(d (b - 1)) and the function to s^(-b exponent), b = d / (d - exponent).
+ */
 static void box_point(const aur_integrate_options *options, const aur_integrate_peak *peak,
                       const double *cube, double *point, double *factor) {
     const size_t dimension = aur_shape_dimension(options);
@@ -193,7 +194,7 @@ void aur_shape_peak_point(const aur_integrate_options *options, const aur_integr
     (is_cube(options) ? box_point : cap_point)(options, peak, cube, point, factor);
 }
 
-/* --- what options may be */
+/* --- checks of options */
 
 static aur_result check_peak(const aur_integrate_options *o, const aur_integrate_peak *peak,
                              aur_error *error) {

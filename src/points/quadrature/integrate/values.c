@@ -27,7 +27,7 @@ aur_result aur_integrand_check(const aur_integrate_options *options, size_t widt
     return AUR_OK;
 }
 
-/* Values of one call's points of a stratum, without those that are none of it. */
+/* Values at one call's points of a stratum, without those outside it. */
 static aur_result evaluate_call(aur_integration *work, const aur_stratum *part, size_t replicate,
                                 size_t first, size_t count, aur_error *error) {
     const aur_integrate_options *const o = &work->options;

@@ -8,11 +8,11 @@
 /* One part of the domain: the values of all replicates so far. */
 typedef struct aur_stratum {
     aur_replicates *replicates;
-    double scale;                       /* its measure over that of a mean */
-    size_t count;                       /* points of a replicate that have values */
+    double scale;                       /* its measure, or fraction of the domain for a mean */
+    size_t count;                       /* points of a replicate with values */
     size_t next;                        /* of the next level */
     size_t capacity;                    /* of each array below, in points */
-    double *values[AUR_REPLICATES_MAX]; /* NaN: the point is not of this aur_stratum */
+    double *values[AUR_REPLICATES_MAX]; /* NaN: the point is not in this aur_stratum */
     double *weights;                    /* of the points, for all replicates */
 } aur_stratum;
 
@@ -28,19 +28,19 @@ typedef struct aur_integration {
     double *means;  /* of one value: strata * replicates */
     double *shares; /* strata: of the variance of the mean */
     aur_estimated *found;
-    double *before;         /* values of the level before */
+    double *before;         /* values of the previous level */
     double (*variances)[3]; /* of each value: the mean's, on this level and the two before */
     double quantile;        /* Student's, of the half width in standard errors */
     bool *all_equal;        /* of each value: those of all points */
     aur_integral integral;
 } aur_integration;
 
-/* Values at points, of which there are `width` each. Errors: ARGUMENT for one that is not finite, and where.
- */
+/* Evaluates the function at points, with `width` values each. Errors: ARGUMENT for a value that is not
+ * finite, and where. */
 aur_result aur_integrand_check(const aur_integrate_options *options, size_t width, size_t count,
                                const double *points, const double *values, aur_error *error);
 
-/* Brings a stratum to the points of the next level. Errors: those of the function, MEMORY, CANCELLED. */
+/* Evaluates a stratum at the points of the next level. Errors: those of the function, MEMORY, CANCELLED. */
 aur_result aur_integration_evaluate(aur_integration *work, aur_stratum *part, aur_error *error);
 
 /* By rules of one point per orbit of the options' group, whose degree doubles until two agree: fills

@@ -9,9 +9,9 @@
 static const double negligible = 1e-13;
 
 /* Nodes, their cosines, and weights on [from, to] for cos^exponent, by the Gauss rule of `count` nodes on
- * [-1,1]; `to` is the end where the cosine vanishes or nearly does. There cos^exponent has no derivatives
- * when a small exponent is no integer: the substitution t = x^power of the distance t to that end gives them
- * back. */
+ * [-1,1]; `to` is the end where the cosine vanishes or nearly does. There cos^exponent is not smooth for a
+ * small non-integer exponent: the substitution t = x^power of the distance t to that end restores smoothness.
+ */
 static void lobe_rule(double from, double to, double exponent, size_t count, const double *node,
                       const double *share, double *angle, double *cosine, double *weight) {
     const int power = exponent < 0.5 ? 3 : exponent < 1.0 ? 2 : 1;
@@ -80,7 +80,7 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
     if (lune->fraction <= 0.0)
         return 0.0;
     const double local[3] = {aur_dot3(u, lune->axis), aur_dot3(u, lune->down), aur_dot3(u, lune->aside)};
-    /* The kernel is sharp at u itself: the intervals meet at its beta, where Gauss nodes crowd. */
+    /* The kernel is not smooth at u: the intervals meet at its beta, where Gauss nodes are dense. */
     double middle = asin(fmax(-1.0, fmin(1.0, local[2])));
     if (fabs(middle) >= 0.98 * lune->beta_reach)
         middle = 0.0;

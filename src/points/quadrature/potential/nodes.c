@@ -5,7 +5,7 @@
 #include "points/base/vector3d.h"
 #include "points/quadrature/potential/potential.h"
 
-/* Fibonacci points that follow a lobe about +z, or the even ones of the whole sphere. */
+/* Fibonacci points distributed as a lobe about +z, or uniform on the whole sphere. */
 static aur_result draw(size_t count, aur_domain domain, const aur_lobe *lobe, double *columns,
                        aur_error *error) {
     aur_directions_options options = {.size = sizeof options};
@@ -58,7 +58,7 @@ aur_result aur_nodes_function(const aur_density *density, double *columns, doubl
     return AUR_OK;
 }
 
-/* Smith's Lambda of the GGX distribution for a direction whose cosine to the normal is given (Heitz 2014). */
+/* Smith's Lambda of the GGX distribution for a direction with a given cosine to the normal (Heitz 2014). */
 static double smith_lambda(double alpha, double cosine) {
     const double tangent2 = fmax(0.0, 1.0 - cosine * cosine) / (cosine * cosine);
     return 0.5 * (sqrt(1.0 + alpha * alpha * tangent2) - 1.0);

@@ -172,7 +172,7 @@ void aur_potential_evaluate(const aur_potential *potential, size_t count, const 
     }
     for (size_t i = 0; i < count; ++i)
         z[i] = potential->node_masses == NULL
-                   ? potential->zonal.self_energy /* of the sphere: its z is the same everywhere */
+                   ? potential->zonal.self_energy /* for the sphere z is constant */
                    : aur_kernel_sum(&potential->rule, xyz + 3 * i, potential->density.node_count,
                                     potential->nodes, potential->node_masses);
 }
@@ -202,7 +202,7 @@ double aur_potential_self_energy(const aur_potential *potential) {
     return energy;
 }
 
-/* The density as it is written, of the kinds that have a formula. */
+/* The unnormalised density, for kinds with a formula. */
 static double formula(const aur_density *density, const double direction[3]) {
     if (density->kind == AUR_DENSITY_SPHERE)
         return 1.0;

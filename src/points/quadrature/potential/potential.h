@@ -1,6 +1,6 @@
-/* The inside of a potential: the density it was made from and, by its kind, what z is evaluated with. A lobe
- * has the series of its potential along the axis and, clipped, the hidden part of it; the other kinds but the
- * constant one of the sphere are sums over nodes. It does not change once it is made. */
+/* The implementation of a potential: its density and the data to evaluate z, which depend on the kind. A lobe
+ * has the series of its potential along the axis and, if clipped, its hidden part. The other kinds are sums
+ * over nodes, except the constant one of the sphere. Immutable. */
 #pragma once
 
 #include <aureole/quadrature.h>
@@ -10,9 +10,10 @@
 #include "points/base/error.h"
 #include "points/quadrature/kernel.h"
 
-/* The potential of a cos^m lobe: a function of x = u.axis only. */
+/* The potential of a cos^m lobe: a function only of x = u.axis. */
 
-/* z(x) is smooth but at x = 0, where the lobe ends: one Chebyshev series for each side, in t = 2|x| - 1. */
+/* z(x) is smooth except at x = 0, where the lobe ends: one Chebyshev series for each side, in t = 2|x| - 1.
+ */
 typedef struct aur_zonal {
     size_t count[2];         /* of x >= 0 and of x < 0 */
     double *coefficients[2]; /* one allocation, that of [0] */
@@ -23,10 +24,10 @@ typedef struct aur_zonal {
 aur_result aur_zonal_create(double exponent, double smoothness, aur_zonal *zonal, aur_error *error);
 void aur_zonal_release(aur_zonal *zonal);
 
-/* z[i] at x[i] in [-1,1]; rounding may lead a little beyond. NaN gives NaN. */
+/* z[i] at x[i] in [-1,1]; rounding may exceed it slightly. NaN gives NaN. */
 void aur_zonal_evaluate(const aur_zonal *zonal, size_t count, const double *x, double *z);
 
-/* Terms after which the series is a good 1e-12 of its sum. */
+/* The number of terms for a truncation error of about 1e-12 of the sum. */
 size_t aur_zonal_terms(double exponent, double smoothness);
 
 /* The part of a cos^m lobe below the surface.
@@ -48,22 +49,23 @@ typedef struct aur_lune {
     double cosine[AUR_LUNE_ACROSS], sine[AUR_LUNE_ACROSS], across_weight[AUR_LUNE_ACROSS];
 } aur_lune;
 
-/* `axis` is a unit vector that does not point below the surface. */
+/* `axis` is a unit vector with z >= 0. */
 void aur_lune_init(aur_lune *lune, const double axis[3], double exponent);
 
-/* The potential at u of the hidden part of the normalised whole lobe: what to take from the whole lobe's. */
+/* The potential at u of the hidden part of the normalised whole lobe, to subtract from that of the whole
+ * lobe. */
 double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, const double u[3]);
 
-/* Nodes and weights, AUR_LUNE_VISIBLE of them, of the visible part of the normalised whole lobe, for
- * functions that are smooth there; their sum is 1 - fraction. */
+/* Nodes and weights, AUR_LUNE_VISIBLE of them, of the visible part of the normalised whole lobe, for smooth
+ * functions; their sum is 1 - fraction. */
 enum { AUR_LUNE_VISIBLE = 2 * AUR_LUNE_SIDE * AUR_LUNE_ACROSS };
 void aur_lune_visible(const aur_lune *lune, double *xyz, double *weights);
 
 struct aur_potential {
-    aur_density density; /* its axis a unit vector, node_count what it stands for */
+    aur_density density; /* with a unit axis and the default node_count filled in */
     aur_kernel_rule rule;
     double mass;
-    aur_zonal zonal; /* COSINE_POWER; SPHERE: its self-energy alone */
+    aur_zonal zonal; /* COSINE_POWER; SPHERE: only the self-energy */
     aur_lune lune;   /* COSINE_POWER, clipped */
     double *storage; /* NODES, FUNCTION, GGX: x, y, z and masses of sum 1, node_count each */
     aur_columns nodes;
@@ -76,7 +78,7 @@ static inline bool aur_potential_hides(const aur_potential *potential) {
     return kind == AUR_DENSITY_GGX || (kind == AUR_DENSITY_COSINE_POWER && potential->density.clipped);
 }
 
-/* All zero, which stands for +z. */
+/* Whether the axis is all zero, the default +z. */
 static inline bool aur_is_default_axis(const double axis[3]) {
     return axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0;
 }
@@ -87,7 +89,7 @@ aur_result aur_nodes_ggx(const aur_density *density, double *columns, double *ma
 /* The GGX lobe, reflection times cosine, in 1/steradian. */
 double aur_ggx_value(const aur_density *density, const double direction[3]);
 
-/* The published look-up of z in a table: what aur_z_grid asks for. */
+/* The published look-up table of z, for aur_z_grid. */
 
 typedef struct aur_potential_table aur_potential_table;
 
@@ -96,6 +98,6 @@ aur_result aur_potential_table_create(const aur_z_grid *grid, double smoothness,
                                       aur_error *error);
 void aur_potential_table_destroy(aur_potential_table *table); /* NULL is allowed */
 
-/* z of the normalised cos^m lobe at directions whose cosines to its axis are given. */
+/* z of the normalised cos^m lobe at directions with given cosines to its axis. */
 void aur_potential_table_evaluate(const aur_potential_table *table, double exponent, size_t count,
                                   const double *cosines, double *z);

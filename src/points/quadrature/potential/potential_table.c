@@ -8,7 +8,7 @@
 
 struct aur_potential_table {
     aur_z_grid grid;
-    double z[]; /* a row an exponent, and behind them the directions that the rows are made for */
+    double z[]; /* one row per exponent, followed by the directions of the columns */
 };
 
 aur_result aur_potential_table_create(const aur_z_grid *grid, double smoothness, aur_potential_table **table,
@@ -57,7 +57,7 @@ void aur_potential_table_destroy(aur_potential_table *table) {
     free(table);
 }
 
-/* The cell that `position` of `count` places is in, and how far: position in [0, count - 1]. */
+/* The cell of `position` among `count` nodes, and the fraction within it: position in [0, count - 1]. */
 static size_t cell(double position, size_t count, double *part) {
     const double inside = fmax(0.0, fmin(position, (double)(count - 1)));
     const size_t index = (size_t)fmin(inside, (double)(count - 2));

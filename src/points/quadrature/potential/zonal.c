@@ -12,7 +12,7 @@
 
 enum { LANES = 16, MOST_TERMS = 20000 };
 
-/* Terms decay as l^-(m+2s+1), and none matters before the lobe is resolved (l about sqrt m). */
+/* Terms decay as l^-(m+2s+1), beginning where the lobe is resolved (l about sqrt m). */
 size_t aur_zonal_terms(double exponent, double smoothness) {
     const double resolve = 64.0 + 7.0 * sqrt(exponent);
     const double tail = pow(1e14, 1.0 / (exponent + 2.0 * smoothness));
@@ -28,7 +28,7 @@ static void lobe_moments(double exponent, size_t count, double *moments) {
         moments[l + 2] = moments[l] * (exponent - (double)l) / (exponent + (double)l + 3.0);
 }
 
-/* terms[l] = k_l mu_l. Needs room for 2 * count. */
+/* terms[l] = k_l mu_l. Needs 2 * count elements. */
 static void series_terms(double exponent, double smoothness, size_t count, double *terms, double *moments) {
     aur_kernel_coefficients(smoothness, count, terms);
     lobe_moments(exponent, count, moments);
@@ -70,7 +70,7 @@ static void chebyshev_coefficients(size_t count, const double *values, double *c
     }
 }
 
-/* Coefficients that matter at double precision. */
+/* The number of coefficients relevant at double precision. */
 static size_t significant(size_t count, const double *coefficients) {
     double largest = 0.0;
     for (size_t k = 0; k < count; ++k)
@@ -167,7 +167,7 @@ aur_result aur_cross_energy(double exponent, double other_exponent, double cosin
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "a cosine must be between -1 and 1, not %g", cosine);
     if (result != AUR_OK)
         return result;
-    /* The product of the moments decays as l^-(m+m'+3), so one lobe's count is more than enough. */
+    /* The product of the moments decays as l^-(m+m'+3), so one lobe's count is sufficient. */
     const size_t terms = aur_zonal_terms(fmax(exponent, other_exponent), smoothness);
     double *const storage = malloc(3 * terms * sizeof *storage);
     if (storage == NULL)

@@ -1,5 +1,5 @@
-/* Plain arithmetic without contraction, so that every instruction set gives the same bits. The target
- * overlaps neither row. */
+/* Plain arithmetic without contraction, so that all instruction sets are bit-identical. The target overlaps
+ * neither row. */
 #include "points/quadrature/tables/weight_table.h"
 
 void AUR_KERNEL(aur_weight_blend)(size_t count, const float *restrict below, const float *restrict above,

@@ -1,5 +1,5 @@
-/* Two lobes and the union of their samples (Marques 2018 sections 5.3 and 6.2), at any angle, whole or
- * clipped. */
+/* Two lobes and the union of their samples (Marques 2018 sections 5.3 and 6.2), at any angle, clipped or not.
+ */
 #include "points/quadrature/tables/oswa.h"
 
 #include <math.h>
@@ -22,9 +22,9 @@ bool aur_oswa_hides(const aur_oswa *oswa) {
     return oswa->options.clipped || is_ggx(oswa);
 }
 
-/* --- making one */
+/* --- creation */
 
-/* The block of K and the z of a pattern within itself; `columns` has room for its points. */
+/* The block of K and the z of a pattern within itself; `columns` is scratch memory for its points. */
 static aur_result prepare_pattern(aur_oswa *oswa, size_t which, double *columns, aur_error *error) {
     const size_t n = oswa->count[which];
     const double exponent = oswa->lobe[which].exponent;
@@ -67,7 +67,7 @@ static aur_result create_pattern(aur_oswa *oswa, size_t which, bool solves, aur_
     oswa->pattern[which] = storage + 3 * n;
     oswa->own[which] = storage + 9 * n;
     oswa->kernel[which] = storage + 10 * n;
-    /* The second pattern has a seed of its own, which is not the first one's of another pair. */
+    /* The second pattern has a separate seed, different from those of other pairs. */
     const aur_directions_options directions = {
         .size = sizeof directions,
         .count = n,
@@ -171,9 +171,9 @@ size_t aur_oswa_size(const aur_oswa *oswa) {
     return oswa->count[0] + oswa->count[1];
 }
 
-/* --- where the samples are */
+/* --- positions of samples */
 
-/* Turns about +z. */
+/* Rotates about +z. */
 static void turn(double turns, size_t count, const double *from, double *to) {
     const double c = cos(2.0 * AUR_PI * turns), s = sin(2.0 * AUR_PI * turns);
     for (size_t i = 0; i < count; ++i) {
@@ -184,7 +184,7 @@ static void turn(double turns, size_t count, const double *from, double *to) {
     }
 }
 
-/* Takes +z to the mirror direction (-sin a, 0, cos a). */
+/* Rotates +z to the mirror direction (-sin a, 0, cos a). */
 static void tilt(double radians, size_t count, double *xyz) {
     const double c = cos(radians), s = sin(radians);
     for (size_t i = 0; i < count; ++i) {
@@ -295,8 +295,7 @@ size_t aur_oswa_scratch(const aur_oswa *oswa) {
     return n * n + 10 * n;
 }
 
-/* z of both lobes at a pattern whose points stand at `xyz`: `z` for the first, `mirror_z` for the mirror
- * lobe. */
+/* z of both lobes at the points `xyz` of a pattern: `z` for the first, `mirror_z` for the mirror lobe. */
 static void fill_z(const aur_oswa *oswa, const aur_oswa_angle *angle, size_t which, const double *xyz,
                    double *cosines, double *z, double *mirror_z) {
     const size_t n = oswa->count[which];
@@ -319,8 +318,8 @@ static void fill_z(const aur_oswa *oswa, const aur_oswa_angle *angle, size_t whi
                 visible;
 }
 
-/* The lower triangle of K with the regulariser, of all samples; the blocks within the patterns are there
- * already. */
+/* The lower triangle of K with the regulariser, of all samples; the blocks within the patterns are
+ * precomputed. */
 static void fill_matrix(const aur_oswa *oswa, const double *xyz, double *columns, double *matrix) {
     const size_t first = oswa->count[0], second = oswa->count[1], n = first + second;
     const aur_columns split = aur_columns_split(first, xyz, columns);
@@ -333,7 +332,7 @@ static void fill_matrix(const aur_oswa *oswa, const double *xyz, double *columns
     }
 }
 
-/* Takes samples out of the system, in place; returns how many stay. */
+/* Removes samples from the system, in place; returns the number remaining. */
 static size_t drop(size_t n, const bool *taken, double *matrix, double *right, size_t columns) {
     size_t kept = 0;
     for (size_t i = 0; i < n; ++i)
@@ -353,8 +352,8 @@ static size_t drop(size_t n, const bool *taken, double *matrix, double *right, s
     return kept;
 }
 
-/* The way that knows nothing in advance: GGX, and systems that only merged samples make positive definite. It
- * leaves out by itself what is below the surface. */
+/* The general solver without precomputed blocks: for GGX, and for systems that are positive definite only
+ * after merging samples. It leaves out samples below the surface. */
 static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const double *xyz,
                                 double *weights, aur_error *error) {
     const size_t n = aur_oswa_size(oswa), lobes = aur_oswa_lobes(oswa);
@@ -377,8 +376,8 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
     return result;
 }
 
-/* At a crossing rounding may leave a sample just on the wrong side of the horizon. Where one that is left out
- * stands has no meaning. */
+/* At a crossing rounding may put a sample on the wrong side of the horizon. The position of a left-out sample
+ * is irrelevant. */
 static void put_on_side(bool taken, double *direction) {
     if (!taken) {
         direction[0] = direction[1] = 0.0;

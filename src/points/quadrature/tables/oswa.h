@@ -1,5 +1,6 @@
-/* The inside of a pair of patterns, and solving at one angle for many turns. The patterns, their blocks of
- * the matrix and their own z are made once; what depends on the angle is in an aur_oswa_angle. */
+/* The implementation of a pair of patterns, and solving at one angle for many turns. The patterns, their
+ * blocks of the matrix and their z are computed once; aur_oswa_angle has the data that depend on the angle.
+ */
 #pragma once
 
 #include <stdbool.h>
@@ -8,15 +9,15 @@
 
 /* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
 struct aur_oswa {
-    /* Its set and its weights are those below; smoothness is filled in. */
+    /* `set` and `weights` point to the members below; smoothness is filled in. */
     aur_oswa_options options;
     aur_weights_options weights;
     char *set;
     size_t count[2];
-    aur_lobe lobe[2];        /* that the weights are for */
-    aur_lobe sampled[2];     /* that the points follow */
-    double *uniform[2];      /* even directions of the hemisphere; owns what the next three point to */
-    double *pattern[2];      /* warped, about +z; GGX: unused. Of a pattern without samples all is NULL */
+    aur_lobe lobe[2];        /* of the weights */
+    aur_lobe sampled[2];     /* of the sampling density */
+    double *uniform[2];      /* uniform directions of the hemisphere; owns the memory of the next three */
+    double *pattern[2];      /* warped, about +z; GGX: unused. For a pattern without samples all are NULL */
     double *kernel[2];       /* count * count, lower triangle: the constant blocks; GGX: [1] is NULL */
     double *own[2];          /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
     aur_potential *whole[2]; /* of each lobe about +z, unclipped; GGX: [1] is NULL */
@@ -28,16 +29,16 @@ struct aur_oswa {
 aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
                                  aur_weights_options *weights, aur_error *error);
 
-/* Without `solves` the patterns alone, which is all that a table of weights needs to be read. */
+/* Without `solves` only the patterns, which suffice for reading a table of weights. */
 aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur_oswa **oswa,
                                aur_error *error);
 
-/* How many lobes weights are for: the first one too only where it has samples. */
+/* The number of lobes with weights: the first counts only if it has samples. */
 static inline size_t aur_oswa_lobes(const aur_oswa *oswa) {
     return oswa->count[0] > 0 ? 2 : 1;
 }
 
-/* What is looked at: the angle of the view, and how rough a GGX lobe is (else of no meaning). */
+/* The view: its angle, and the roughness of a GGX lobe (otherwise unused). */
 typedef struct aur_oswa_view {
     double radians, alpha;
 } aur_oswa_view;
@@ -45,7 +46,7 @@ typedef struct aur_oswa_view {
 /* The angle, with the roughness of the options. */
 aur_oswa_view aur_oswa_view_at(const aur_oswa *oswa, double radians);
 
-/* What depends on the view but not on the turns. */
+/* Data that depend on the view but not on the turns. */
 typedef struct aur_oswa_angle {
     aur_oswa_view view;
     double mass;              /* of the mirror lobe */
@@ -57,10 +58,10 @@ aur_result aur_oswa_angle_init(const aur_oswa *oswa, aur_oswa_view view, aur_osw
                                aur_error *error);
 void aur_oswa_angle_release(aur_oswa_angle *angle);
 
-/* Whether samples below the surface take no part. */
+/* Whether samples below the surface are left out. */
 bool aur_oswa_hides(const aur_oswa *oswa);
 
-/* Which samples are above the surface, where that matters; xyz[3 * size] are their places. */
+/* Which samples are above the surface, if clipped; xyz[3 * size] are their positions. */
 void aur_oswa_visible(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], double *xyz,
                       bool *visible);
 
@@ -73,10 +74,10 @@ double aur_oswa_height(const aur_oswa *oswa, aur_oswa_view view, double turns, s
 
 /* Doubles of scratch memory that a solve needs. */
 size_t aur_oswa_scratch(const aur_oswa *oswa);
-/* The weights of each lobe with only the samples `taken`, which must be visible but for rounding; the others
+/* The weights of each lobe with only the samples `taken`, which must be visible up to rounding; the others
  * get 0. */
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
                              const bool *taken, double *scratch, double *weights, aur_error *error);
 
-/* A hash of the patterns: two programs that make a set differently do not share a table. */
+/* A hash of the patterns: programs that compute a set differently do not share a table. */
 uint64_t aur_oswa_hash(const aur_oswa *oswa);

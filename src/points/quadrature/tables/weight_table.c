@@ -1,5 +1,4 @@
-/* OSWA weights at many angles and turns, so that rendering needs no solve: what a table is, and looking it
- * up. */
+/* OSWA weights at many angles and turns, so that rendering needs no solve: tables and look-ups. */
 #include "points/quadrature/tables/weight_table.h"
 
 #include <stdlib.h>
@@ -116,7 +115,7 @@ aur_oswa_view aur_weight_table_view(const aur_weight_table *table, size_t roughn
     return (aur_oswa_view){radians, roughness + 1 < table->roughness_count ? pow(least, 1.0 - way) : 1.0};
 }
 
-/* The roughness of the table below `alpha`, and how far in between it and the next. */
+/* The roughness of the table below `alpha`, and the fraction to the next one. */
 static aur_result locate_roughness(const aur_weight_table *table, double alpha, size_t *roughness,
                                    double *part, aur_error *error) {
     const double least = table->oswa->lobe[1].alpha, steps = (double)(table->roughness_count - 1);
@@ -133,7 +132,7 @@ static aur_result locate_roughness(const aur_weight_table *table, double alpha, 
     return AUR_OK;
 }
 
-/* What a caller looks at. */
+/* The view of a caller's arguments. */
 static aur_oswa_view view_of(const aur_weight_table *table, double radians, double alpha) {
     aur_oswa_view view = aur_oswa_view_at(table->oswa, radians);
     if (table->roughness_count > 1)
@@ -162,7 +161,7 @@ aur_result aur_weight_table_points(const aur_weight_table *table, double radians
                             : result;
 }
 
-/* Where an angle lies among `steps` equal parts of [0, pi/2]: the part's number, and how far in it. */
+/* The part of an angle among `steps` equal parts of [0, pi/2], and the fraction within it. */
 static size_t locate_step(size_t steps, float radians, float *part) {
     const float last = (float)steps;
     float position = radians * (last / (0.5f * AUR_PI_F));
@@ -187,13 +186,13 @@ size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float
         const float end =
             piece + 1 < first[1] ? table->start[piece + 1] : (float)aur_weight_table_angle(table, index + 1);
         const float way = (radians - start) / (end - start);
-        *part = way > 0.0f ? (way < 1.0f ? way : 1.0f) : 0.0f; /* a piece without width: 0 */
+        *part = way > 0.0f ? (way < 1.0f ? way : 1.0f) : 0.0f; /* a piece of width 0: 0 */
     }
     return 2 * piece;
 }
 
-/* Weights of a lobe at a roughness between two of the table. What is hidden has no weight; a sample that is
- * hidden in some of the four rows has its weight from the others. The sum is held. */
+/* Weights of a lobe at a roughness between two of the table. Hidden samples have weight 0; a sample that is
+ * hidden in some of the four rows gets its weight from the others. The sum is preserved. */
 static void mix_roughnesses(const aur_weight_table *table, size_t lobe, size_t rotation, size_t roughness,
                             double way, aur_oswa_view view, float *weights) {
     const size_t first = table->oswa->count[0];

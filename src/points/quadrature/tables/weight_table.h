@@ -1,5 +1,5 @@
-/* The inside of a table of OSWA weights, and what its builder, its files and renderers that keep its rows in
- * another layout need. A table does not change once it is built or read. */
+/* The implementation of a table of OSWA weights, for its builder, its files and renderers that store its rows
+ * in another layout. Immutable once built or read. */
 #pragma once
 
 #include "points/base/error.h"
@@ -7,16 +7,16 @@
 #include "points/base/vector.h"
 #include "points/quadrature/tables/oswa.h"
 
-/* Of `count` numbers of two rows, (1 - part) times the first and `part` times the second. */
+/* Blends `count` numbers of two rows: (1 - part) times the first plus `part` times the second. */
 typedef void aur_weight_blend(size_t count, const float *below, const float *above, float part,
                               float *target);
 AUR_KERNELS(aur_weight_blend, aur_weight_blend);
 
-/* A row holds the weights of all lobes at one angle. Each rotation has rows of its own, at each roughness
- * again: a *slot* is one of these pairs, numbered roughness by roughness. Where samples can be hidden, the
- * intervals between angles are cut into pieces where a sample crosses the horizon, so that within a piece the
- * same samples take part and the weights are smooth; the two ends of a piece then have rows of their own.
- * Otherwise neighbouring intervals share one. */
+/* A row has the weights of all lobes at one angle. Each rotation has separate rows for each roughness: a
+ * *slot* is one of these pairs, numbered roughness by roughness. If samples can be hidden (`apart`), the
+ * intervals between angles are divided where a sample crosses the horizon, so that the same samples are used
+ * within a piece and the weights are smooth; the two ends of a piece then have separate rows. Otherwise
+ * neighbouring intervals share a row. */
 struct aur_weight_table {
     aur_oswa *oswa; /* the patterns */
     size_t angle_count, roughness_count, rotation_count, size;
@@ -26,10 +26,10 @@ struct aur_weight_table {
     uint32_t *first;
     float *start;   /* apart: the angle where each piece begins */
     float *weights; /* row, lobe, sample */
-    /* Of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply. A row of them
-     * for each roughness. */
+    /* Masses of the mirror lobe, at MASS_STEPS steps per interval, since they change rapidly near the
+     * horizon. One row for each roughness. */
     float *masses;
-    aur_weight_blend *blend; /* for the instructions of this machine */
+    aur_weight_blend *blend; /* for the instruction set of this machine */
 };
 
 enum { AUR_WEIGHT_TABLE_MASS_STEPS = 8 };
@@ -46,7 +46,7 @@ static inline size_t aur_weight_table_intervals(const aur_weight_table *table) {
     return aur_weight_table_slots(table) * (table->angle_count - 1);
 }
 
-/* The numbers of a row. */
+/* The number of elements of a row. */
 static inline size_t aur_weight_table_width(const aur_weight_table *table) {
     return aur_oswa_lobes(table->oswa) * table->size;
 }
@@ -58,26 +58,26 @@ static inline double aur_weight_table_angle(const aur_weight_table *table, size_
     return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
 }
 
-/* The weights of the first lobe, where it has samples, and, behind them, of the mirror lobe. */
+/* The weights of the first lobe, if it has samples, followed by those of the mirror lobe. */
 static inline float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
     return table->weights + row * aur_weight_table_width(table);
 }
 
-/* The row r at the lower end of where an angle (clamped to [0, pi/2]) lies; the weights there are (1 - *part)
- * times row r plus *part times row r + 1. `slot` must be in the table. Exported for the renderer, but no
- * part of the interface. */
+/* The row r at the lower end of the piece of an angle (clamped to [0, pi/2]); the weights at the angle are (1
+ * - *part) times row r plus *part times row r + 1. `slot` must be in the table. Exported for the renderer,
+ * but not part of the public interface. */
 AUR_INTERNAL size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
                                             float *part);
 
 /* A table with patterns but neither pieces nor weights yet; `solves` as for aur_oswa_create_for. */
 aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_weight_table_grid *grid,
                                    bool solves, aur_weight_table **table, aur_error *error);
-/* Whether the machine has memory for the weights, once piece_count is known, and taking it. */
+/* Checks that the machine has memory for the weights, once piece_count is known, and allocates it. */
 aur_result aur_weight_table_check_memory(const aur_weight_table *table, aur_error *error);
 aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error);
 
-/* Reads a table from the bytes of a file: data[size] is a zero, and lines of the header are cut there. `name`
- * is for messages. On failure *table is NULL. */
+/* Reads a table from the bytes of a file: data[size] is 0; the lines of the header are terminated in place.
+ * `name` is for messages. On failure *table is NULL. */
 aur_result aur_weight_table_parse(const char *name, size_t size, char *data, const aur_oswa_options *expected,
                                   aur_weight_table **table, aur_error *error);
 
@@ -86,18 +86,17 @@ aur_result aur_weight_table_print(const aur_weight_table *table, size_t *size, v
 
 enum { AUR_WEIGHT_TABLE_KEY_CAPACITY = 4096 };
 
-/* All that a table follows from; all fields of the grid count. Errors: ARGUMENT. */
+/* A text of everything that determines a table; all fields of the grid are used. Errors: ARGUMENT. */
 aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weight_table_grid *grid,
                                 uint64_t build, char key[AUR_WEIGHT_TABLE_KEY_CAPACITY]);
 
-/* Builds a table as aur_weight_table_build does, or takes it from the cache of earlier runs
- * (points/base/file.h), where it is left otherwise. Exported for the renderer, but no part of the
- * interface.
- */
+/* Builds a table as aur_weight_table_build does, or reads it from the cache of earlier runs
+ * (points/base/file.h); a built table is stored there. Exported for the renderer, but not part of the public
+ * interface. */
 AUR_INTERNAL aur_result aur_weight_table_find(const aur_oswa_options *options,
                                               const aur_weight_table_grid *grid, size_t threads,
                                               const aur_progress *progress, aur_weight_table **table,
                                               aur_error *error);
 
-/* What a file ends with: of all that stands before it. */
+/* The checksum at the end of a file, of all bytes before it. */
 uint64_t aur_weight_table_check_sum(const char *data, size_t size);

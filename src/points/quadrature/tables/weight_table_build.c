@@ -1,4 +1,5 @@
-/* Building tables of OSWA weights: where samples cross the horizon, and the solves at both sides. */
+/* Building tables of OSWA weights: the angles where samples cross the horizon, and the solves on both sides.
+ */
 
 #include <inttypes.h>
 #include <math.h>
@@ -14,7 +15,7 @@
 
 /* --- pieces: the angles at which samples cross the horizon */
 
-/* Where, between two angles, a sample passes from one side of the horizon to the other. */
+/* The angle, between two angles, where a sample crosses the horizon. */
 static double crossing(const aur_oswa *oswa, double alpha, double turns, size_t sample, double below,
                        double above) {
     const bool starts = aur_oswa_height(oswa, (aur_oswa_view){below, alpha}, turns, sample) >= 0.0;
@@ -33,9 +34,9 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Appends the pieces of one slot. Samples of the first pattern never cross; one of the second that is on one
- * side of the horizon at both ends of a step is taken not to cross within. A GGX lobe's samples may dip below
- * for a moment, so it is looked at in smaller steps. */
+/* Appends the pieces of one slot. Samples of the first pattern never cross; a sample of the second on the
+ * same side of the horizon at both ends of a step is assumed not to cross within it. Samples of a GGX lobe
+ * may be below for a short interval, so smaller steps are used. */
 static bool cut_slot(aur_weight_table *table, size_t slot, size_t *capacity, bool *sides) {
     const aur_oswa *const oswa = table->oswa;
     const size_t count = oswa->count[1], steps = oswa->lobe[1].kind == AUR_LOBE_GGX ? 4 : 1;
@@ -93,22 +94,22 @@ static aur_result cut(aur_weight_table *table, aur_error *error) {
 
 /* --- solves */
 
-/* What the rows of one angle and roughness are built with, rotation after rotation. */
+/* Scratch data for the rows of one angle and roughness, rotation after rotation. */
 typedef struct angle_work {
     const aur_weight_table *table;
     aur_oswa_angle angle;
     double turns[2];
     double *scratch, *weights;
-    bool *taken, *before; /* the samples that take part in a piece, and in the one before it */
+    bool *taken, *before; /* the samples used in a piece, and in the previous one */
 } angle_work;
 
-/* Solves with the samples that work->taken says. */
+/* Solves with the samples work->taken. */
 static aur_result solve_row(const angle_work *work, const aur_oswa_angle *angle, size_t row,
                             aur_error *error) {
     const aur_weight_table *const table = work->table;
     float *const target = aur_weight_table_row(table, row);
     const size_t width = aur_weight_table_width(table);
-    if (memchr(work->taken, true, table->size) == NULL) { /* a few samples may all be hidden */
+    if (memchr(work->taken, true, table->size) == NULL) { /* with few samples all may be hidden */
         memset(target, 0, width * sizeof *target);
         return AUR_OK;
     }
@@ -119,7 +120,7 @@ static aur_result solve_row(const angle_work *work, const aur_oswa_angle *angle,
     return result;
 }
 
-/* The samples that take part in a piece are those above the horizon in its middle. */
+/* The samples used in a piece are those above the horizon at its middle. */
 static void take(const angle_work *work, size_t interval, size_t piece) {
     const aur_weight_table *const table = work->table;
     const double stop = piece + 1 < table->first[interval + 1]
@@ -129,8 +130,9 @@ static void take(const angle_work *work, size_t interval, size_t piece) {
     aur_oswa_visible(table->oswa, view, work->turns, work->scratch, work->taken);
 }
 
-/* The rows at both sides of the angle where `piece` begins: at the end of the piece before it and at its own
- * start, which are the same where the same samples take part. Either may be missing at the table's ends. */
+/* The rows at both sides of the angle where `piece` begins: at the end of the previous piece and at the start
+ * of `piece`, which are equal if the same samples are used. At the ends of the table one of them is missing.
+ */
 static aur_result build_sides(const angle_work *work, const aur_oswa_angle *angle, size_t interval_before,
                               size_t interval, size_t piece, aur_error *error) {
     const aur_weight_table *const table = work->table;
@@ -235,7 +237,7 @@ static aur_result build_one(void *context, size_t index) {
     return result;
 }
 
-/* What an angle of one roughness has built, piece by piece: its masses, and its rows of each rotation. */
+/* The results of an angle of one roughness, piece by piece: its masses, and its rows of each rotation. */
 static void each_piece(const aur_weight_table *table, size_t place,
                        void (*move)(void *bytes, size_t size, void *data), void *bytes) {
     const size_t index = place % table->angle_count, roughness = place / table->angle_count;
@@ -284,7 +286,7 @@ static aur_result solve_all(const aur_weight_table *table, size_t threads, const
                                            .share = &share};
     const aur_result result =
         aur_parallel_for(&parallel, table->roughness_count * table->angle_count, build_one, &work, error);
-    /* Once more for what it says: no thread has an error of its own. */
+    /* Repeated for its error message: threads have no separate errors. */
     if (result != AUR_OK && work.failed != SIZE_MAX)
         build_angle(table, work.failed, error);
     return result;

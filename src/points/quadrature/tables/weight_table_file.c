@@ -1,5 +1,5 @@
-/* Tables of weights as files: lines of text that say what they are, then the numbers as little-endian floats,
- * then a check sum of all that stands before it. */
+/* Tables of weights as files: a text header, then the numbers as little-endian floats, then a checksum of all
+ * bytes before it. */
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -62,7 +62,7 @@ typedef struct header {
 /* A line `key value` of the header. */
 typedef struct header_line {
     const char *key;
-    /* In messages, for options that a reader may expect; NULL for what it takes as it is. */
+    /* The name in messages, for options that a reader may expect; NULL for values that are not compared. */
     const char *what;
     enum { TEXT, REAL, INTEGER } type;
     size_t offset, size; /* of the member */
@@ -100,7 +100,7 @@ enum { LINE_COUNT = sizeof lines / sizeof lines[0] };
 
 _Static_assert(sizeof(bool) == 1 && sizeof(aur_map) == 4, "members of the header have other sizes");
 
-/* A line's value, in `buffer` or where the header has it; 17 digits tell any two numbers apart. */
+/* A line's value, in `buffer` or where the header has it; 17 digits distinguish any two numbers. */
 static const char *value_text(const header_line *line, const header *h, int digits, char *buffer) {
     const void *const at = (const char *)h + line->offset;
     if (line->type == TEXT)
@@ -115,7 +115,7 @@ static const char *value_text(const header_line *line, const header *h, int digi
     return buffer;
 }
 
-/* False for a text that is no value of that line. */
+/* False if the text is not a value of that line. */
 static bool parse_value(const header_line *line, const char *text, header *h) {
     void *const at = (char *)h + line->offset;
     uint64_t number = 0;
@@ -148,7 +148,7 @@ static size_t print_header(const header *h, char text[HEADER_CAPACITY]) {
     return length;
 }
 
-/* How many words of four bytes stand behind a header; exact below 2^53. */
+/* The number of words of four bytes after a header; exact below 2^53. */
 static double word_count(const header *h) {
     const bool apart = h->options.clipped || h->options.mirror_lobe.kind == AUR_LOBE_GGX;
     const double angles = (double)h->angles, pieces = (double)h->pieces;
@@ -254,16 +254,16 @@ static aur_result read_line(reader *in, const header_line *line, header *h) {
                              text + length + 1, line->key);
 }
 
-/* An error that no line of the header has. */
+/* An error without a line of the header. */
 static aur_result refuse(reader *in, const char *message) {
     in->where.line = 0;
     return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "%s", message);
 }
 
-/* `data` ends with a zero byte that `size`, which leaves the check sum out, does not count. */
+/* `data` ends with a zero byte; `size` counts neither it nor the checksum. */
 static aur_result read_header(reader *in, size_t size, header *h) {
     const char *const data = in->rest;
-    /* The lines are cut where they end, so the sum comes first. */
+    /* The checksum is computed first, since reading terminates the lines in place. */
     const bool whole = aur_weight_table_check_sum(data, size) == get(data + size, HASH_BYTES);
     in->rest += sizeof magic - 1;
     in->where.line = 1;
@@ -290,7 +290,7 @@ static aur_result read_header(reader *in, size_t size, header *h) {
     return AUR_OK;
 }
 
-/* Refuses a file for the first option in which it differs from what is wanted. */
+/* Fails with the first option that differs from the expected one. */
 static aur_result compare(reader *in, const header *has, const aur_oswa_options *expected) {
     header wanted = {.version = VERSION};
     const aur_result result = aur_oswa_options_read(expected, &wanted.options, &wanted.weights, in->error);
@@ -309,7 +309,7 @@ static aur_result compare(reader *in, const header *has, const aur_oswa_options 
     return AUR_OK;
 }
 
-/* The pieces of each interval, which must begin in it one after another. */
+/* Reads the pieces of each interval, which must be ascending and begin in it. */
 static const char *read_pieces(const char *source, aur_weight_table *table) {
     const size_t intervals = aur_weight_table_intervals(table);
     uint64_t total = 0;
@@ -338,7 +338,7 @@ static const char *read_pieces(const char *source, aur_weight_table *table) {
     return source;
 }
 
-/* All numbers after the header, whose size has been found to fit. */
+/* Reads all numbers after the header; their size has been checked. */
 static aur_result read_words(reader *in, size_t pieces, aur_weight_table *table) {
     if (table->apart) {
         table->piece_count = pieces;

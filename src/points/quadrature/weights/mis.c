@@ -7,18 +7,18 @@
 #include "points/quadrature/potential/potential.h"
 #include "points/sphere/lobe.h"
 
-/* The density that a strategy draws a direction with. */
+/* The sampling pdf of a direction by a strategy. */
 static double drawn_density(const aur_strategy *strategy, const double direction[3]) {
     const double *const axis = strategy->axis;
     if (aur_lobe_reflects(&strategy->sampled) || aur_is_default_axis(axis))
         return aur_lobe_pdf(&strategy->sampled, direction);
-    /* A cos^m lobe asks for the angle to its axis only. */
+    /* A cos^m lobe depends only on the angle to its axis. */
     const double cosine = aur_dot3(direction, axis);
     const double local[3] = {sqrt(fmax(0.0, 1.0 - cosine * cosine)), 0.0, cosine};
     return aur_lobe_pdf(&strategy->sampled, local);
 }
 
-/* How much of the sample is the strategy's own, over the density that it was drawn from: h/(n q). */
+/* The MIS weight of the strategy divided by its pdf: h/(n q). */
 static double share(aur_mis_heuristic heuristic, size_t strategy_count, const aur_strategy *strategies,
                     size_t own, const double direction[3]) {
     double all = 0.0, mine = 0.0;
@@ -37,7 +37,7 @@ static aur_result check_strategies(aur_mis_heuristic heuristic, size_t strategy_
         return aur_fail(error, AUR_ERROR_ARGUMENT, "no such heuristic: %d", (int)heuristic);
     if (target->density.kind == AUR_DENSITY_NODES)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "point masses have no density to weigh samples by");
-    size_t left = count; /* samples that no strategy so far has drawn */
+    size_t left = count; /* samples not assigned to a strategy yet */
     for (size_t t = 0; t < strategy_count && left != SIZE_MAX; ++t) {
         const aur_strategy *const strategy = &strategies[t];
         const aur_result result = aur_lobe_check(&strategy->sampled, error);

@@ -1,4 +1,4 @@
-/* Product rules on the sphere that a point group takes to themselves, by one point of each orbit. */
+/* Product rules on the sphere that are invariant under a point group, by one point of each orbit. */
 #include <aureole/symmetry.h>
 #include <math.h>
 #include <stdlib.h>
@@ -18,8 +18,8 @@ static bool keeps_z(const aur_rotation *element) {
     return fabs(fabs(element->m[8]) - 1.0) < 1e-9;
 }
 
-/* Elements that take the z axis to itself, which product rules keep, and the azimuths that they ask for: the
- * order of the axis (with half steps, as those of Dnd) twice. */
+/* Elements that map the z axis to itself, under which product rules can be invariant, and the required
+ * divisor of azimuths: twice the order of the axis (with half steps, as in Dnd). */
 static size_t kept_order(const aur_point_group *group, size_t *step) {
     size_t order = 0, axis = 0;
     for (size_t i = 0; i < group->order; ++i) {
@@ -37,7 +37,7 @@ static void choose(size_t most, size_t order, size_t step, product *rule) {
     for (size_t heights = 1;; ++heights) {
         const size_t steps = (2 * heights + step / 2) / step;
         const size_t azimuths = step * (steps > 0 ? steps : 1);
-        /* Of an odd number of heights one is 0, whose orbits may have half of the points. */
+        /* With an odd number of heights one is 0, whose orbits may have half of the points. */
         const size_t points = (heights + (heights % 2)) * azimuths;
         if (points > most * order)
             return;
@@ -46,7 +46,7 @@ static void choose(size_t most, size_t order, size_t step, product *rule) {
     }
 }
 
-/* The point of the rule where a direction is, or the number of points. */
+/* The index of the rule's point at a direction, or the number of points if there is none. */
 static size_t find(const product *rule, const double u[3]) {
     const size_t none = rule->heights * rule->azimuths;
     size_t low = 0, high = rule->heights;
@@ -74,7 +74,7 @@ static void direction_of(const product *rule, size_t index, double u[3]) {
     u[2] = z;
 }
 
-/* One point of each orbit, with the weight of all of it. */
+/* One point of each orbit, with the weight of the whole orbit. */
 static size_t reduce(const aur_point_group *group, const product *rule, double *xyz, double *weights) {
     size_t count = 0;
     const size_t points = rule->heights * rule->azimuths;

@@ -11,7 +11,7 @@
 #include "points/quadrature/check.h"
 #include "points/quadrature/potential/potential.h"
 
-/* Samples whose kernel values differ by less than rounding in the matrix are one sample. */
+/* Samples whose kernel values differ by less than the rounding of the matrix are coincident. */
 static const double same_place = 1e-13;
 
 typedef struct weights_system {
@@ -19,16 +19,16 @@ typedef struct weights_system {
     size_t potential_count;
     const aur_potential *const *potentials;
     const aur_kernel_rule *rule;
-    size_t count;         /* samples that take part */
-    size_t *sample;       /* their places among all samples */
+    size_t count;         /* samples in the system */
+    size_t *sample;       /* their indices among all samples */
     double *xyz;          /* 3 * count */
     double *columns;      /* 3 * count */
     double *matrix;       /* count * count; the lower triangle is filled */
-    double *right, *ones; /* potential_count * count: z of each density; then count ones */
-    double *z;            /* potential_count * count, kept for the report */
-    size_t *group;        /* count: which of group_count places a sample is at */
+    double *right, *ones; /* potential_count * count: z of each density, followed by `count` ones */
+    double *z;            /* potential_count * count, stored for the report */
+    size_t *group;        /* count: the group of coincident samples, below group_count */
     size_t *group_size;   /* count */
-    size_t *first;        /* count: the sample that stands for a place */
+    size_t *first;        /* count: the first sample of each group */
     size_t group_count;
     double pair_sum; /* of all entries of K */
     void *storage;
@@ -55,7 +55,7 @@ static aur_result allocate(weights_system *system, size_t count, aur_error *erro
     return AUR_OK;
 }
 
-/* Fills K and tells whether two samples are at one place. */
+/* Fills K and returns whether two samples are coincident. */
 static bool assemble(weights_system *system) {
     const size_t n = system->count;
     const aur_columns columns = aur_columns_split(n, system->xyz, system->columns);
@@ -91,8 +91,8 @@ static bool assemble(weights_system *system) {
     return shared;
 }
 
-/* One unknown for each place: c samples that share the weight W add sigma W^2 / c to what is made small. The
- * first sample of a place stands for it. */
+/* One unknown for each group of coincident samples: c samples that share the weight W add sigma W^2 / c to
+ * the objective. The first sample represents its group. */
 static void merge(weights_system *system) {
     const size_t n = system->count;
     const double limit = system->rule->top * (1.0 - same_place);
@@ -111,7 +111,7 @@ static void merge(weights_system *system) {
             system->group_size[groups++] = 1;
         }
     }
-    /* In place: what is written lies at or before what is still to be read. */
+    /* In place: the write position never passes the read position. */
     for (size_t g = 0; g < groups; ++g)
         for (size_t h = 0; h <= g; ++h)
             system->matrix[g * groups + h] = system->matrix[first[g] * n + first[h]];
@@ -121,7 +121,7 @@ static void merge(weights_system *system) {
     system->group_count = groups;
 }
 
-/* Chooses the samples that take part and fills the system. */
+/* Chooses the samples in the system and fills the system. */
 static aur_result prepare(weights_system *system, size_t count, const double *xyz, aur_error *error) {
     bool hides = false;
     for (size_t k = 0; k < system->potential_count; ++k)

@@ -13,7 +13,7 @@ typedef struct pair_sum {
     size_t count;
     aur_columns columns;
     const double *weights;
-    double *blocks; /* one sum a block of rows */
+    double *blocks; /* one sum per block of rows */
 } pair_sum;
 
 /* Rows first .. first+BLOCK-1 of the lower triangle, twice, and the diagonal. */
