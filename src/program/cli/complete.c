@@ -3,28 +3,28 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The word that is completed; `kept` of its characters stay as they are, since what comes next begins after
- * them: "--metric=", "energy,", "finalgather:photons=". */
+/* The word to complete. The first `done` characters are fixed, because candidates continue after them: "--
+ * metric=", "energy,", "finalgather:photons=". */
 typedef struct partial {
     const char *typed;
-    size_t kept;
+    size_t done;
 } partial;
 
 static void offer(const partial *word, const char *name, size_t length, const char *help) {
-    const char *const rest = word->typed + word->kept;
+    const char *const rest = word->typed + word->done;
     if (strncmp(name, rest, strlen(rest)) == 0)
-        printf("%.*s%.*s\t%s\n", (int)word->kept, word->typed, (int)length, name, help);
+        printf("%.*s%.*s\t%s\n", (int)word->done, word->typed, (int)length, name, help);
 }
 
 static void offer_name(const partial *word, const char *name, const char *help) {
     offer(word, name, strlen(name), help);
 }
 
-/* What follows the last one of some characters is what is completed. */
+/* Moves the fixed part to the last of some characters. */
 static partial after_last(partial word, const char *characters) {
-    for (size_t i = word.kept; word.typed[i] != '\0'; ++i)
+    for (size_t i = word.done; word.typed[i] != '\0'; ++i)
         if (strchr(characters, word.typed[i]) != NULL)
-            word.kept = i + 1;
+            word.done = i + 1;
     return word;
 }
 
@@ -33,7 +33,7 @@ static void offer_commands(const partial *word, const cli_command *const *comman
         offer_name(word, (*commands)->name, (*commands)->summary);
 }
 
-/* The keys of a row, or what one of them may be. */
+/* Offers the keys of a row, or the values of a key. */
 static void offer_keys(const partial *word, const aur_row *row) {
     const partial value = after_last(*word, "=");
     for (size_t i = 0; row != NULL && aur_row_key(row, i) != NULL; ++i) {
@@ -41,9 +41,9 @@ static void offer_keys(const partial *word, const aur_row *row) {
         const size_t length = strlen(key->name);
         char text[128];
         snprintf(text, sizeof text, "%s=", key->name);
-        if (value.kept == word->kept)
+        if (value.done == word->done)
             offer_name(word, text, key->help);
-        if (value.kept != word->kept + length + 1 || strncmp(word->typed + word->kept, text, length + 1) != 0)
+        if (value.done != word->done + length + 1 || strncmp(word->typed + word->done, text, length + 1) != 0)
             continue;
         for (size_t k = 0; key->words != NULL && key->words[k] != NULL; ++k)
             offer_name(&value, key->words[k], key->help);
@@ -52,23 +52,23 @@ static void offer_keys(const partial *word, const aur_row *row) {
     }
 }
 
-/* A row of a kind, and after NAME: its keys. */
+/* Offers the rows of a kind, and after NAME: its keys. */
 static void offer_rows(const partial *word, const aur_table *kind) {
-    const char *const name = word->typed + word->kept;
+    const char *const name = word->typed + word->done;
     const size_t length = strcspn(name, ":");
     const partial key = name[length] == ':' ? after_last(*word, ":,") : *word;
     for (size_t i = 0; i < kind->count; ++i) {
         const aur_row *const row = kind->rows[i];
-        if (key.kept == word->kept)
+        if (key.done == word->done)
             offer_name(word, row->name, row->summary);
         else if (strlen(row->name) == length && strncmp(row->name, name, length) == 0)
             offer_keys(&key, row);
     }
-    if (key.kept != word->kept)
+    if (key.done != word->done)
         offer_keys(&key, kind->common);
 }
 
-/* "file", "folder", a kind, or "file" and a kind. */
+/* `content` is "file", "folder", a kind, or "file" and a kind. */
 static void offer_content(const partial *word, const char *content) {
     if (strcmp(content, "folder") == 0)
         puts(":folder");
@@ -76,7 +76,7 @@ static void offer_content(const partial *word, const char *content) {
         puts(":file");
     const char *const last = strrchr(content, ' ');
     const char *const name = last != NULL ? last + 1 : content;
-    char of_lab[64]; /* an option takes the lab's rows of its kind too */
+    char of_lab[64]; /* options also accept the lab's rows of the kind */
     snprintf(of_lab, sizeof of_lab, "lab-%s", name);
     const aur_table *const kinds[] = {cli_find_table(name), cli_find_table(of_lab)};
     for (size_t i = 0; i < 2; ++i)
@@ -89,7 +89,7 @@ static void offer_values(partial word, const cli_option *option) {
         word = after_last(word, ",");
     for (unsigned i = 0; cli_option_name(option, i) != NULL; ++i) {
         const char *const name = cli_option_name(option, i);
-        const size_t length = strcspn(name, ":"); /* "phong:M": the parameter is not completed */
+        const size_t length = strcspn(name, ":"); /* "phong:M": the parameter cannot be completed */
         offer(&word, name, length + (name[length] == ':'), option->key.help);
     }
     if (option->content != NULL)
@@ -122,8 +122,8 @@ static void offer_operands(const partial *word, const cli_command *const *comman
     offer_content(word, row ? before : content);
 }
 
-/* The option that an argument such as "--seed", "-n" or "-qn" names at its end, or NULL; its value follows
- * unless it is a flag. */
+/* The option at the end of an argument such as "--seed", "-n" or "-qn", or NULL; its value follows unless it
+ * is a flag. */
 static const cli_option *option_of(const cli_command *command, const char *text, size_t length) {
     const bool is_long = text[0] == '-' && text[1] == '-';
     const cli_option *option;
@@ -153,9 +153,9 @@ void cli_complete(const cli_command *const *commands, size_t count, char **words
     const cli_command *const command = *found;
     if (command == NULL)
         return;
-    const char *before = ""; /* the operand before */
+    const char *before = ""; /* the previous operand */
     size_t operands = 0;
-    bool ended = false; /* by "--" */
+    bool ended = false; /* after "--" */
     for (size_t i = 1; i + 1 < count; ++i) {
         const bool dashed = !ended && words[i][0] == '-' && words[i][1] != '\0';
         const cli_option *const option = dashed ? option_of(command, words[i], strlen(words[i])) : NULL;

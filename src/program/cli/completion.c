@@ -1,12 +1,12 @@
-/* aureole completion: what makes shells complete the command line. The scripts ask this program what may
- * stand where, so that they need not change with its options. */
+/* aureole completion: scripts for completion in shells. The scripts run this program to get the candidates,
+ * so that they need not change with its options. */
 #include <stdio.h>
 #include <string.h>
 
 #include "program/cli/listing.h"
 
-/* bash breaks words at ':' and '=': they are joined for the question, and what bash keeps is taken off the
- * answers. */
+/* bash breaks words at ':' and '=': the script joins them for the query and removes the prefix that bash
+ * keeps from the candidates. */
 static const char bash_script[] =
     "# Completion of aureole for bash: source <(aureole completion bash)\n"
     "_aureole() {\n"

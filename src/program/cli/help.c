@@ -1,5 +1,5 @@
-/* aureole help: the commands, one command's options, the kinds of things to choose from, and the keys of each
- * thing. */
+/* aureole help: the list of commands, the options of a command, the kinds of components, and the keys of a
+ * component. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,7 +38,7 @@ int cli_print_command_help(const cli_command *command) {
     return CLI_SUCCESS;
 }
 
-/* One row of the table of keys or of options. */
+/* Adds a row to the table of keys or options. */
 static void add_key(report_table *table, const aur_key *key, const char *name, const char *type,
                     const char *values) {
     report_text(table, name);
@@ -60,7 +60,7 @@ static void add_keys(report_table *table, const aur_row *row) {
     }
 }
 
-/* The keys of a row, for people. */
+/* Prints the keys of a row as text. */
 static void print_keys(const aur_row *row) {
     for (size_t i = 0; aur_row_key(row, i) != NULL; ++i) {
         const aur_key *const key = aur_row_key(row, i);
@@ -102,7 +102,7 @@ static int print_kind(const aur_table *kind, report_format format) {
     return cli_finish_listing(table, format);
 }
 
-/* The options of a command as a table, for programs. */
+/* Prints the options of a command as a table for programs. */
 static int print_options(const cli_command *command, report_format format) {
     report_table *const table = report_create(KEY_COLUMNS, key_columns);
     const cli_option *option;
@@ -142,7 +142,7 @@ static int print_overview(const cli_command *const *commands) {
     return CLI_SUCCESS;
 }
 
-/* What may stand after a word of `aureole help`: commands and kinds, or the rows of a kind. */
+/* Completes `aureole help`: commands and kinds, or the rows of a kind. */
 typedef struct name_list {
     size_t count;
     const char *names[CLI_NAME_LIMIT];
@@ -172,7 +172,7 @@ static int help_on_row(const aur_table *kind, const char *name, report_format fo
     return refuse_name(&list, kind->kind, name, topic);
 }
 
-int cli_print_thing(const char *kind, const char *name, report_format format) {
+int cli_print_row(const char *kind, const char *name, report_format format) {
     return help_on_row(cli_find_table(kind), name, format);
 }
 
@@ -190,7 +190,7 @@ static int help_on_command(const cli_command *const *commands, const char *name,
     return refuse_name(&list, "command", name, "");
 }
 
-/* Names of 0.1 are accepted for one version more. */
+/* Deprecated names of version 0.1, to be removed in the next version. */
 static const char *current_name(const char *topic) {
     return strcmp(topic, "picture") == 0 ? "image" : strcmp(topic, "verb") == 0 ? "command" : topic;
 }
@@ -209,7 +209,7 @@ static int run(const cli_call *call) {
         return cli_bad_usage("help: %s: 'aureole help' lists them", call->command->too_many);
     if (name != NULL)
         return help_on_row(kind, name, format);
-    /* A kind may be called as a command is: then formats for programs are of the kind. */
+    /* If a command and a kind have the same name, machine-readable formats describe the kind. */
     bool command_too = false;
     for (size_t i = 0; call->commands[i] != NULL; ++i)
         command_too = command_too || strcmp(call->commands[i]->name, topic) == 0;

@@ -1,5 +1,5 @@
-/* Limits that a service sets on a run of the program. They hold from where they are read on: nothing large
- * has been done before. */
+/* Resource limits that a service sets for a run. They apply from where they are read, before any large work.
+ */
 #include <sys/resource.h>
 #include <sys/time.h>
 
@@ -26,7 +26,7 @@ static aur_result limit_memory(const char *text, void *field, aur_error *error) 
     return aur_fail(error, AUR_ERROR_ARGUMENT, "--memory-limit: refused by the system: '%s'", text);
 }
 
-/* No library may be called here. */
+/* A signal handler: only async-signal-safe functions are allowed. */
 static void end_of_time(int signal_number) {
     static const char words[] = "aureole: stopped by --time-limit\n";
     (void)signal_number;
@@ -54,7 +54,7 @@ static aur_result limit_time(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
-/* The libraries look where the environment says. */
+/* The libraries get the setting from the environment. */
 static aur_result leave_cache(const char *text, void *field, aur_error *error) {
     (void)text;
     (void)field;

@@ -7,7 +7,7 @@
 
 enum { LINE_WIDTH = 80, WIDEST_NAME = 22 };
 
-/* The length of the next word, or of what fits of a list without spaces that is wider than a line. */
+/* The length of the next word, or of the part of a list without spaces that fits in a line. */
 static size_t word_length(const char *text, size_t room) {
     const size_t length = strcspn(text, " \n");
     size_t fitting = length;
@@ -83,7 +83,7 @@ static void write_help(const aur_key *key, bool named, const char *values, char 
                preset != NULL ? ")" : "");
 }
 
-/* Every number from zero on says nothing. */
+/* The range of all numbers from 0 is not printed. */
 static bool is_open(const aur_key *key) {
     return key->minimum == 0.0 && isinf(key->maximum);
 }
@@ -121,7 +121,7 @@ static void write_details(const report_table *table, size_t row, size_t summary,
 }
 
 int cli_finish_listing(report_table *table, report_format format) {
-    if (format != REPORT_TABLE || report_failed(table)) /* which cli_finish says */
+    if (format != REPORT_TABLE || report_failed(table)) /* cli_finish reports the error */
         return cli_finish(table, format);
     const size_t named = report_find(table, "summary");
     const size_t summary = named < report_columns(table) ? named : report_columns(table) - 1;

@@ -1,4 +1,4 @@
-/* aureole: finds the command, reads its options and runs it. Adding a command is one file, which defines
+/* aureole: finds the command, parses its options and runs it. To add a command, add one file that defines
  * cli_command_<name>, and one line here. */
 #include <aureole/text.h>
 #include <signal.h>
@@ -52,11 +52,11 @@ static int refuse_command(const char *name) {
     return cli_bad_usage("unknown command '%s': 'aureole help' lists the commands", name);
 }
 
-/* A result that cannot be delivered (a full disk behind standard output) is a failure. */
+/* A failed write to standard output, such as to a full disk, is an error. */
 static int finish(int status) {
     cli_progress_clear();
     if (fflush(stdout) != 0 || ferror(stdout)) {
-        if (status != CLI_FAILURE) /* which has its message */
+        if (status != CLI_FAILURE) /* its error was printed */
             fprintf(stderr, "aureole: cannot write standard output\n");
         return CLI_FAILURE;
     }
@@ -85,10 +85,9 @@ static int run(const cli_command *command, int argc, char **argv) {
     return finish(status);
 }
 
-/* A parent may leave signals blocked or ignored, which last through exec: services with signalfd block those
- * that end a program, and an ignored SIGCHLD hides how the reader of models ended. SIGHUP stays ignored, as
- * nohup has it. A file that becomes larger than its limit is an error of writing, not the end of the program.
- */
+/* A parent may leave signals blocked or ignored, which exec preserves: services with signalfd block
+ * termination signals, and an ignored SIGCHLD hides the importer's exit status. SIGHUP stays ignored, for
+ * nohup. With SIGXFSZ ignored, a file beyond the size limit is a write error. */
 static void reset_signals(void) {
     static const int ending[] = {SIGTERM, SIGALRM, SIGCHLD};
     for (size_t i = 0; i < sizeof ending / sizeof *ending; ++i)

@@ -1,5 +1,5 @@
-/* aureole manual: the manual pages, in the language of man (troff). They are made of the same rows as
- * `aureole help`: one page for the program, one a command, one of what scenes are made of, one of sets and
+/* aureole manual: manual pages in the language of man (troff), generated from the same tables as `aureole
+ * help`: one page for the program, one per command, one for the components of scenes, one for sets and
  * measures. */
 #include <aureole/text.h>
 #include <limits.h>
@@ -14,7 +14,7 @@ typedef struct manual_options {
     const char *folder;
 } manual_options;
 
-/* Text that is no command: a line that begins with . or ' would be one. */
+/* Escapes text: a line that begins with . or ' would be a troff request. */
 static void put_text(FILE *page, const char *text) {
     bool start = true;
     for (const char *c = text; *c != '\0'; ++c) {
@@ -41,7 +41,7 @@ static void put_text(FILE *page, const char *text) {
             fputs("\\(ti", page);
             break;
         case ',':
-            fputs(",\\:", page); /* lines may end after it */
+            fputs(",\\:", page); /* allow a line break after it */
             break;
         default:
             fputc(*c, page);
@@ -145,7 +145,7 @@ static void put_program(FILE *page, const cli_command *const *commands) {
     put_line(page, "aureole-scene(5), aureole-names(7)");
 }
 
-/* Every row of a kind with its keys. */
+/* Prints every row of a kind with its keys. */
 static void put_kind(FILE *page, const aur_table *kind) {
     char title[128], what[CLI_WORDS_CAPACITY], help[CLI_HELP_CAPACITY];
     aur_format(title, sizeof title, "%s: %s", kind->kind, kind->summary);
@@ -231,10 +231,10 @@ static void put_names(FILE *page, const cli_command *const *commands) {
     put_line(page, "aureole(1), aureole-points(1), aureole-measure(1), aureole-scene(5)");
 }
 
-/* The pages that are no command's. */
+/* The pages that do not belong to a command. */
 typedef struct manual_page {
-    const char *name; /* of `aureole manual NAME` */
-    const char *file; /* below the folder of all pages */
+    const char *name; /* name for `aureole manual NAME` */
+    const char *file; /* path below the folder of all pages */
     void (*put)(FILE *page, const cli_command *const *commands);
 } manual_page;
 
@@ -266,7 +266,7 @@ static int print_page(const cli_command *const *commands, const char *name) {
     return cli_bad_usage("manual: unknown page '%s': expected aureole, scene, names or a command", name);
 }
 
-/* Writes one page below the folder; false where that fails, which is said. */
+/* Writes one page below the folder; false, with a message, on failure. */
 static bool write_page(const cli_command *const *commands, const char *folder, const char *file,
                        const manual_page *page, const cli_command *command) {
     char path[PATH_MAX], *text = NULL;
@@ -280,7 +280,7 @@ static bool write_page(const cli_command *const *commands, const char *folder, c
     aur_result result =
         stream != NULL && fclose(stream) == 0 ? AUR_OK : aur_fail(&error, AUR_ERROR_MEMORY, "out of memory");
     aur_format(path, sizeof path, "%s/%.4s", folder, file); /* "man1" */
-    (void)mkdir(folder, 0777); /* what cannot be made shows when the file is opened */
+    (void)mkdir(folder, 0777);                              /* a failure shows when the file is opened */
     (void)mkdir(path, 0777);
     aur_format(path, sizeof path, "%s/%s", folder, file);
     if (result == AUR_OK)

@@ -1,5 +1,5 @@
-/* What goes to standard error: errors, warnings and the progress bar, which is the only state of the program
- * that outlives a function: the terminal has one bar. */
+/* Output to standard error: errors, warnings and the progress bar. The bar is the program's only global
+ * state, because the terminal has one bar. */
 #include <aureole/ranks.h>
 #include <inttypes.h>
 #include <math.h>
@@ -15,13 +15,13 @@
 #include "program/cli/cli.h"
 #include "program/cli/progress.h"
 
-/* Handlers may use atomics without locks, and any thread that reports progress reads it. */
+/* Lock-free atomics are safe in signal handlers; all threads that report progress read this. */
 static atomic_bool interrupted;
 
 typedef struct progress_bar {
-    bool draws; /* on a terminal; else lines are written, which a log can hold */
-    bool shown, begun;
-    double start, last; /* of the command; when the bar was drawn last */
+    bool draws; /* on a terminal; otherwise lines are printed, for logs */
+    bool shown, started;
+    double start, last; /* time when the command started; when the bar was last drawn */
     cli_estimate estimate;
 } progress_bar;
 
@@ -33,12 +33,12 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Work that reports hears of the signal by its next report. */
-static atomic_bool listens;
+/* Set by the first progress report: from then on the work can be stopped by the next report. */
+static atomic_bool reported;
 
-/* The first signal asks the work to stop, a second one ends the program as if nobody listened. */
+/* The first signal requests a stop; the second one terminates the program. */
 static void on_interrupt(int signal_number) {
-    if (!listens) {
+    if (!reported) {
         static const char words[] = "aureole: stopped before the first result\n";
         if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
             _exit(CLI_FAILURE);
@@ -79,7 +79,7 @@ static void draw(double elapsed) {
     if (isfinite(estimate->left))
         format_seconds(estimate->left, left);
     const double percent = 100.0 * estimate->share;
-    if (!isfinite(estimate->left) && estimate->share == 0.0) { /* nothing is known but the time */
+    if (!isfinite(estimate->left) && estimate->share == 0.0) { /* only the elapsed time is available */
         fprintf(stderr, bar.draws ? "\r\033[K%s  %s" : "aureole: %s, %s\n", estimate->what, spent);
         bar.shown = bar.draws;
         fflush(stderr);
@@ -95,7 +95,7 @@ static void draw(double elapsed) {
 }
 
 static int show(void *user, const char *what, uint64_t done, uint64_t total) {
-    listens = true;
+    reported = true;
     if (interrupted)
         return 1;
     const double time = now();
@@ -132,13 +132,13 @@ void cli_progress_begin(size_t index) {
     cli_estimate_begin(&bar.estimate, now(), index);
 }
 
-/* A log says once how many processes worked, and where. */
-static void tell_of_ranks(void) {
-    static bool told;
+/* Prints the number of processes and their hosts once, for logs. */
+static void print_ranks(void) {
+    static bool printed;
     const size_t count = aur_ranks_count();
-    if (count < 2 || told)
+    if (count < 2 || printed)
         return;
-    told = true;
+    printed = true;
     aur_rank_description *const ranks = calloc(count, sizeof *ranks);
     if (ranks != NULL)
         aur_ranks_describe(ranks);
@@ -164,23 +164,23 @@ static void handle_signals(void) {
     memset(&action, 0, sizeof action);
     action.sa_handler = on_interrupt;
     sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL); /* what batch systems send before they kill */
+    sigaction(SIGTERM, &action, NULL); /* batch systems send it before SIGKILL */
 }
 
 aur_progress cli_progress(bool quiet) {
     if (!quiet)
-        tell_of_ranks();
-    if (aur_ranks_count() > 1) /* mpirun sends signals to all ranks, which end together */
+        print_ranks();
+    if (aur_ranks_count() > 1) /* mpirun signals all ranks, which stop together */
         handle_signals();
-    if (!bar.begun) { /* which may have its plan already */
+    if (!bar.started) { /* may have its phases already */
         bar.draws = isatty(STDERR_FILENO);
-        bar.begun = true;
+        bar.started = true;
         bar.start = bar.last = now();
     }
     return (aur_progress){.function = show, .user = quiet || aur_ranks_rank() != 0 ? NULL : &bar};
 }
 
-aur_progress cli_progress_of_kept(bool quiet) {
+aur_progress cli_progress_of_resumable(bool quiet) {
     handle_signals();
     return cli_progress(quiet);
 }

@@ -1,4 +1,4 @@
-/* Reading the command line by a command's rows, with messages that say what would be right. */
+/* Parses the command line by a command's table, with messages that state what is expected. */
 #include "program/cli/options.h"
 
 #include <aureole/ranks.h>
@@ -34,7 +34,7 @@ const cli_option cli_threads_option[] = {
     {.key = {0}}};
 
 aur_result cli_add_definition(const char *text, void *field, aur_error *error) {
-    cli_definitions *const definitions = field; /* begins with its count */
+    cli_definitions *const definitions = field; /* the first member is its count */
     char *const equals = strchr(text, '=');
     if (equals == NULL || equals == text)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: '%s' is not of the form name=value", text);
@@ -72,7 +72,7 @@ const cli_option *cli_option_at(const cli_command *command, size_t index, size_t
             return option;
         }
     }
-    /* Every command has these, whose values are in no struct. */
+    /* Options of every command; they have no struct. */
     for (const cli_option *option = cli_limits_option; option->key.name != NULL; ++option)
         if (index-- == 0) {
             if (offset != NULL)
@@ -106,7 +106,7 @@ const char *cli_list_at(const cli_list *list, size_t index) {
     return item;
 }
 
-/* "--samples", or "-n" for an option that has no long name. */
+/* "--samples", or "-n" for an option without a long name. */
 static bool refuse(const cli_option *option, const char *expected, const char *text, const char *nearest) {
     cli_bad_usage("%s%s: must be %s, not '%s'%s%s%s", option->key.name[1] != '\0' ? "--" : "-",
                   option->key.name, expected, text, nearest != NULL ? "; did you mean '" : "",
@@ -123,7 +123,7 @@ const char *cli_option_name(const cli_option *option, unsigned index) {
     return NULL;
 }
 
-/* A name as text, or its place among the names as an enum or bool. */
+/* Parses a name as text, or its index among the names as an enum or bool. */
 static void put_name(const aur_key *key, const char *name, unsigned value, void *field) {
     if (key->type == AUR_KEY_TEXT)
         *(const char **)field = name;
@@ -157,7 +157,7 @@ aur_result cli_parse_plot(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
-/* Reads one value, or one item of a list. */
+/* Parses one value, or one item of a list. */
 static bool read_value(const cli_option *option, const char *text, void *field) {
     if (option->parse != NULL) {
         aur_error error = {0};
@@ -181,14 +181,14 @@ static bool read_option(const cli_option *option, char *text, void *field) {
         return read_value(option, text, field);
     const cli_list list = *(cli_list *)field = cli_split(text);
     for (size_t i = 0; i < list.count; ++i) {
-        uint64_t item[8]; /* only checked here */
+        uint64_t item[8]; /* only validated here */
         if (!read_value(option, cli_list_at(&list, i), item))
             return false;
     }
     return true;
 }
 
-/* Defaults are read as if they had been given; a computed one leaves the field at zero. */
+/* Sets defaults by parsing their text; a computed default leaves the field at zero. */
 static bool put_defaults(const cli_command *command, char *fields) {
     const cli_option *option;
     size_t offset;
@@ -204,20 +204,19 @@ static bool put_defaults(const cli_command *command, char *fields) {
     return true;
 }
 
-/* Whether the text is the help's words for a default that follows from other things: the option counts as not
- * given. Names of files may be any words.
- */
+/* Whether the text is the help's description of a computed default, which counts as not given. File names may
+ * be any text. */
 static bool spells_computed_default(const cli_option *option, const char *text) {
     const aur_key *const key = &option->key;
     const bool is_file = option->content != NULL && strncmp(option->content, "file", 4) == 0;
     return key->computed && text != NULL && !is_file && strcmp(text, key->default_text) == 0;
 }
 
-/* What getopt makes of the rows. A long option is LONG_OPTION and its index, a short one its letter. */
+/* The table for getopt. A long option has the value LONG_OPTION + its index, a short one its letter. */
 enum { LONG_OPTION = 256, SYNONYM_LIMIT = 4 };
 
-/* One thing has different names in the commands of other programs: each is accepted where the command has the
- * other. */
+/* Synonyms, because other programs use different names for the same option: each is accepted where the
+ * command has the other. */
 static const char *const synonyms[SYNONYM_LIMIT][2] = {
     {"count", "size"}, {"output", "outfile"}, {"format", "to"}, {"samples", "spp"}};
 
@@ -234,7 +233,7 @@ static const struct option *find_name(const getopt_options *list, const char *na
     return NULL;
 }
 
-/* Adds the other name of each pair of which the command has one. */
+/* Adds the synonyms of the command's options. */
 static void add_synonyms(getopt_options *list, size_t names) {
     for (size_t i = 0; i < SYNONYM_LIMIT; ++i) {
         const struct option *const first = find_name(list, synonyms[i][0]), *const second = find_name(
@@ -279,7 +278,7 @@ static size_t index_of(const cli_command *command, int code) {
     return i;
 }
 
-/* Says what getopt does not like: `text` is the argument that it was reading. */
+/* Prints getopt's error: `text` is the argument that it was parsing. */
 static int refuse_option(const cli_command *command, const getopt_options *list, int code, const char *text) {
     const bool is_long = optopt == 0 || optopt >= LONG_OPTION;
     char given[AUR_ERROR_MESSAGE_CAPACITY];
@@ -291,17 +290,18 @@ static int refuse_option(const cli_command *command, const getopt_options *list,
         return cli_bad_usage("%s: option '%s' %s: try 'aureole help %s'", command->name, given,
                              code == ':' ? "needs a value" : "takes no value", command->name);
     const char *names[CLI_OPTION_LIMIT + SYNONYM_LIMIT];
-    char alike[AUR_ERROR_MESSAGE_CAPACITY] = "";
+    char candidates[AUR_ERROR_MESSAGE_CAPACITY] = "";
     size_t count = 0;
     for (; list->names[count].name != NULL; ++count) {
         names[count] = list->names[count].name;
-        const size_t used = strlen(alike);
+        const size_t used = strlen(candidates);
         if (is_long && strncmp(names[count], given + 2, strlen(given + 2)) == 0)
-            aur_format(alike + used, sizeof alike - used, "%s--%s", used > 0 ? ", " : "", names[count]);
+            aur_format(candidates + used, sizeof candidates - used, "%s--%s", used > 0 ? ", " : "",
+                       names[count]);
     }
     const char *const nearest = is_long ? aur_nearest_name(given + 2, count, names) : NULL;
-    if (alike[0] != '\0')
-        return cli_bad_usage("%s: option '%s' may be %s", command->name, given, alike);
+    if (candidates[0] != '\0')
+        return cli_bad_usage("%s: option '%s' may be %s", command->name, given, candidates);
     if (nearest != NULL)
         return cli_bad_usage("%s: unknown option '%s'; did you mean '--%s'?", command->name, given, nearest);
     return cli_bad_usage("%s: unknown option '%s': try 'aureole help %s'", command->name, given,
@@ -330,9 +330,9 @@ static aur_result check_folder(const char *path, aur_error *error) {
         snprintf(folder, sizeof folder, ".");
     else
         snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
-    struct stat status; /* pipes and devices are written as they are */
+    struct stat status; /* pipes and devices are written in place */
     const bool is_file = strcmp(path, "-") != 0 && (stat(path, &status) != 0 || S_ISREG(status.st_mode));
-    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
+    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* only rank 0 writes */
         return AUR_OK;
     aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
     snprintf(error->file, sizeof error->file, "%s", path);

@@ -1,5 +1,5 @@
-/* Numbers of glTF's accessors, for what assimp reads as if it were floats (KHR_mesh_quantization), or not at
- * all (EXT_mesh_gpu_instancing). */
+/* glTF accessors that assimp misreads as floats (KHR_mesh_quantization) or does not read
+ * (EXT_mesh_gpu_instancing). */
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,7 +52,7 @@ static void load(gltf_buffer *buffer, const writer *self, const json_value *from
     }
 }
 
-/* The bytes of a part of a buffer, from `offset` on; NULL where there are none. */
+/* The bytes of a buffer view from `offset` on; NULL if missing. */
 static const char *view_bytes(writer *self, const json_value *view, size_t *size) {
     const json_value *const list = json_member(self->gltf, "buffers");
     const size_t index = json_size(json_member(view, "buffer"), SIZE_MAX);
@@ -79,7 +79,7 @@ static size_t size_of(size_t type) {
     return type == BYTE || type == UBYTE ? 1 : type == SHORT || type == USHORT ? 2 : 4;
 }
 
-/* glTF 2.0, 3.11: c / 127 and so on, at least -1, where they are normalized. */
+/* Normalization of glTF 2.0, 3.11: c / 127 and so on, at least -1. */
 static double value_at(const char *at, size_t type, bool normalized) {
     int8_t byte;
     int16_t word;
@@ -137,7 +137,7 @@ double *gltf_accessor_read(writer *self, const json_value *index, size_t width, 
     return values;
 }
 
-/* --- meshes of integers */
+/* --- meshes with integer attributes */
 
 static bool is_float(const writer *self, const json_value *index) {
     const json_value *const accessor =
@@ -145,7 +145,7 @@ static bool is_float(const writer *self, const json_value *index) {
     return json_size(json_member(accessor, "componentType"), FLOAT) == FLOAT;
 }
 
-/* Replaces what assimp has copied as floats; texture coordinates are counted from below there. */
+/* Replaces values that assimp copied as floats; assimp's v coordinate is measured from the bottom. */
 static void refine_attribute(writer *self, const json_value *index, size_t width, unsigned vertices,
                              struct aiVector3D *to) {
     size_t count = 0;
@@ -162,14 +162,14 @@ static void refine_attribute(writer *self, const json_value *index, size_t width
 
 void gltf_refine_meshes(writer *self, const struct aiNode *node, const gltf_node *exact) {
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-        struct aiMesh *const made = self->scene->mMeshes[node->mMeshes[i]];
+        struct aiMesh *const mesh = self->scene->mMeshes[node->mMeshes[i]];
         const json_value *const from = json_member(gltf_primitive(self, node, exact, i), "attributes");
-        refine_attribute(self, json_member(from, "POSITION"), 3, made->mNumVertices, made->mVertices);
-        refine_attribute(self, json_member(from, "NORMAL"), 3, made->mNumVertices, made->mNormals);
+        refine_attribute(self, json_member(from, "POSITION"), 3, mesh->mNumVertices, mesh->mVertices);
+        refine_attribute(self, json_member(from, "NORMAL"), 3, mesh->mNumVertices, mesh->mNormals);
         for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
             char name[] = "TEXCOORD_0";
             name[sizeof name - 2] = (char)('0' + set);
-            refine_attribute(self, json_member(from, name), 2, made->mNumVertices, made->mTextureCoords[set]);
+            refine_attribute(self, json_member(from, name), 2, mesh->mNumVertices, mesh->mTextureCoords[set]);
         }
     }
     for (unsigned i = 0; i < node->mNumChildren; ++i)
@@ -184,12 +184,12 @@ size_t gltf_instances(writer *self, const gltf_node *node, double (**matrices)[1
     const json_value *const from =
         json_member(json_member(json_member(node, "extensions"), "EXT_mesh_gpu_instancing"), "attributes");
     double *values[3] = {NULL, NULL, NULL};
-    size_t count = 0, other = 0;
+    size_t count = 0, value_count = 0;
     *matrices = NULL;
     for (size_t k = 0; from != NULL && k < 3; ++k) {
-        values[k] = gltf_accessor_read(self, json_member(from, names[k]), widths[k], &other);
+        values[k] = gltf_accessor_read(self, json_member(from, names[k]), widths[k], &value_count);
         if (values[k] != NULL)
-            count = count == 0 || other < count ? other : count;
+            count = count == 0 || value_count < count ? value_count : count;
     }
     *matrices = count > 0 ? malloc(count * sizeof **matrices) : NULL;
     if (count > 0 && *matrices == NULL)

@@ -23,7 +23,7 @@
 #endif
 
 #if defined(ARCHITECTURE)
-/* The system calls that are left: memory, the socket, time and the end. All others fail with EPERM. */
+/* The allowed system calls: memory, the socket, time and exit. All others fail with EPERM. */
 static const unsigned allowed[] = {
     __NR_read,          __NR_write,       __NR_close,       __NR_mmap,         __NR_munmap,
     __NR_mremap,        __NR_mprotect,    __NR_madvise,     __NR_brk,          __NR_futex,
@@ -45,7 +45,7 @@ static void filter_calls(void) {
     }
     code[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | 1 /* EPERM */);
     const struct sock_fprog program = {.len = (unsigned short)n, .filter = code};
-    /* A kernel without filters leaves the limits on files. */
+    /* Without seccomp filters in the kernel, only the resource limits apply. */
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0)
         (void)prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
 }
@@ -71,10 +71,10 @@ void confine_self(long parent) {
 #if defined(__linux__)
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    if ((long)getppid() != parent) /* it is gone already */
+    if ((long)getppid() != parent) /* the parent has already ended */
         _exit(1);
     close_files();
-    forbid(RLIMIT_NOFILE, 3); /* those that are open */
+    forbid(RLIMIT_NOFILE, 3); /* only open descriptors */
     forbid(RLIMIT_FSIZE, 0);
     forbid(RLIMIT_CORE, 0);
 #if defined(ARCHITECTURE)

@@ -1,11 +1,11 @@
-/* What a glTF file has that is not read: a note, or an error, names it and gives a way out. */
+/* Unsupported features of a glTF file: prints a note or an error with their name and a workaround. */
 #include <string.h>
 
 #include "program/import/gltf.h"
 
 typedef struct extension {
     const char *name;
-    const char *lost; /* what a model loses; NULL: nothing */
+    const char *lost; /* the effect on the model; NULL: none */
 } extension;
 
 static const extension extensions[] = {
@@ -68,7 +68,7 @@ static void check_primitives(const json_value *gltf) {
         writer_note("%zu of %zu primitives are points or lines: they are ignored", bare, all);
 }
 
-/* Textures that have an image in a form that is not read, and no other. */
+/* Textures whose only image has an unsupported format. */
 static void note_textures(const json_value *gltf) {
     static const char *const forms[][2] = {
         {"EXT_texture_webp", "WebP"}, {"KHR_texture_basisu", "KTX2"}, {"MSFT_texture_dds", "DDS"}};
@@ -97,8 +97,8 @@ static void note_materials(const json_value *gltf) {
 
 static bool is_read(const char *name) {
     static const char *const read[] = {
-        "clearcoatTexture", "sheenColorTexture",         "transmissionTexture",
-        "diffuseTexture",   "specularGlossinessTexture", "anisotropyTexture" /* noted with the anisotropy */};
+        "clearcoatTexture",          "sheenColorTexture", "transmissionTexture", "diffuseTexture",
+        "specularGlossinessTexture", "anisotropyTexture" /* noted together with the anisotropy */};
     for (size_t i = 0; i < sizeof read / sizeof read[0]; ++i)
         if (strcmp(read[i], name) == 0)
             return true;
@@ -111,7 +111,7 @@ static bool is_texture(const char *name) {
     return length >= sizeof end - 1 && strcmp(name + length - (sizeof end - 1), end) == 0;
 }
 
-/* One note for all textures of extensions that have no place in a material here. */
+/* Prints one note for all textures of extensions that have no equivalent in a material here. */
 static void note_extra_textures(const json_value *gltf) {
     char names[400] = "";
     for (const json_value *item = first_of(gltf, "materials"); item != NULL; item = item->next)

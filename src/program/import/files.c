@@ -34,7 +34,7 @@ static size_t size_of(struct aiFile *file) {
 static enum aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin origin) {
     open_file *const self = (open_file *)(void *)file->UserData;
     const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? self->at : self->size;
-    if (base + offset > self->size) /* wraps as a negative offset is meant to */
+    if (base + offset > self->size) /* wraps around, which is correct for a negative offset */
         return aiReturn_FAILURE;
     self->at = base + offset;
     return aiReturn_SUCCESS;
@@ -62,7 +62,7 @@ void files_decode_address(char *text) {
     *out = '\0';
 }
 
-/* Names begin with what assimp takes for the model's folder. */
+/* File names begin with what assimp considers the model's folder. */
 struct aiFile *files_open(struct aiFileIO *io, const char *name, const char *mode) {
     struct aiFile *const file = calloc(1, sizeof *file);
     open_file *const self = calloc(1, sizeof *self);

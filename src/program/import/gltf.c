@@ -6,7 +6,7 @@
 
 #include "program/import/writer.h"
 
-/* The bytes of the file, with a zero byte after them. */
+/* The bytes of the file, with a terminating zero byte. */
 static char *bytes_of(const model_file *file, size_t *size) {
     char *data = NULL;
     if (file->bytes == NULL) {
@@ -23,7 +23,7 @@ static char *bytes_of(const model_file *file, size_t *size) {
 }
 
 void gltf_read(writer *self, const model_file *file) {
-    enum { HEADER = 20 }; /* of a .glb: 12 bytes of the file and 8 of the chunk that holds the JSON */
+    enum { HEADER = 20 }; /* of a .glb: 12 bytes of file header and 8 of the JSON chunk's header */
     size_t size = 0;
     char *const data = bytes_of(file, &size), *text = data;
     if (data == NULL)
@@ -33,7 +33,7 @@ void gltf_read(writer *self, const model_file *file) {
         memcpy(&length, data + 12, sizeof length);
         text += HEADER;
         if (length < size - HEADER) {
-            /* Behind it the binary chunk, with a header of 8 bytes. */
+            /* The binary chunk follows, with a header of 8 bytes. */
             const size_t binary = HEADER + (size_t)length + 8;
             self->gltf_binary = binary < size ? data + binary : NULL;
             self->gltf_binary_size = binary < size ? size - binary : 0;
@@ -46,7 +46,7 @@ void gltf_read(writer *self, const model_file *file) {
     self->gltf = json_parse(text);
 }
 
-/* The item of one of the file's lists whose number stands somewhere; the first, where none does. */
+/* The item of a list of the file that an index property refers to; the first without the property. */
 static const json_value *item_at(const writer *self, const char *list, const json_value *index) {
     const double number = json_number(index, index == NULL ? 0.0 : -1.0);
     return number >= 0.0 && number < 1e9 ? json_item(json_member(self->gltf, list), (size_t)number) : NULL;
@@ -74,7 +74,7 @@ const gltf_node *gltf_child(const writer *self, const gltf_node *node, size_t in
     return node_at(self, json_item(list, index));
 }
 
-/* Points and lines have no mesh: assimp takes them away. */
+/* assimp drops points and lines. */
 const json_value *gltf_primitive(const writer *self, const struct aiNode *node, const gltf_node *exact,
                                  size_t index) {
     enum { TRIANGLES = 4 };
@@ -130,7 +130,7 @@ void gltf_refine(const gltf_node *node, double matrix[16]) {
     matrix_of(node, exact);
     for (size_t i = 0; i < 16; ++i)
         largest = fmax(largest, fabs(matrix[i]));
-    /* If it is another node, what assimp has read stays. */
+    /* assimp's values stay if it is a different node. */
     for (size_t i = 0; i < 16; ++i)
         if (!(fabs(exact[i] - matrix[i]) <=
               1e-5 * (i % 4 == 3 ? largest : fmin(largest, 1.0 + fabs(matrix[i])))))
@@ -150,16 +150,17 @@ void gltf_map_materials(writer *self, const struct aiNode *node, const gltf_node
             self->gltf_materials[i] = SIZE_MAX;
     }
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-        const unsigned own = self->scene->mMeshes[node->mMeshes[i]]->mMaterialIndex;
+        const unsigned material_index = self->scene->mMeshes[node->mMeshes[i]]->mMaterialIndex;
         const json_value *const from = gltf_primitive(self, node, exact, i);
-        if (from != NULL && own < count)
-            self->gltf_materials[own] = json_size(json_member(from, "material"), SIZE_MAX);
+        if (from != NULL && material_index < count)
+            self->gltf_materials[material_index] = json_size(json_member(from, "material"), SIZE_MAX);
     }
     for (unsigned i = 0; i < node->mNumChildren; ++i)
         gltf_map_materials(self, node->mChildren[i], gltf_child(self, exact, i));
 }
 
 const json_value *gltf_extension(const writer *self, unsigned material, const char *name) {
-    const size_t own = self->gltf_materials != NULL ? self->gltf_materials[material] : SIZE_MAX;
-    return json_member(json_member(json_item(json_member(self->gltf, "materials"), own), "extensions"), name);
+    const size_t material_index = self->gltf_materials != NULL ? self->gltf_materials[material] : SIZE_MAX;
+    return json_member(
+        json_member(json_item(json_member(self->gltf, "materials"), material_index), "extensions"), name);
 }

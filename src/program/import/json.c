@@ -12,8 +12,8 @@ static char *skip(char *at) {
     return at + strspn(at, " \t\r\n");
 }
 
-/* Behind the text that begins after a quote, which becomes what stands for it, but for escapes of more than
- * one letter: no name of glTF has them. */
+/* Decodes a text after its opening quote in place and returns its end. \u escapes stay: names in glTF have
+ * none. */
 static char *read_text(char *at, const char **text) {
     char *out = at;
     *text = at;
@@ -26,7 +26,7 @@ static char *read_text(char *at, const char **text) {
     return at + 1;
 }
 
-static char *read_value(char *at, size_t depth, json_value *made);
+static char *read_value(char *at, size_t depth, json_value *value_out);
 
 static bool index_items(json_value *array) {
     json_value **next = array->items = calloc(array->count, sizeof *array->items);
@@ -35,17 +35,17 @@ static bool index_items(json_value *array) {
     return array->items != NULL;
 }
 
-static char *read_list(char *at, size_t depth, json_value *made) {
-    const char end = made->kind == JSON_OBJECT ? '}' : ']';
-    json_value **link = &made->first;
+static char *read_list(char *at, size_t depth, json_value *value_out) {
+    const char end = value_out->kind == JSON_OBJECT ? '}' : ']';
+    json_value **link = &value_out->first;
     at = skip(at);
     if (*at == end)
         return at + 1;
     for (;;) {
         json_value *const value = *link = calloc(1, sizeof *value);
-        if (value == NULL || (made->kind == JSON_OBJECT && *at != '"'))
+        if (value == NULL || (value_out->kind == JSON_OBJECT && *at != '"'))
             return NULL;
-        if (made->kind == JSON_OBJECT) {
+        if (value_out->kind == JSON_OBJECT) {
             at = read_text(at + 1, &value->name);
             at = at != NULL ? skip(at) : NULL;
             if (at == NULL || *at++ != ':')
@@ -55,15 +55,15 @@ static char *read_list(char *at, size_t depth, json_value *made) {
         at = at != NULL ? skip(at) : NULL;
         if (at == NULL || (*at != ',' && *at != end))
             return NULL;
-        ++made->count;
+        ++value_out->count;
         if (*at++ == end)
-            return made->kind == JSON_OBJECT || index_items(made) ? at : NULL;
+            return value_out->kind == JSON_OBJECT || index_items(value_out) ? at : NULL;
         link = &value->next;
         at = skip(at);
     }
 }
 
-static char *read_value(char *at, size_t depth, json_value *made) {
+static char *read_value(char *at, size_t depth, json_value *value_out) {
     static const struct {
         const char *word;
         json_kind kind;
@@ -71,32 +71,32 @@ static char *read_value(char *at, size_t depth, json_value *made) {
     } words[] = {{"null", JSON_NULL, 0.0}, {"true", JSON_BOOLEAN, 1.0}, {"false", JSON_BOOLEAN, 0.0}};
     if (depth > DEEPEST)
         return NULL;
-    made->source = at;
+    value_out->source = at;
     if (*at == '{' || *at == '[') {
-        made->kind = *at == '{' ? JSON_OBJECT : JSON_ARRAY;
-        return read_list(at + 1, depth, made);
+        value_out->kind = *at == '{' ? JSON_OBJECT : JSON_ARRAY;
+        return read_list(at + 1, depth, value_out);
     }
     if (*at == '"') {
         const char *text;
-        made->kind = JSON_TEXT;
+        value_out->kind = JSON_TEXT;
         at = read_text(at + 1, &text);
-        made->text = text;
+        value_out->text = text;
         return at;
     }
     for (size_t i = 0; i < sizeof words / sizeof words[0]; ++i)
         if (strncmp(at, words[i].word, strlen(words[i].word)) == 0) {
-            made->kind = words[i].kind;
-            made->number = words[i].number;
+            value_out->kind = words[i].kind;
+            value_out->number = words[i].number;
             return at + strlen(words[i].word);
         }
-    made->kind = JSON_NUMBER;
-    const char *const after = aur_read_double(at, AUR_NUMBER_FINITE, &made->number);
+    value_out->kind = JSON_NUMBER;
+    const char *const after = aur_read_double(at, AUR_NUMBER_FINITE, &value_out->number);
     return after != NULL ? at + (after - at) : NULL;
 }
 
 json_value *json_parse(char *text) {
-    json_value *const made = calloc(1, sizeof *made);
-    return made != NULL && read_value(skip(text), 0, made) != NULL ? made : NULL;
+    json_value *const value_out = calloc(1, sizeof *value_out);
+    return value_out != NULL && read_value(skip(text), 0, value_out) != NULL ? value_out : NULL;
 }
 
 const json_value *json_member(const json_value *object, const char *name) {

@@ -1,7 +1,7 @@
-/* aureole-import PARENT: reads a model by assimp, and gives it as elements and files to the process that
+/* aureole-import PARENT: reads a model with assimp and sends it as elements and files to the process that
  * started it. Standard input is a socket; see render/scene/importers/model/message.h. The library starts it
- * (render/scene/importers/model/import.c), so that a file which assimp cannot bear ends this process alone.
- */
+ * as a separate process (render/scene/importers/model/import.c), so that a file which crashes assimp ends
+ * only this process. */
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -15,8 +15,8 @@
 #include "program/import/writer.h"
 
 static bool ends_with(const char *name, const char *ending) {
-    const size_t length = strlen(name), own = strlen(ending);
-    return length >= own && strcasecmp(name + length - own, ending) == 0;
+    const size_t length = strlen(name), ending_length = strlen(ending);
+    return length >= ending_length && strcasecmp(name + length - ending_length, ending) == 0;
 }
 
 static const struct aiScene *read_scene(model_file *file) {
@@ -24,7 +24,7 @@ static const struct aiScene *read_scene(model_file *file) {
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    /* glTF has its corners joined as they are meant. */
+    /* glTF vertices are already joined as intended. */
     const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_ValidateDataStructure |
                            (file->is_gltf ? 0u : (unsigned)aiProcess_JoinIdenticalVertices);
     const struct aiScene *const scene = aiImportFileExWithProperties(file->name, steps, &io, properties);
@@ -57,7 +57,7 @@ static void write_scene(writer *self) {
 }
 
 int main(int argc, char **argv) {
-    if (argc != 2) /* started by hand */
+    if (argc != 2) /* not started by the library */
         return 2;
     confine_self(strtol(argv[1], NULL, 10));
     char *start;
@@ -88,5 +88,5 @@ int main(int argc, char **argv) {
     const bool moving = aur_parse_double(time, &seconds);
     writer_pose(&self, moving, seconds);
     write_scene(&self);
-    _exit(0); /* nothing is to be cleaned up, and damaged structures may not bear it */
+    _exit(0); /* exits without cleanup, which damaged data structures might crash */
 }

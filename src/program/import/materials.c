@@ -1,5 +1,5 @@
-/* Materials: metals and roughness become `principled`. What has no such numbers, as OBJ mostly, gets them
- * from its colours and its exponent. */
+/* Materials: metallic-roughness materials become `principled`. Others, as in most OBJ files, get these
+ * parameters from their colors and specular exponent. */
 #include <assimp/GltfMaterial.h>
 #include <math.h>
 #include <string.h>
@@ -33,26 +33,26 @@ bool writer_color(const struct aiMaterial *material, const char *key, float colo
 }
 
 static slot color_slot(writer *self, const struct aiMaterial *material) {
-    return picture_exists(self, material, base_slot) ? base_slot : diffuse_slot;
+    return texture_exists(self, material, base_slot) ? base_slot : diffuse_slot;
 }
 
 static float at_most_one(float value) {
     return value > 0.0f ? fminf(value, 1.0f) : 0.0f;
 }
 
-/* --- the parts of a material */
+/* --- parameters of a material */
 
 static void base_color(writer *self, const struct aiMaterial *material, float color[4]) {
-    color[0] = color[1] = color[2] = picture_exists(self, material, color_slot(self, material)) ? 1.0f : 0.6f;
+    color[0] = color[1] = color[2] = texture_exists(self, material, color_slot(self, material)) ? 1.0f : 0.6f;
     color[3] = writer_number(material, "$mat.opacity", 1.0f);
-    /* Programs disagree on which end of Collada's transparency is clear: nobody means what is not there. */
+    /* Exporters disagree on the meaning of Collada's transparency: full transparency is never intended. */
     if (!self->is_gltf && color[3] == 0.0f)
         color[3] = 1.0f;
     if (!writer_color(material, "$clr.base", color)) {
         const float opacity = color[3];
         writer_color(material, "$clr.diffuse", color);
-        /* Many an OBJ has a texture beside black, or no colour. */
-        if (picture_exists(self, material, color_slot(self, material)) &&
+        /* Many OBJ files have a texture with a black color, or no color. */
+        if (texture_exists(self, material, color_slot(self, material)) &&
             !(color[0] + color[1] + color[2] > 0.0f))
             color[0] = color[1] = color[2] = 1.0f;
         color[3] = opacity;
@@ -61,14 +61,14 @@ static void base_color(writer *self, const struct aiMaterial *material, float co
         color[i] = at_most_one(color[i]);
 }
 
-/* A number of an extension of glTF, from 0 to `most`. */
+/* A parameter of a glTF extension, from 0 to `most`. */
 static float extension_number(const writer *self, unsigned index, const char *extension, const char *name,
                               float otherwise, float most) {
     const double value = json_number(json_member(gltf_extension(self, index, extension), name), -1.0);
     return value >= 0.0 ? fminf((float)value, most) : otherwise;
 }
 
-/* A colour of an extension, each part from 0 to 1. */
+/* A color of a glTF extension, each component from 0 to 1. */
 static void extension_color(const writer *self, unsigned index, const char *extension, const char *name,
                             float color[3]) {
     const json_value *const list = json_member(gltf_extension(self, index, extension), name);
@@ -76,8 +76,7 @@ static void extension_color(const writer *self, unsigned index, const char *exte
         color[i] = at_most_one((float)json_number(json_item(list, i), (double)color[i]));
 }
 
-/* What KHR_materials_volume leaves of light on the way that the model states: the surface has it as colour.
- */
+/* The transmittance by KHR_materials_volume over the model's thickness, used as the surface color. */
 static void volume_color(const writer *self, unsigned index, float color[4]) {
     static const char volume[] = "KHR_materials_volume";
     const float thickness = extension_number(self, index, volume, "thicknessFactor", 0.0f, 1e30f);
@@ -113,9 +112,9 @@ static void put_color(writer *self, unsigned index, const char *name) {
     float color[4];
     base_color(self, material, color);
     volume_color(self, index, color);
-    const picture_use use = {from, name, "rgb", false, {color[0], color[1], color[2]}, 0.0f};
-    if (picture_exists(self, material, from)) {
-        picture_put(self, material, &use);
+    const texture_use use = {from, name, "rgb", false, {color[0], color[1], color[2]}, 0.0f};
+    if (texture_exists(self, material, from)) {
+        texture_put(self, material, &use);
     } else if (uses_vertex_colors(self, index)) {
         writer_open(self, "texture", "mesh_attribute");
         writer_set(self, "name", "%s", name);
@@ -127,19 +126,19 @@ static void put_color(writer *self, unsigned index, const char *name) {
     }
 }
 
-/* Blinn's exponent, where a material has no roughness: alpha^2 = 2 / (n + 2), and alpha is its square. */
+/* Blinn's exponent, for materials without roughness: alpha^2 = 2 / (n + 2), and alpha = roughness^2. */
 static float roughness_of(const struct aiMaterial *material) {
     const float shininess = writer_number(material, "$mat.shininess", 0.0f);
     const float otherwise = shininess > 0.0f ? powf(2.0f / (shininess + 2.0f), 0.25f) : 1.0f;
     return at_most_one(writer_number(material, "$mat.roughnessFactor", otherwise));
 }
 
-/* How much passes through: what KHR_materials_transmission says. */
+/* The transmission by KHR_materials_transmission. */
 static float transmission_of(const struct aiMaterial *material) {
     return at_most_one(writer_number(material, "$mat.transmission.factor", 0.0f));
 }
 
-/* Without a volume what light passes is a thin sheet, which does not bend it. */
+/* Without a volume, transmission is through a thin sheet without refraction. */
 static bool is_thin(const writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
     return transmission_of(material) > 0.0f &&
@@ -148,7 +147,7 @@ static bool is_thin(const writer *self, unsigned index) {
            self->is_gltf;
 }
 
-/* Highlights by KHR_materials_ior and _specular: the reflectance straight on. */
+/* Specular reflection by KHR_materials_ior and _specular: the reflectance at normal incidence. */
 static void put_specular(writer *self, unsigned index) {
     static const char extension[] = "KHR_materials_specular";
     const struct aiMaterial *const material = self->scene->mMaterials[index];
@@ -158,16 +157,16 @@ static void put_specular(writer *self, unsigned index) {
     const float share = extension_number(self, index, extension, "specularFactor", 1.0f, 1.0f) *
                         (color[0] + color[1] + color[2]) / 3.0f;
     ior = ior >= 1.0f ? ior : 1.5f;
-    const float straight = powf((ior - 1.0f) / (ior + 1.0f), 2.0f) * share;
-    if (transmission_of(material) > 0.0f || (straight > 0.08f && ior > 1.0f))
+    const float reflectance = powf((ior - 1.0f) / (ior + 1.0f), 2.0f) * share;
+    if (transmission_of(material) > 0.0f || (reflectance > 0.08f && ior > 1.0f))
         writer_property(self, "float", "eta", "%.9g", (double)fmaxf(ior, 1.001f));
     else if (gltf_extension(self, index, extension) != NULL)
-        writer_property(self, "float", "specular", "%.9g", (double)(12.5f * straight));
+        writer_property(self, "float", "specular", "%.9g", (double)(12.5f * reflectance));
     else if (gltf_extension(self, index, "KHR_materials_ior") != NULL && ior > 1.0f)
         writer_property(self, "float", "eta", "%.9g", (double)ior);
 }
 
-/* Cloth: principled's sheen has the colour of the base as far as it is tinted. */
+/* Sheen: principled's sheen has the base color in proportion to the tint. */
 static void put_sheen(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
     float color[3] = {0.0f, 0.0f, 0.0f};
@@ -176,17 +175,18 @@ static void put_sheen(writer *self, unsigned index) {
     const float least = fminf(color[0], fminf(color[1], color[2]));
     if (!(most > 0.0f))
         return;
-    if (picture_exists(self, material, sheen_slot)) { /* whose colour has no place */
-        picture_put(self, material,
-                    &(picture_use){sheen_slot, "sheen", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
+    if (texture_exists(self, material, sheen_slot)) { /* its color has no equivalent */
+        texture_put(self, material,
+                    &(texture_use){sheen_slot, "sheen", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
         return;
     }
     writer_property(self, "float", "sheen", "%.9g", (double)most);
     writer_property(self, "float", "sheen_tint", "%.9g", (double)(1.0f - least / most));
 }
 
-/* KHR_materials_anisotropy: alpha along the tangent is that across and strength^2 of the rest up to 1.
- * principled (Burley 2012) has alpha times and by (1 - .9 a)^(1/2). Returns the roughness between both. */
+/* KHR_materials_anisotropy: alpha along the tangent is interpolated from the alpha across to 1 by strength^2.
+ * principled (Burley 2012) multiplies and divides alpha by (1 - .9 a)^(1/2). Returns the roughness between
+ * both. */
 static float put_anisotropy(writer *self, unsigned index, float rough) {
     static const char name[] = "KHR_materials_anisotropy";
     const json_value *const extension = gltf_extension(self, index, name);
@@ -195,7 +195,7 @@ static float put_anisotropy(writer *self, unsigned index, float rough) {
     if (!(strength > 0.0f))
         return rough;
     if (fabs(sin(turn)) > 0.02 || json_member(extension, "anisotropyTexture") != NULL ||
-        picture_exists(self, self->scene->mMaterials[index], both_slot)) {
+        texture_exists(self, self->scene->mMaterials[index], both_slot)) {
         writer_note("anisotropy with a rotation or textures (%s) is ignored", name);
         return rough;
     }
@@ -210,34 +210,34 @@ static void put_coat(writer *self, unsigned index) {
     const float coat = at_most_one(writer_number(material, "$mat.clearcoat.factor", 0.0f));
     if (!(coat > 0.0f) || is_thin(self, index))
         return;
-    /* The coat's width is .1 without gloss, .001 with all of it. */
+    /* The coat's roughness is .1 for gloss 0, .001 for gloss 1. */
     const float width = writer_number(material, "$mat.clearcoat.roughnessFactor", 0.0f);
-    picture_put_share(self, material,
-                      &(picture_use){coat_slot, "clearcoat", "red", true, {coat, coat, coat}, 0.0f});
+    texture_put_share(self, material,
+                      &(texture_use){coat_slot, "clearcoat", "red", true, {coat, coat, coat}, 0.0f});
     writer_property(self, "float", "clearcoat_gloss", "%.9g",
                     (double)at_most_one((0.1f - width * width) / 0.099f));
 }
 
 static void put_principled(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
-    const bool both = picture_exists(self, material, both_slot);
+    const bool both = texture_exists(self, material, both_slot);
     const float metal = at_most_one(writer_number(material, "$mat.metallicFactor", 0.0f));
     const float through = transmission_of(material);
     const float rough = put_anisotropy(self, index, roughness_of(material));
     put_color(self, index, "base_color");
-    picture_put_share(
+    texture_put_share(
         self, material,
-        &(picture_use){
+        &(texture_use){
             both ? both_slot : roughness_slot, "roughness", "green", true, {rough, rough, rough}, 0.0f});
     if (!is_thin(self, index))
-        picture_put_share(
+        texture_put_share(
             self, material,
-            &(picture_use){
+            &(texture_use){
                 both ? both_slot : metal_slot, "metallic", "blue", true, {metal, metal, metal}, 0.0f});
     if (through > 0.0f)
-        picture_put_share(
+        texture_put_share(
             self, material,
-            &(picture_use){through_slot, "spec_trans", "red", true, {through, through, through}, 0.0f});
+            &(texture_use){through_slot, "spec_trans", "red", true, {through, through, through}, 0.0f});
     float highlight[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     if (self->is_gltf)
         put_specular(self, index);
@@ -248,20 +248,20 @@ static void put_principled(writer *self, unsigned index) {
     put_coat(self, index);
 }
 
-/* How the alpha of glTF is meant, or that of others; false: the surface is whole. */
-static bool find_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
+/* The interpretation of alpha, by glTF or other formats; false: the surface is opaque. */
+static bool find_opacity(writer *self, const struct aiMaterial *material, texture_use *use) {
     struct aiString mode;
     float color[4];
     base_color(self, material, color);
-    *use = (picture_use){color_slot(self, material),     "opacity", "alpha", false,
+    *use = (texture_use){color_slot(self, material),     "opacity", "alpha", false,
                          {color[3], color[3], color[3]}, 0.0f};
     if (aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &mode) == aiReturn_SUCCESS) {
         if (strcmp(mode.data, "MASK") == 0)
             use->cutoff = writer_number(material, "$mat.gltf.alphaCutoff", 0.5f);
         return strcmp(mode.data, "OPAQUE") != 0 &&
-               (picture_exists(self, material, use->from) || color[3] < 1.0f);
+               (texture_exists(self, material, use->from) || color[3] < 1.0f);
     }
-    if (picture_exists(self, material, opacity_slot)) {
+    if (texture_exists(self, material, opacity_slot)) {
         use->from = opacity_slot;
         use->channel = "rgb";
         use->raw = true;
@@ -271,17 +271,17 @@ static bool find_opacity(writer *self, const struct aiMaterial *material, pictur
     return color[3] < 1.0f;
 }
 
-/* Opens a <bsdf> inside of those that are open; the outermost one has the id. */
+/* Opens a <bsdf> inside the open ones; the outermost one has the id. */
 static void open_bsdf(writer *self, unsigned index, const char *type, unsigned *open) {
     writer_open(self, "bsdf", type);
     if ((*open)++ == 0)
         writer_set(self, "id", "material-%u-%u", self->first, index);
 }
 
-static void put_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
-    if (use->cutoff > 0.0f && !picture_exists(self, material, use->from))
+static void put_opacity(writer *self, const struct aiMaterial *material, texture_use *use) {
+    if (use->cutoff > 0.0f && !texture_exists(self, material, use->from))
         use->factor[0] = use->factor[0] < use->cutoff ? 0.0f : 1.0f;
-    picture_put_share(self, material, use);
+    texture_put_share(self, material, use);
 }
 
 static void put_normals(writer *self, const struct aiMaterial *material) {
@@ -289,15 +289,15 @@ static void put_normals(writer *self, const struct aiMaterial *material) {
     aiGetMaterialFloatArray(material, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), &scale, NULL);
     if (isfinite(scale) && scale != 1.0f)
         writer_property(self, "float", "scale", "%.9g", (double)scale);
-    picture_put(self, material,
-                &(picture_use){normal_slot, "normalmap", "rgb", true, {1.0f, 1.0f, 1.0f}, 0.0f});
+    texture_put(self, material,
+                &(texture_use){normal_slot, "normalmap", "rgb", true, {1.0f, 1.0f, 1.0f}, 0.0f});
 }
 
-/* What is nested, from the outside: mask, both sides, normals, the rest. */
+/* The nesting from the outside: mask, two-sided, normal map, the material. */
 static void put_material(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
     const bool unlit = is_unlit(material);
-    picture_use opacity;
+    texture_use opacity;
     unsigned open = 0;
     if (find_opacity(self, material, &opacity)) {
         open_bsdf(self, index, "mask", &open);
@@ -305,7 +305,7 @@ static void put_material(writer *self, unsigned index) {
     }
     if (!(transmission_of(material) > 0.0f))
         open_bsdf(self, index, "twosided", &open);
-    if (picture_exists(self, material, normal_slot) && !unlit) {
+    if (texture_exists(self, material, normal_slot) && !unlit) {
         open_bsdf(self, index, "normalmap", &open);
         put_normals(self, material);
     }
@@ -323,13 +323,13 @@ void writer_put_materials(writer *self) {
         put_material(self, i);
 }
 
-/* --- what shines */
+/* --- emission */
 
 static bool emission_of(writer *self, unsigned index, float color[4]) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
-    color[0] = color[1] = color[2] = picture_exists(self, material, emissive_slot) ? 1.0f : 0.0f;
+    color[0] = color[1] = color[2] = texture_exists(self, material, emissive_slot) ? 1.0f : 0.0f;
     writer_color(material, "$clr.emissive", color);
-    /* assimp 5.2 does not know it. */
+    /* assimp 5.2 does not read it. */
     const float strength = writer_number(
         material, "$mat.emissiveIntensity",
         extension_number(self, index, "KHR_materials_emissive_strength", "emissiveStrength", 1.0f, 1e30f));
@@ -349,10 +349,10 @@ void writer_put_emitter(writer *self, unsigned index) {
     writer_open(self, "emitter", "area");
     if (is_unlit(material)) {
         put_color(self, index, "radiance");
-    } else if (emission_of(self, index, color) && picture_exists(self, material, emissive_slot)) {
-        picture_put(
+    } else if (emission_of(self, index, color) && texture_exists(self, material, emissive_slot)) {
+        texture_put(
             self, material,
-            &(picture_use){emissive_slot, "radiance", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
+            &(texture_use){emissive_slot, "radiance", "rgb", false, {color[0], color[1], color[2]}, 0.0f});
     } else {
         writer_property(self, "rgb", "radiance", "%.9g %.9g %.9g", (double)color[0], (double)color[1],
                         (double)color[2]);

@@ -7,7 +7,7 @@
 typedef struct columns {
     bool normals, uvs, colors;
     unsigned uv_set;
-    float factor[4]; /* of colours */
+    float factor[4]; /* of vertex colors */
 } columns;
 
 static const struct aiMaterial *material_of(const writer *self, const struct aiMesh *mesh) {
@@ -39,7 +39,7 @@ static char *append_vertex(char *at, const struct aiMesh *mesh, const columns *a
     if (all->normals)
         at = append(at, &mesh->mNormals[i], 3 * sizeof(float));
     if (all->uvs) {
-        /* assimp counts v from below. */
+        /* assimp measures v from the bottom. */
         const struct aiVector3D uv = mesh->mTextureCoords[all->uv_set][i];
         at = append(at, (float[2]){uv.x, 1.0f - uv.y}, 2 * sizeof(float));
     }

@@ -1,4 +1,4 @@
-/* The tree of nodes: what stands where. */
+/* The tree of nodes: transforms of shapes, lights and cameras. */
 #include <assimp/version.h>
 #include <math.h>
 #include <stdlib.h>
@@ -78,7 +78,7 @@ static void put_reference(writer *self, const char *kind, unsigned index) {
     writer_close(self);
 }
 
-/* A mesh where `to_world` puts it, or in a group (NULL). */
+/* A mesh with the transform `to_world`, or in a group (NULL). */
 static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
     const struct aiMesh *const mesh = self->scene->mMeshes[index];
     const bool smooth = mesh->mNormals != NULL || !self->is_gltf;
@@ -95,7 +95,7 @@ static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world
     writer_close(self);
 }
 
-/* A mesh of many nodes is a group, unless it shines: a light is one shape. */
+/* A mesh with several nodes becomes a group, unless it emits: an emitter is one shape. */
 static bool is_group(writer *self, unsigned mesh) {
     return self->mesh_uses[mesh] > 1 && !writer_shines(self, self->scene->mMeshes[mesh]->mMaterialIndex);
 }
@@ -146,9 +146,9 @@ static void put_triple(writer *self, const char *tag, const char *name, triple v
 }
 
 static void put_spot(writer *self, triple origin, triple direction) {
-    /* What is upright does not matter, but must be another direction. */
+    /* The up direction does not matter, but must not be parallel. */
     const triple up = fabs(direction.y) < 0.9 ? (triple){0.0, 1.0, 0.0} : (triple){1.0, 0.0, 0.0};
-    /* At map coordinates a target one unit away would round the direction. */
+    /* At geographic coordinates a target one unit away would round the direction. */
     const triple target =
         add_scaled(origin, 1.0 + fabs(origin.x) + fabs(origin.y) + fabs(origin.z), direction);
     writer_open(self, "transform", NULL);
@@ -176,7 +176,7 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
         put_color(self, "intensity", light->mColorDiffuse);
         break;
     case aiLightSource_SPOT: {
-        /* From the axis, as glTF has it; others mean the whole cone. */
+        /* Angle from the axis, as in glTF; other formats give the full cone angle. */
         const double part = self->is_gltf ? 180.0 / pi : 90.0 / pi;
         const double outer = fmin(fmax(part * (double)light->mAngleOuterCone, 0.1), 89.9);
         const double inner = fmin(fmax(part * (double)light->mAngleInnerCone, 0.0), 0.999 * outer);
@@ -196,7 +196,7 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
 
 /* --- cameras */
 
-/* Across the image, in degrees. Up to 5.2 assimp takes glTF's angle, that of the height, times the ratio.
+/* Horizontal field of view in degrees. Up to 5.2 assimp multiplies glTF's vertical angle by the aspect ratio.
  */
 static double angle_across(const writer *self, const struct aiCamera *camera) {
     const double given = (double)camera->mHorizontalFOV, ratio = (double)camera->mAspect;
@@ -204,29 +204,29 @@ static double angle_across(const writer *self, const struct aiCamera *camera) {
     return 180.0 / pi * (multiplied && ratio > 0.0 ? 2.0 * atan(ratio * tan(0.5 * given / ratio)) : given);
 }
 
-/* Without a ratio of sides the angle is that of the height. */
+/* Without an aspect ratio the angle is vertical. */
 static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
-    aur_import_camera *const made = &self->camera;
-    if (made->is_there != 0) {
+    aur_import_camera *const view = &self->camera;
+    if (view->is_there != 0) {
         ++self->further_cameras;
         return;
     }
-    /* assimp gives cameras of glTF the place of their node, which the node gives them again. */
+    /* assimp adds the node's translation to glTF cameras, which the node applies again. */
     const struct aiVector3D position = self->is_gltf ? (struct aiVector3D){0} : camera->mPosition;
-    *made = (aur_import_camera){.is_there = 1,
+    *view = (aur_import_camera){.is_there = 1,
                                 .angle = angle_across(self, camera),
                                 .angle_is_vertical = !(camera->mAspect > 0.0f),
                                 .aspect = (double)camera->mAspect};
-    copy(made->origin, apply_vector(to_world, position, 1.0));
-    copy(made->direction, apply_vector(to_world, camera->mLookAt, 0.0));
-    copy(made->up, apply_vector(to_world, camera->mUp, 0.0));
+    copy(view->origin, apply_vector(to_world, position, 1.0));
+    copy(view->direction, apply_vector(to_world, camera->mLookAt, 0.0));
+    copy(view->up, apply_vector(to_world, camera->mUp, 0.0));
     if (camera->mOrthographicWidth > 0.0f)
-        made->half_width = (double)camera->mOrthographicWidth;
+        view->half_width = (double)camera->mOrthographicWidth;
 }
 
 /* --- the tree */
 
-/* Lights and cameras stand where the node of their name is. */
+/* Lights and cameras take the transform of the node with their name. */
 static void place_named(writer *self, const struct aiNode *node, const writer_matrix *to_world) {
     const struct aiScene *const scene = self->scene;
     for (unsigned i = 0; i < scene->mNumLights; ++i)
@@ -245,10 +245,10 @@ static void place_node(writer *self, const struct aiNode *node, const gltf_node 
     double(*copies)[16];
     const size_t count = gltf_instances(self, exact, &copies);
     for (size_t k = 0; k < (count > 0 ? count : 1); ++k) {
-        const writer_matrix own = count > 0 ? multiply(&to_world, copies[k]) : to_world;
+        const writer_matrix copy_to_world = count > 0 ? multiply(&to_world, copies[k]) : to_world;
         for (unsigned i = 0; i < node->mNumMeshes; ++i) {
             const bool skinned = self->skinned && self->scene->mMeshes[node->mMeshes[i]]->mNumBones > 0;
-            place_mesh(self, node->mMeshes[i], skinned ? &unmoved : &own);
+            place_mesh(self, node->mMeshes[i], skinned ? &unmoved : &copy_to_world);
         }
     }
     free(copies);

@@ -7,7 +7,7 @@
 
 #include "program/import/writer.h"
 
-/* An image that the model holds, as a file: packed as it is, or texels behind the header of a TGA. */
+/* An embedded image as a file: the compressed bytes, or texels with a TGA header. */
 static unsigned file_of_image(writer *self, unsigned index) {
     const struct aiTexture *const texture = self->scene->mTextures[index];
     if (self->image_file[index] != 0)
@@ -27,13 +27,13 @@ static unsigned file_of_image(writer *self, unsigned index) {
                                       [17] = 0x28};
     memcpy(data, header, head);
     memcpy(data + head, texture->pcData, size - head);
-    const unsigned file = writer_add_picture_file(self, size, data);
+    const unsigned file = writer_add_image_file(self, size, data);
     free(data);
     self->image_file[index] = file == NO_FILE ? NO_FILE : file + 1;
     return file;
 }
 
-/* Which of the images that the model holds a path means: "*i", or its name; their number: none. */
+/* The index of the embedded image for a path "*i" or a name; the number of images if there is none. */
 static unsigned find_image(const writer *self, const char *path) {
     const struct aiScene *const scene = self->scene;
     if (path[0] == '*') {
@@ -46,63 +46,63 @@ static unsigned find_image(const writer *self, const char *path) {
     return index;
 }
 
-/* The name of an image beside the model, as the model has it, as a path. */
+/* The name of an image file, as stored in the model, as a path. */
 static void path_of(const writer *self, const char *text, char path[MAXLEN]) {
     snprintf(path, MAXLEN, "%s", text);
     if (self->is_gltf)
         files_decode_address(path);
-    for (char *c = path; *c != '\0'; ++c) /* of Windows */
+    for (char *c = path; *c != '\0'; ++c) /* Windows separators */
         if (*c == '\\')
             *c = '/';
     while (strncmp(path, "./", 2) == 0)
         memmove(path, path + 2, strlen(path + 2) + 1);
 }
 
-typedef struct writer_picture {
-    char *name, *found; /* found: "" for one that cannot be read */
-    struct writer_picture *next;
-} writer_picture;
+typedef struct writer_image {
+    char *name, *found; /* the file that was found; "" if it cannot be read */
+    struct writer_image *next;
+} writer_image;
 
-/* The name under which an image beside the model can be read, or NULL. */
-static const char *find_picture(writer *self, const char *text) {
+/* The path of a readable image file, or NULL. */
+static const char *find_readable(writer *self, const char *text) {
     char path[MAXLEN];
     path_of(self, text, path);
     if (path[0] == '\0')
         return NULL;
-    writer_picture *picture = self->pictures;
-    while (picture != NULL && strcmp(picture->name, path) != 0)
-        picture = picture->next;
-    if (picture == NULL) {
-        picture = calloc(1, sizeof *picture);
-        if (picture == NULL || (picture->name = strdup(path)) == NULL)
+    writer_image *requested = self->image_files;
+    while (requested != NULL && strcmp(requested->name, path) != 0)
+        requested = requested->next;
+    if (requested == NULL) {
+        requested = calloc(1, sizeof *requested);
+        if (requested == NULL || (requested->name = strdup(path)) == NULL)
             stream_fail_memory();
         size_t size;
         stream_send(AUR_IMPORT_FIND, 0, strlen(path), path);
-        if (stream_receive(AUR_IMPORT_ANSWER, &size, &picture->found) == 0)
-            picture->found[0] = '\0';
-        picture->next = self->pictures;
-        self->pictures = picture;
+        if (stream_receive(AUR_IMPORT_ANSWER, &size, &requested->found) == 0)
+            requested->found[0] = '\0';
+        requested->next = self->image_files;
+        self->image_files = requested;
     }
-    return picture->found[0] != '\0' ? picture->found : NULL;
+    return requested->found[0] != '\0' ? requested->found : NULL;
 }
 
-bool picture_exists(writer *self, const struct aiMaterial *material, slot from) {
+bool texture_exists(writer *self, const struct aiMaterial *material, slot from) {
     struct aiString path;
     if (aiGetMaterialTextureCount(material, from.type) <= from.index ||
         aiGetMaterialTexture(material, from.type, from.index, &path, NULL, NULL, NULL, NULL, NULL, NULL) !=
             aiReturn_SUCCESS)
         return false;
-    const unsigned held = find_image(self, path.data);
-    return held < self->scene->mNumTextures ? file_of_image(self, held) != NO_FILE
-                                            : find_picture(self, path.data) != NULL;
+    const unsigned embedded = find_image(self, path.data);
+    return embedded < self->scene->mNumTextures ? file_of_image(self, embedded) != NO_FILE
+                                                : find_readable(self, path.data) != NULL;
 }
 
 static void put_filename(writer *self, const char *path) {
-    const unsigned held = find_image(self, path);
-    if (held < self->scene->mNumTextures)
-        writer_property(self, "string", "filename", "*%u.png", file_of_image(self, held));
+    const unsigned embedded = find_image(self, path);
+    if (embedded < self->scene->mNumTextures)
+        writer_property(self, "string", "filename", "*%u.png", file_of_image(self, embedded));
     else
-        writer_property(self, "string", "filename", "%s", find_picture(self, path));
+        writer_property(self, "string", "filename", "%s", find_readable(self, path));
 }
 
 static unsigned uv_set_of(const struct aiMaterial *material, slot from) {
@@ -114,7 +114,7 @@ static unsigned uv_set_of(const struct aiMaterial *material, slot from) {
                : 0;
 }
 
-/* That of the first texture that there is: a mesh keeps one set. */
+/* Uses the coordinates of the first texture: a mesh has one set. */
 unsigned writer_uv_set(writer *self, const struct aiMaterial *material) {
     const slot slots[] = {{aiTextureType_BASE_COLOR, 0},
                           {aiTextureType_DIFFUSE, 0},
@@ -128,13 +128,14 @@ unsigned writer_uv_set(writer *self, const struct aiMaterial *material) {
                           {aiTextureType_CLEARCOAT, 0},
                           {aiTextureType_SHEEN, 0}};
     for (size_t i = 0; i < sizeof slots / sizeof slots[0]; ++i)
-        if (picture_exists(self, material, slots[i]))
+        if (texture_exists(self, material, slots[i]))
             return uv_set_of(material, slots[i]);
     return 0;
 }
 
-/* The texture's own map of coordinates. glTF: translation times rotation times scale, which turns from v to
- * u; assimp turns the other way about the middle, counts v from below, and has another translation for it. */
+/* The texture's coordinate transform. glTF: translation times rotation times scale, with rotation from v to
+ * u. assimp rotates the other way about the center, measures v from the bottom, and has another translation.
+ */
 static void put_transform(writer *self, const struct aiMaterial *material, slot from) {
     struct aiUVTransform t;
     if (aiGetMaterialUVTransform(material, AI_MATKEY_UVTRANSFORM(from.type, from.index), &t) !=
@@ -157,7 +158,7 @@ static const char *wrap_of(enum aiTextureMapMode mode) {
     return mode == aiTextureMapMode_Mirror ? "mirror" : mode == aiTextureMapMode_Wrap ? "repeat" : "clamp";
 }
 
-void picture_put(writer *self, const struct aiMaterial *material, const picture_use *use) {
+void texture_put(writer *self, const struct aiMaterial *material, const texture_use *use) {
     struct aiString path;
     unsigned set = 0;
     enum aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
@@ -186,9 +187,9 @@ void picture_put(writer *self, const struct aiMaterial *material, const picture_
     writer_close(self);
 }
 
-void picture_put_share(writer *self, const struct aiMaterial *material, const picture_use *use) {
-    if (picture_exists(self, material, use->from))
-        picture_put(self, material, use);
+void texture_put_share(writer *self, const struct aiMaterial *material, const texture_use *use) {
+    if (texture_exists(self, material, use->from))
+        texture_put(self, material, use);
     else
         writer_property(self, "float", use->name, "%.9g", (double)use->factor[0]);
 }

@@ -1,4 +1,4 @@
-/* Models in motion: nodes, morph targets and skins at one time. */
+/* Animated models: nodes, morph targets and skins at one time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,12 +8,13 @@
 
 /* --- keys */
 
-/* How far `time` is from key `*first` to the next one; the times are those of `count` keys, at least one. */
+/* The interpolation weight of `time` between key `*first` and the next one; the keys have `count` >= 1 times.
+ */
 static float between(double time, unsigned count, const char *keys, size_t size, unsigned *first) {
     double before, after;
     *first = 0;
     for (unsigned i = 1; i < count; ++i) {
-        memcpy(&before, keys + i * size, sizeof before); /* mTime is the first of every key */
+        memcpy(&before, keys + i * size, sizeof before); /* mTime is the first member of every key type */
         if (before <= time)
             *first = i;
     }
@@ -33,7 +34,7 @@ static void vector_at(double time, unsigned count, const struct aiVectorKey *key
     to[2] = (double)(a.z + t * (b.z - a.z));
 }
 
-/* On the shorter arc. */
+/* Along the shorter arc. */
 static void turn_at(double time, unsigned count, const struct aiQuatKey *keys, double to[4]) {
     unsigned i;
     const double t = (double)between(time, count, (const char *)keys, sizeof *keys, &i);
@@ -93,7 +94,7 @@ static void set_weights(const struct aiMeshMorphAnim *channel, double time, stru
                 (float)((1.0 - (double)t) * a->mWeights[k] + (double)t * b->mWeights[k]);
 }
 
-/* Targets are whole meshes, of which the difference counts. */
+/* Targets are absolute meshes; the difference to the base is added. */
 static void morph(struct aiMesh *mesh) {
     struct aiVector3D *const base = malloc(mesh->mNumVertices * sizeof *base);
     if (base == NULL)
@@ -131,7 +132,7 @@ static void world_of(const struct aiNode *node, double to[16]) {
     multiply(outer, &node->mTransformation, to);
 }
 
-/* Adds what a bone moves a corner to, times its weight. */
+/* Adds the position transformed by a bone, times its weight. */
 static void add_moved(const double m[16], float weight, struct aiVector3D v, float w, struct aiVector3D *to) {
     const double x = (double)v.x, y = (double)v.y, z = (double)v.z, one = (double)w, share = (double)weight;
     to->x += (float)(share * (m[0] * x + m[1] * y + m[2] * z + m[3] * one));
@@ -139,7 +140,7 @@ static void add_moved(const double m[16], float weight, struct aiVector3D v, flo
     to->z += (float)(share * (m[8] * x + m[9] * y + m[10] * z + m[11] * one));
 }
 
-/* Weights are to sum up to 1, but in some files do not; a corner without any stays where it is. */
+/* Weights should sum to 1, but do not in some files; a vertex without weights does not move. */
 static void normalize(unsigned count, const float *sums, const struct aiVector3D *from,
                       struct aiVector3D *to) {
     for (unsigned i = 0; i < count; ++i) {
@@ -148,7 +149,7 @@ static void normalize(unsigned count, const float *sums, const struct aiVector3D
     }
 }
 
-/* Moves a mesh to the world, where its bones are. */
+/* Transforms a mesh to world space, where its bones are. */
 static void skin(const struct aiScene *scene, struct aiMesh *mesh) {
     struct aiVector3D *const points = calloc(mesh->mNumVertices, sizeof *points);
     struct aiVector3D *const normals = calloc(mesh->mNumVertices, sizeof *normals);
@@ -185,7 +186,7 @@ static void skin(const struct aiScene *scene, struct aiMesh *mesh) {
     free(sums);
 }
 
-/* --- the whole */
+/* --- the whole model */
 
 void writer_pose(writer *self, bool moving, double seconds) {
     const struct aiScene *const scene = self->scene;

@@ -1,12 +1,12 @@
-/* KHR_materials_variants. assimp reads a material only if a primitive names it, so the variant's materials
- * are written into the file's text before assimp sees it. */
+/* KHR_materials_variants. assimp reads a material only if a primitive refers to it, so the variant's
+ * materials are written into the file's text before assimp reads it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "program/import/gltf.h"
 
-/* The number of the variant with this name; the list's length: there is none. */
+/* The index of the variant with this name; the list's length if there is none. */
 static size_t find_variant(const json_value *list, const char *name) {
     const json_value *item = list->first;
     size_t index = 0;
@@ -34,7 +34,7 @@ static const json_value *first_of(const json_value *parent, const char *list) {
     return found != NULL ? found->first : NULL;
 }
 
-/* The material of a primitive in a variant; SIZE_MAX: its usual one. */
+/* The material of a primitive in a variant; SIZE_MAX: its default material. */
 static size_t material_in(const json_value *primitive, size_t variant) {
     const json_value *const extension =
         json_member(json_member(primitive, "extensions"), "KHR_materials_variants");
@@ -45,7 +45,7 @@ static size_t material_in(const json_value *primitive, size_t variant) {
     return SIZE_MAX;
 }
 
-/* Writes the bytes up to the primitive's material, and the new one. */
+/* Copies the bytes up to the primitive's material, then writes the new one. */
 static void put_material(const json_value *primitive, size_t material, const char *text, const char *bytes,
                          size_t *from, FILE *to) {
     const json_value *const old = json_member(primitive, "material");
@@ -72,14 +72,14 @@ void gltf_choose_variant(writer *self, const char *name, model_file *file) {
     if (variant == list->count)
         fail_unknown(list, name);
     size_t size, from = 0;
-    char *bytes; /* as they were before the parser ended their texts */
+    char *bytes; /* the bytes as before the parser terminated texts */
     stream_send(AUR_IMPORT_OPEN, 0, strlen(file->name), file->name);
     if (stream_receive(AUR_IMPORT_ANSWER, &size, &bytes) == 0)
         return;
     FILE *const to = open_memstream(&file->bytes, &file->size);
     if (to == NULL)
         stream_fail_memory();
-    const char *const start = self->gltf_text; /* in the file */
+    const char *const start = self->gltf_text; /* offset in the file */
     for (const json_value *mesh = first_of(self->gltf, "meshes"); mesh != NULL; mesh = mesh->next)
         for (const json_value *item = first_of(mesh, "primitives"); item != NULL; item = item->next) {
             const size_t material = material_in(item, variant);
@@ -96,7 +96,7 @@ void gltf_choose_variant(writer *self, const char *name, model_file *file) {
     if (fclose(to) != 0 || !written)
         stream_fail_memory();
     free(bytes);
-    if (self->gltf_head > 0) { /* a .glb has its size, and that of the JSON, in front */
+    if (self->gltf_head > 0) { /* a .glb stores its size and that of the JSON at the start */
         put_word(file->bytes + 8, file->size);
         put_word(file->bytes + 12, length);
     }

@@ -12,7 +12,7 @@ static void put(writer *self, char kind, const char *text) {
 }
 
 static void set_list(writer *self, const char *name, const char *format, va_list arguments) {
-    enum { LONGEST = 8192 }; /* names of files are shorter */
+    enum { LONGEST = 8192 }; /* file names are shorter */
     char text[LONGEST];
     aur_format_list(text, sizeof text, format, arguments);
     put(self, AUR_IMPORT_ATTRIBUTE, name);
@@ -60,7 +60,7 @@ unsigned writer_add_mesh_file(writer *self, size_t size, const void *data) {
     return self->first + self->files++;
 }
 
-unsigned writer_add_picture_file(writer *self, size_t size, const void *data) {
+unsigned writer_add_image_file(writer *self, size_t size, const void *data) {
     char *answer;
     stream_send(AUR_IMPORT_IMAGE, 0, size, data);
     const bool good = stream_receive(AUR_IMPORT_ANSWER, &size, &answer) != 0;

@@ -93,7 +93,7 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
                            size_t first, bool *shown, aur_error *error) {
     enum { VIEW, NAME, PLACE, ROLE, EXPOSURE };
     const char *const view = report_cell(list, first, VIEW);
-    report_picture pictures[MOST_PICTURES];
+    report_image pictures[MOST_PICTURES];
     aur_image *images[MOST_PICTURES];
     size_t count = 0;
     bool reduced = false;
@@ -108,11 +108,10 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
                             file);
         snprintf(path, sizeof path, "%s/%s/%s", p->results, of->name, file);
         result = read_picture(p, path, &images[count], &reduced, error);
-        pictures[count] =
-            (report_picture){.name = report_cell(list, row, NAME),
-                             .image = images[count],
-                             .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0,
-                             .dropped_bits = p->small ? 4 : 1};
+        pictures[count] = (report_image){.name = report_cell(list, row, NAME),
+                                         .image = images[count],
+                                         .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0,
+                                         .dropped_bits = p->small ? 4 : 1};
         count += result == AUR_OK;
     }
     char title[256];

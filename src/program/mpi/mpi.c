@@ -1,5 +1,5 @@
-/* The carrier by MPI: a module that is loaded when a launcher has started several processes, so that one
- * alone does not pay for MPI. Waiting sleeps, where MPI's own waits keep a processor busy. */
+/* Message transport by MPI: a module that is only loaded if a launcher has started several processes, so that
+ * other runs do not load MPI. Waits sleep between polls, because MPI's waits use a processor. */
 #include <mpi.h>
 #include <stdlib.h>
 
@@ -35,7 +35,7 @@ static bool poll(void *state, size_t *from, size_t *size) {
     return true;
 }
 
-/* A long message comes while we ask for it, so this too sleeps in between. */
+/* A long message makes progress only while it is polled, so this sleeps between polls as well. */
 static void receive(void *state, size_t from, size_t size, void *data) {
     (void)state;
     MPI_Request request;

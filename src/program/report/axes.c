@@ -1,9 +1,9 @@
-/* What an axis shows, and where its numbers stand. */
+/* Ranges of axes and positions of ticks. */
 #include "program/report/figure.h"
 
 #include <math.h>
 
-double report_place(const report_ruler *r, double value) {
+double report_pixel_of(const report_ruler *r, double value) {
     const double at = r->log ? log10(value) : value;
     return r->from + (at - r->low) / (r->high - r->low) * (r->to - r->from);
 }
@@ -19,7 +19,7 @@ static void widen(report_ruler *r, double value) {
     r->high = fmax(r->high, at);
 }
 
-/* An interval that nearly reaches 0 does not make a logarithmic axis long. */
+/* Intervals that nearly reach 0 do not extend a logarithmic axis. */
 static void widen_by_bar(report_ruler *r, const report_point *p) {
     if (isfinite(p->high))
         widen(r, p->high);
@@ -71,14 +71,14 @@ void report_make_equal(report_ruler *x, report_ruler *y) {
     wider->high += more;
 }
 
-size_t report_find_ticks(const report_ruler *r, double ticks[REPORT_MOST_TICKS]) {
+size_t report_find_ticks(const report_ruler *r, double ticks[REPORT_TICK_LIMIT]) {
     static const double digits[] = {1.0, 2.0, 5.0};
     size_t count = 0;
     if (r->log && r->high - r->low > 0.8) {
         const size_t each = r->high - r->low < 2.2 ? 3 : 1;
         const double skip = fmax(1.0, ceil((r->high - r->low) / 6.0));
         for (double decade = floor(r->low); decade <= r->high; decade += skip)
-            for (size_t i = 0; i < each && count < REPORT_MOST_TICKS; ++i) {
+            for (size_t i = 0; i < each && count < REPORT_TICK_LIMIT; ++i) {
                 const double value = digits[i] * pow(10.0, decade);
                 if (log10(value) >= r->low && log10(value) <= r->high)
                     ticks[count++] = value;
@@ -88,7 +88,7 @@ size_t report_find_ticks(const report_ruler *r, double ticks[REPORT_MOST_TICKS])
     const double low = r->log ? pow(10.0, r->low) : r->low, high = r->log ? pow(10.0, r->high) : r->high;
     const double rough = (high - low) / 5.0, power = pow(10.0, floor(log10(rough))), part = rough / power;
     const double step = power * (part > 5.0 ? 10.0 : part > 2.0 ? 5.0 : part > 1.0 ? 2.0 : 1.0);
-    for (double k = ceil(low / step); k * step <= high && count < REPORT_MOST_TICKS; ++k)
+    for (double k = ceil(low / step); k * step <= high && count < REPORT_TICK_LIMIT; ++k)
         ticks[count++] = fabs(k) < 0.5 ? 0.0 : k * step;
     return count;
 }

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* From "space" to "~" in thousandths of the size (Adobe's metrics of Helvetica). */
+/* Widths of " " to "~" in thousandths of the font size (Adobe's metrics of Helvetica). */
 static const unsigned short widths[] = {
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
     556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
@@ -38,7 +38,7 @@ double report_text_width(const char *text) {
 }
 
 report_pen report_pen_of(unsigned ink, double width) {
-    /* Colours of series differ in print and for the colour-blind (Okabe and Ito 2008). */
+    /* The colors of series are distinguishable in print and by the color-blind (Okabe and Ito 2008). */
     static const uint32_t colors[REPORT_INK_SERIES + 8] = {0x0d0d0d, 0xc7c7c7, 0xdddddd, 0x999999, 0,
                                                            0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0x000000,
                                                            0x56b4e9, 0xe69f00, 0x666666};

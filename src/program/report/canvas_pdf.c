@@ -1,4 +1,4 @@
-/* PDF 1.4 (ISO 32000-1): one page, in Helvetica or Times, which every reader has. */
+/* PDF 1.4 (ISO 32000-1): one page, in Helvetica or Times, which every PDF reader has. */
 #include <aureole/text.h>
 #include <math.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static void begin_object(report_canvas *c, size_t object) {
 }
 
 static void begin(report_canvas *c) {
-    fputs("%PDF-1.4\n%\xc3\xa4\xc3\xb6\n", c->to); /* bytes that are no ASCII, as readers want them */
+    fputs("%PDF-1.4\n%\xc3\xa4\xc3\xb6\n", c->to); /* non-ASCII bytes mark the file as binary */
     begin_object(c, CATALOG);
     fprintf(c->to, "<< /Type /Catalog /Pages %d 0 R >>\nendobj\n", PAGES);
     begin_object(c, PAGES);
@@ -38,7 +38,7 @@ static void begin(report_canvas *c) {
     begin_object(c, CONTENTS);
     fprintf(c->to, "<< /Length %d 0 R >>\nstream\n", LENGTH);
     c->offsets[0] = position(c);
-    /* Pixels from the upper left corner. */
+    /* Coordinates in pixels from the upper left corner. */
     aur_print(c->to, "%g 0 0 %g 0 %.2f cm\n1 J 1 j\n", points_a_pixel(c), -points_a_pixel(c),
               points_a_pixel(c) * c->height);
 }
@@ -64,12 +64,12 @@ static void path(report_canvas *c, const report_pen *pen, bool closed, size_t co
     paint(c, pen, closed);
 }
 
-/* Four cubic curves, which are nowhere further from the circle than .03 % of its radius. */
+/* Four cubic Bezier curves, within .03 % of the radius of the circle. */
 static void circle(report_canvas *c, const report_pen *pen, double x, double y, double radius) {
     const double k = 4.0 / 3.0 * (sqrt(2.0) - 1.0) * radius;
     use(c, pen);
     aur_print(c->to, "%.2f %.2f m\n", x + radius, y);
-    double ux = 1.0, uy = 0.0; /* where the quarter begins; it ends at (-uy, ux) */
+    double ux = 1.0, uy = 0.0; /* start of the quarter; it ends at (-uy, ux) */
     for (size_t i = 0; i < 4; ++i) {
         const double vx = -uy, vy = ux;
         aur_print(c->to, "%.2f %.2f %.2f %.2f %.2f %.2f c\n", x + radius * ux + k * vx,

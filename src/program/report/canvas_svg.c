@@ -1,4 +1,4 @@
-/* SVG. What follows each other with the same pen stands in one group. */
+/* SVG. Consecutive elements with the same pen share a group. */
 #include <aureole/text.h>
 #include <math.h>
 
@@ -50,7 +50,7 @@ static void close_group(report_canvas *c) {
     c->open = false;
 }
 
-/* Colours of the scale stand at each element. Cells that meet have no seams where their edges are crisp. */
+/* Colors of the scale are attributes of each element. Crisp edges avoid seams between adjacent cells. */
 static void use(report_canvas *c, const report_pen *pen, bool crisp) {
     const bool scale = pen->ink == REPORT_INK_SCALE;
     if (!c->open || c->pen.ink != pen->ink || c->crisp != crisp || (!scale && c->pen.rgb != pen->rgb) ||
@@ -89,7 +89,7 @@ static void end_element(report_canvas *c, const char *name) {
               name);
 }
 
-/* In pages, which have many plots, a tenth of a pixel is enough. */
+/* Pages have many plots: a resolution of a tenth of a pixel keeps them small. */
 static void put_number(report_canvas *c, const char *before, double value) {
     fputs(before, c->to);
     if (c->inside)
@@ -110,7 +110,7 @@ static void path(report_canvas *c, const report_pen *pen, bool closed, size_t co
     end_element(c, "path");
 }
 
-/* Plots of points in pages: dots of one colour and size are the round ends of one line. */
+/* Scatter plots in pages: dots of one color and size are round caps of one path. */
 static void put_dot(report_canvas *c, const report_pen *pen, double x, double y, double radius) {
     if (fabs(c->dots - radius) > 0.0) {
         end_dots(c);

@@ -1,10 +1,10 @@
-/* Marching triangles between the middles of cells. */
+/* Marching triangles between the centers of cells. */
 #include "program/report/contours.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The lines of a level in the triangle of three cells' middles: one at most. */
+/* The line of a level in the triangle of three cell centers: at most one. */
 static bool cut_triangle(report_contours *self, double level, const size_t corners[3]) {
     report_point ends[2];
     size_t found = 0;
@@ -36,7 +36,7 @@ static bool cut_triangle(report_contours *self, double level, const size_t corne
 
 bool report_find_contours(double high, double side, report_contours *self) {
     const report_ruler ruler = {.low = 0.0, .high = high, .from = 0.0, .to = 3.0 * side};
-    double levels[REPORT_MOST_TICKS];
+    double levels[REPORT_TICK_LIMIT];
     const size_t level_count = report_find_ticks(&ruler, levels);
     bool fits = true;
     for (size_t k = 0; k < level_count; ++k)

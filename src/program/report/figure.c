@@ -1,4 +1,4 @@
-/* Where everything of a figure stands on its sheet. */
+/* Layout of figures. */
 #include "program/report/figure.h"
 
 #include <aureole/text.h>
@@ -11,7 +11,7 @@
 enum { LEFT = 60, RIGHT = 20, TOP = 24, BOTTOM = 40, MARGIN = 20, SCALE = 80, LINE = 16, KEY = 26, GAP = 24 };
 enum { MOST_ENTRIES = 64 };
 
-/* What a panel is drawn with. */
+/* A panel and its axes during drawing. */
 typedef struct drawn_panel {
     report_canvas *canvas;
     const report_figure *figure;
@@ -32,13 +32,13 @@ static void format_tick(double tick, char number[32]) {
     aur_format(number, 32, "%g", tick);
 }
 
-/* Whether numbers along a horizontal axis leave no room between each other. */
+/* Whether tick labels along a horizontal axis overlap. */
 static bool is_crowded(const report_ruler *along, size_t count, const double *ticks) {
     double end = -INFINITY;
     for (size_t i = 0; i < count; ++i) {
         char number[32];
         format_tick(ticks[i], number);
-        const double half = 0.5 * report_text_width(number), at = report_place(along, ticks[i]);
+        const double half = 0.5 * report_text_width(number), at = report_pixel_of(along, ticks[i]);
         if (at - half < end + 4.0)
             return true;
         end = at + half;
@@ -51,12 +51,12 @@ static bool is_power_of_ten(double tick) {
     return fabs(power - round(power)) < 1e-9;
 }
 
-/* The grid first, so that it is one group. Where numbers are crowded, only powers of ten have one. */
+/* Draws the grid first, so that it is one group. If labels overlap, only powers of ten are labeled. */
 static void put_ticks(report_canvas *c, const report_ruler *along, const report_ruler *across, bool of_y) {
-    double ticks[REPORT_MOST_TICKS];
+    double ticks[REPORT_TICK_LIMIT];
     const size_t count = report_find_ticks(along, ticks);
     for (size_t i = 0; i < count; ++i) {
-        const double at = report_place(along, ticks[i]);
+        const double at = report_pixel_of(along, ticks[i]);
         if (of_y)
             line(c, REPORT_INK_GRID, 0.7, across->from, at, across->to, at);
         else
@@ -68,7 +68,7 @@ static void put_ticks(report_canvas *c, const report_ruler *along, const report_
         if (crowded && !is_power_of_ten(ticks[i]))
             continue;
         format_tick(ticks[i], number);
-        const double at = report_place(along, ticks[i]);
+        const double at = report_pixel_of(along, ticks[i]);
         if (of_y)
             c->format->text(c, across->from - 4.0, at + 4.0, 1.0, false, number);
         else
@@ -76,13 +76,13 @@ static void put_ticks(report_canvas *c, const report_ruler *along, const report_
     }
 }
 
-/* One of eight shapes that are told apart without colours, the last three of them hollow. */
+/* One of eight shapes that are distinguishable without colors, the last three hollow. */
 static void put_mark(report_canvas *c, unsigned ink, double x, double y) {
     static const double corners[3][4][2] = {{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}},
                                             {{0.0, -1.3}, {1.2, 0.9}, {-1.2, 0.9}, {0.0, -1.3}},
                                             {{0.0, -1.4}, {1.4, 0.0}, {0.0, 1.4}, {-1.4, 0.0}}};
     static const struct {
-        size_t corners; /* of which row; 3: a circle */
+        size_t corners; /* row of vertices; 3: a circle */
         double size;
         bool hollow;
     } shapes[8] = {{3, 2.6, false},  {0, 2.3, false}, {1, 2.6, false}, {2, 2.5, false},
@@ -110,8 +110,8 @@ static void put_line(const drawn_panel *d, const report_series *series) {
     pen.dashed = pen.dashed || (series->parts & REPORT_DASHED) != 0;
     for (size_t i = 0; i < series->count && xy != NULL; ++i)
         if (report_drawable(d->panel, &series->points[i])) {
-            xy[2 * count] = report_place(&d->x, series->points[i].x);
-            xy[2 * count++ + 1] = report_place(&d->y, series->points[i].y);
+            xy[2 * count] = report_pixel_of(&d->x, series->points[i].x);
+            xy[2 * count++ + 1] = report_pixel_of(&d->y, series->points[i].y);
         }
     if (count > 1)
         d->canvas->format->path(d->canvas, &pen, false, count, xy);
@@ -121,38 +121,38 @@ static void put_line(const drawn_panel *d, const report_series *series) {
 static void put_bar(const drawn_panel *d, const report_series *series, const report_point *p) {
     if (!isfinite(p->low) || !isfinite(p->high))
         return;
-    const double x = report_place(&d->x, p->x), top = report_place(&d->y, p->high);
+    const double x = report_pixel_of(&d->x, p->x), top = report_pixel_of(&d->y, p->high);
     const double bottom =
-        d->y.log && p->low <= 0.0 ? d->y.from : fmin(report_place(&d->y, p->low), d->y.from);
+        d->y.log && p->low <= 0.0 ? d->y.from : fmin(report_pixel_of(&d->y, p->low), d->y.from);
     report_pen pen = report_pen_of(series->ink, 1.0);
     pen.dashed = false;
-    /* One line: the upper end, down, and the lower end where the bar does not leave the panel. */
+    /* One line: the upper cap, down, and the lower cap unless the bar leaves the panel. */
     const double xy[] = {x - 3.0, top, x + 3.0, top, x, top, x, bottom, x - 3.0, bottom, x + 3.0, bottom};
     d->canvas->format->path(d->canvas, &pen, false, bottom < d->y.from ? 6 : 4, xy);
 }
 
-/* Dots and cells. Cells are a little larger, so that no seams are seen between them. */
+/* Draws dots and cells. Cells are slightly enlarged, to avoid seams between them. */
 static void put_area(const drawn_panel *d, const report_series *series, const report_point *p) {
     report_pen pen = report_pen_of(series->ink, 0.0);
     if (series->ink == REPORT_INK_SCALE)
         pen.rgb = report_scale_color(&d->figure->scale, p->value);
-    const double x = report_place(&d->x, p->x), y = report_place(&d->y, p->y);
+    const double x = report_pixel_of(&d->x, p->x), y = report_pixel_of(&d->y, p->y);
     if ((series->parts & REPORT_DOTS) != 0)
         d->canvas->format->circle(d->canvas, &pen, x, y, p->size);
     if ((series->parts & REPORT_CELLS) != 0)
-        box(d->canvas, &pen, report_place(&d->x, p->x - 0.5 * series->cell[0]) - 0.5,
-            report_place(&d->y, p->y + 0.5 * series->cell[1]) - 0.5,
-            report_place(&d->x, p->x + 0.5 * series->cell[0]) + 0.5,
-            report_place(&d->y, p->y - 0.5 * series->cell[1]) + 0.5);
+        box(d->canvas, &pen, report_pixel_of(&d->x, p->x - 0.5 * series->cell[0]) - 0.5,
+            report_pixel_of(&d->y, p->y + 0.5 * series->cell[1]) - 0.5,
+            report_pixel_of(&d->x, p->x + 0.5 * series->cell[0]) + 0.5,
+            report_pixel_of(&d->y, p->y - 0.5 * series->cell[1]) + 0.5);
 }
 
-/* Thin lines from point to point. */
+/* Thin lines between pairs of points. */
 static void put_segments(const drawn_panel *d, const report_series *series) {
     const report_pen pen = report_pen_of(series->ink, 0.8);
     for (size_t i = 0; i + 1 < series->count; i += 2) {
         const report_point *const a = &series->points[i], *const b = a + 1;
-        const double xy[4] = {report_place(&d->x, a->x), report_place(&d->y, a->y), report_place(&d->x, b->x),
-                              report_place(&d->y, b->y)};
+        const double xy[4] = {report_pixel_of(&d->x, a->x), report_pixel_of(&d->y, a->y),
+                              report_pixel_of(&d->x, b->x), report_pixel_of(&d->y, b->y)};
         if (report_drawable(d->panel, a) && report_drawable(d->panel, b))
             d->canvas->format->path(d->canvas, &pen, false, 2, xy);
     }
@@ -179,7 +179,7 @@ static void put_series(const drawn_panel *d, const report_series *series) {
         c->label = series->label != NULL ? series->label : "";
         c->at[0] = p->x;
         c->at[1] = p->y;
-        put_mark(c, series->ink, report_place(&d->x, p->x), report_place(&d->y, p->y));
+        put_mark(c, series->ink, report_pixel_of(&d->x, p->x), report_pixel_of(&d->y, p->y));
         c->title = false;
     }
 }
@@ -202,8 +202,8 @@ static void put_border(const drawn_panel *d) {
         c->format->text(c, middle, y->to - 8.0, 0.5, false, panel->title);
     for (size_t i = 0; i < 2; ++i)
         if (panel->rings[i] > 0.0)
-            c->format->circle(c, &frame, report_place(x, 0.0), report_place(y, 0.0),
-                              report_place(x, panel->rings[i]) - report_place(x, 0.0));
+            c->format->circle(c, &frame, report_pixel_of(x, 0.0), report_pixel_of(y, 0.0),
+                              report_pixel_of(x, panel->rings[i]) - report_pixel_of(x, 0.0));
 }
 
 static void put_panel(report_canvas *c, const report_figure *figure, size_t index, double left, double top) {
@@ -233,8 +233,8 @@ static void put_key(report_canvas *c, const report_series *series, double x, dou
         put_mark(c, series->ink, x + 0.5 * KEY, y);
 }
 
-/* The legend below what ends at `top`; entries stand side by side where they fit, also in a font that is a
- * little wider than Helvetica. Without a canvas only its height is found, which is returned. */
+/* Draws the legend below `top`; entries share a row if they fit, also in a font slightly wider than
+ * Helvetica. Without a canvas it only returns its height. */
 static double put_legend(report_canvas *c, const report_figure *figure, size_t panel, double left, double top,
                          double width) {
     const report_series *entries[MOST_ENTRIES];
@@ -253,13 +253,13 @@ static double put_legend(report_canvas *c, const report_figure *figure, size_t p
     return count > 0 ? LINE * (double)((count + across - 1) / across) + 0.5 * LINE : 0.0;
 }
 
-/* A bar of the colours from the lowest value at the bottom to the highest, numbers to its right. */
+/* A color bar from the lowest value at the bottom to the highest, with labels to its right. */
 static void put_scale(report_canvas *c, const report_scale *scale, double left, double top, double bottom) {
     enum { STEPS = 64, WIDTH = 14 };
     const report_ruler r = {scale->low, scale->high, false, bottom, top};
     const report_pen frame = report_pen_of(REPORT_INK_FRAME, 1.0);
     report_pen pen = {.ink = REPORT_INK_SCALE};
-    double ticks[REPORT_MOST_TICKS];
+    double ticks[REPORT_TICK_LIMIT];
     for (size_t i = 0; i < STEPS; ++i) {
         const double y = bottom + (top - bottom) * (double)i / STEPS;
         pen.rgb =
@@ -271,9 +271,9 @@ static void put_scale(report_canvas *c, const report_scale *scale, double left, 
     for (size_t i = 0; i < count; ++i) {
         char number[32];
         aur_format(number, sizeof number, "%g", ticks[i]);
-        line(c, REPORT_INK_FRAME, 1.0, left + WIDTH, report_place(&r, ticks[i]), left + WIDTH + 3.0,
-             report_place(&r, ticks[i]));
-        c->format->text(c, left + WIDTH + 5.0, report_place(&r, ticks[i]) + 4.0, 0.0, false, number);
+        line(c, REPORT_INK_FRAME, 1.0, left + WIDTH, report_pixel_of(&r, ticks[i]), left + WIDTH + 3.0,
+             report_pixel_of(&r, ticks[i]));
+        c->format->text(c, left + WIDTH + 5.0, report_pixel_of(&r, ticks[i]) + 4.0, 0.0, false, number);
     }
     c->format->text(c, left + SCALE - 12.0, 0.5 * (top + bottom), 0.5, true, scale->label);
 }
@@ -303,7 +303,7 @@ static void draw(report_canvas *c, const report_figure *figure) {
     c->format->end(c);
 }
 
-/* NULL is TikZ, which has no canvas. */
+/* NULL: TikZ, which has no canvas. */
 static const struct {
     const char *name;
     const report_canvas_format *canvas;

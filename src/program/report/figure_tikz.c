@@ -1,4 +1,4 @@
-/* TikZ for papers: pgfplots draws axes and legends itself from the data, which stand in the text. */
+/* TikZ for papers: pgfplots draws axes and legends from the data in the text. */
 #include <aureole/text.h>
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static void put_key(FILE *to, const char *key, const char *text) {
     fputc('}', to);
 }
 
-/* The colour and shape of a series, as options. */
+/* The color and shape of a series, as options. */
 static void put_style(FILE *to, const report_series *series) {
     static const char *const marks[] = {
         "*", "square*", "triangle*", "diamond*", "triangle*, mark options={rotate=180}",
@@ -36,7 +36,7 @@ static void put_style(FILE *to, const report_series *series) {
         fputs((series->parts & REPORT_DOTS) != 0 ? ", mark=*" : ", mark=none", to);
 }
 
-/* The corners of a cell, counter-clockwise. */
+/* The corners of a cell, counterclockwise. */
 static void put_cell(FILE *to, const report_series *series, const report_point *p) {
     for (size_t i = 0; i < 4; ++i)
         aur_print(to, "%.9g %.9g %.9g\\\\\n", p->x + (i == 1 || i == 2 ? 0.5 : -0.5) * series->cell[0],
@@ -49,7 +49,7 @@ static void put_segments(FILE *to, const report_series *series) {
                   series->points[i].y, series->points[i + 1].x, series->points[i + 1].y);
 }
 
-/* The numbers of a series that stand in the figure's file. */
+/* The coordinates of a series in the text. */
 static void put_reference(FILE *to, const char *data, size_t number, bool bars) {
     const char *const slash = strrchr(data, '/');
     fprintf(to, "] table[x=x%zu, y=y%zu", number, number);
@@ -85,7 +85,7 @@ static void put_series(FILE *to, const report_panel *panel, const report_series 
         fputs("patch, patch type=rectangle, shader=flat, draw=none, point meta=explicit", to);
     else
         put_style(to, series);
-    if (dots) { /* each of its own size */
+    if (dots) { /* each with its radius */
         char ink[32] = "mapped color";
         if (!scaled)
             snprintf(ink, sizeof ink, "ink%u", series->ink);
@@ -123,7 +123,7 @@ static void put_series(FILE *to, const report_panel *panel, const report_series 
     fputs("};\n", to);
 }
 
-/* A list of the numbers at an axis; on a logarithmic one pgfplots would write 10^{0.05}. */
+/* A list of tick labels; on a logarithmic axis pgfplots would write 10^{0.05}. */
 static void put_ticks(FILE *to, const char *key, size_t count, const double *ticks) {
     fprintf(to, ", %s={", key);
     for (size_t i = 0; i < count; ++i)
@@ -136,7 +136,7 @@ static void put_axis(FILE *to, const report_panel *panel, bool of_y) {
                                            {"ymode=log", "ymin", "ymax", "ytick", "yticklabels", "ylabel"}};
     const report_axis *const axis = of_y ? &panel->y : &panel->x;
     const char *const *const key = keys[of_y];
-    double ticks[REPORT_MOST_TICKS];
+    double ticks[REPORT_TICK_LIMIT];
     if (axis->low < axis->high)
         aur_print(to, ", %s=%.9g, %s=%.9g", key[1], axis->low, key[2], axis->high);
     if (panel->border != REPORT_BORDER_AXES)
@@ -190,7 +190,7 @@ static void put_panel(FILE *to, const report_figure *figure, size_t index) {
     }
 }
 
-/* Row `row` of the drawn points of a series; the first row has the names of the columns. */
+/* Row `row` of the drawn points of a series; row 0 has the column names. */
 static void put_data(FILE *to, const report_panel *panel, const report_series *series, size_t number,
                      size_t row) {
     const bool bars = (series->parts & REPORT_BARS) != 0;

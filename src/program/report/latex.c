@@ -1,4 +1,4 @@
-/* Text for LaTeX, of tables and of TikZ. */
+/* Text for LaTeX, for tables and TikZ. */
 #include <string.h>
 
 #include "program/report/canvas.h"

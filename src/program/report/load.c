@@ -1,4 +1,4 @@
-/* Tables of results, read again. */
+/* Reads result tables. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,8 +16,7 @@ static aur_result fail_in(const char *path, size_t line, aur_result result, cons
     return result;
 }
 
-/* The next field of a line of CSV, unquoted in its place; *next is what follows its comma, NULL at the end.
- */
+/* The next field of a CSV line, unquoted in place; *next is the rest after its comma, NULL at the end. */
 static char *field(char *text, char **next) {
     char *const begin = text, *out = text;
     bool quoted = false;
@@ -34,7 +33,7 @@ static char *field(char *text, char **next) {
     return begin;
 }
 
-/* A row of `columns` cells, or the names of the columns when there are none yet. */
+/* Adds a row of `columns` cells, or sets the column names if there are none yet. */
 static bool add_line(report_table *table, char *line) {
     const bool names = report_columns(table) == 0;
     size_t count = 0;
@@ -56,16 +55,16 @@ aur_result report_load(const char *path, report_table **table, char **notes, aur
     FILE *const file = fopen(path, "r");
     if (file == NULL)
         return fail_in(path, 0, AUR_ERROR_OPEN, strerror(errno), error);
-    report_table *const made = report_create(0, NULL);
+    report_table *const loaded = report_create(0, NULL);
     size_t size, capacity = 0, number = 0;
     FILE *const comments = notes != NULL ? open_memstream(notes, &size) : NULL;
     char *line = NULL;
-    bool well = made != NULL && (comments != NULL || notes == NULL);
+    bool well = loaded != NULL && (comments != NULL || notes == NULL);
     while (well && getline(&line, &capacity, file) >= 0) {
         ++number;
         line[strcspn(line, "\n")] = '\0';
         if (line[0] != '#')
-            well = add_line(made, line);
+            well = add_line(loaded, line);
         else if (comments != NULL)
             fprintf(comments, "%s\n", line + strspn(line, "# "));
     }
@@ -73,11 +72,11 @@ aur_result report_load(const char *path, report_table **table, char **notes, aur
     fclose(file);
     if (comments != NULL)
         fclose(comments);
-    if (well && report_columns(made) > 0) {
-        *table = made;
+    if (well && report_columns(loaded) > 0) {
+        *table = loaded;
         return AUR_OK;
     }
-    report_destroy(made);
+    report_destroy(loaded);
     if (notes != NULL) {
         free(*notes);
         *notes = NULL;

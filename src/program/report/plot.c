@@ -1,4 +1,4 @@
-/* Figures of tables: which rows belong to which panel and line. */
+/* Plots of tables: assigns rows to panels and series. */
 #include "program/report/report.h"
 
 #include <aureole/core.h>
@@ -23,12 +23,12 @@ typedef struct layout {
     size_t x, y, low, high; /* columns */
     groups panels, series;
     report_panel panel[GROUPS];
-    report_series *drawn; /* of panel p the series from p * series.count */
+    report_series *drawn; /* the series of panel p begin at p * series.count */
     report_point *points;
     report_figure figure;
 } layout;
 
-/* The words of a row in the columns of a list, blanks between. */
+/* The cells of a row in a list of columns, separated by blanks. */
 static void label(const report_table *table, size_t row, const char *columns, char text[LABEL]) {
     text[0] = '\0';
     while (columns != NULL && *columns != '\0') {
@@ -47,7 +47,7 @@ static void label(const report_table *table, size_t row, const char *columns, ch
     }
 }
 
-/* The index of the group of a row, which is made when it is new; GROUPS when there are too many. */
+/* The index of a row's group, which is added if new; GROUPS if there are too many. */
 static size_t join(groups *g, const layout *l, size_t row, const char *columns) {
     char name[LABEL];
     label(l->table, row, columns, name);
@@ -76,7 +76,7 @@ static int by_x(const void *a, const void *b) {
     return (p->x > q->x) - (p->x < q->x);
 }
 
-/* The points of a panel and series, lines from left to right. */
+/* The points of a panel and series, sorted by x for lines. */
 static size_t collect(layout *l, size_t panel, size_t series, report_point *points) {
     size_t count = 0;
     for (size_t row = 0; row < report_rows(l->table); ++row) {
@@ -124,7 +124,7 @@ static void destroy(layout *l) {
     free(l);
 }
 
-/* The layout of a plot; one of no panels when a column is missing or no row has numbers. NULL without memory.
+/* The layout of a plot; without panels if a column is missing or no row has numbers. NULL when out of memory.
  */
 static layout *create(const report_table *table, const report_plot *plot) {
     layout *const l = calloc(1, sizeof *l);
@@ -166,7 +166,7 @@ static aur_result save_data(const char *path, const report_figure *figure, aur_e
     return result;
 }
 
-/* Sizes in pixels of 1/100 inch in which REPORT_TEXT_SIZE is the text's size in points. */
+/* Converts to pixels of 1/100 inch, such that the font size in points is REPORT_TEXT_SIZE in pixels. */
 static void apply_style(const report_style *style, report_figure *figure) {
     figure->width = 500.0;
     figure->height = 360.0;

@@ -7,13 +7,13 @@
 #include <string.h>
 
 typedef struct cell {
-    char *text; /* as people read it */
+    char *text; /* formatted for text */
     enum { TEXT, INTEGER, NUMBER } kind;
     uint64_t integer;
     double number;
 } cell;
 
-/* The first row of cells are the names of the columns. Facts have the columns "property" and "value". */
+/* The column names are the first row of cells. Tables of facts have the columns "property" and "value". */
 struct report_table {
     size_t column_count;
     size_t count, capacity;
@@ -95,7 +95,7 @@ void report_fact_number(report_table *table, const char *name, double value) {
     report_number(table, value, 9);
 }
 
-/* The columns a UTF-8 text takes on a terminal, for the letters that we use. */
+/* The columns of a UTF-8 text on a terminal, for the characters in use. */
 static size_t display_width(const char *text) {
     size_t width = 0;
     for (const char *c = text; *c != '\0'; ++c)
@@ -103,7 +103,7 @@ static size_t display_width(const char *text) {
     return width;
 }
 
-/* Numbers stand to the right, in a column of nothing else. */
+/* Columns of numbers are right-aligned. */
 static aur_result write_text(const report_table *table, FILE *stream, aur_error *error) {
     const size_t columns = table->column_count;
     struct layout {
@@ -132,7 +132,7 @@ static aur_result write_text(const report_table *table, FILE *stream, aur_error 
     return AUR_OK;
 }
 
-/* For programs facts are one row, with a column for each. */
+/* For programs, facts become one row with a column each. */
 static size_t row_count(const report_table *table) {
     return table->facts ? 2 : table->count / table->column_count;
 }
@@ -185,7 +185,7 @@ static void write_json(const report_table *table, FILE *stream) {
     aur_json_close(&json, ']');
 }
 
-/* A column of numbers and empty cells alone stands to the right. */
+/* Columns of only numbers and empty cells are right-aligned. */
 static bool has_numbers(const report_table *table, size_t column) {
     bool some = false;
     for (size_t row = 0; row < report_rows(table); ++row) {
@@ -197,7 +197,7 @@ static bool has_numbers(const report_table *table, size_t column) {
     return some;
 }
 
-/* With `digits` significant digits; powers of ten as TeX writes them. */
+/* With `digits` significant digits; powers of ten as in TeX. */
 static void put_number(FILE *to, double value, int digits) {
     char text[64];
     aur_format(text, sizeof text, "%.*g", digits, value);

@@ -1,5 +1,5 @@
-/* The server of `--serve` by GNU libmicrohttpd, in a module of its own: the library brings ten others along,
- * which take as long to load as a small image takes to render. */
+/* The server of `--serve`, based on GNU libmicrohttpd, in a separate module: the library loads ten others,
+ * which takes as long as rendering a small image. */
 #include <math.h>
 #include <microhttpd.h>
 #include <pthread.h>
@@ -13,22 +13,23 @@
 
 #include "program/watch/server.h"
 
-/* Bytes of a request's line and fields, connections at once, and milliseconds until a wake is seen. */
+/* Bytes of a request's line and header fields, simultaneous connections, and milliseconds between checks for
+ * a wake-up. */
 enum { REQUEST_CAPACITY = 8192, MOST_CONNECTIONS = 32, TICK = 20 };
 
-/* Seconds: until a request is complete, until one that waits is answered, and between two bytes that are
- * sent. */
+/* Seconds until a request must be complete, until a waiting request is answered, and between two sent bytes.
+ */
 static const double READING = 10.0, WAITING = 15.0;
 static const unsigned SENDING = 20;
 
 typedef struct connection {
     struct MHD_Connection *handle; /* NULL: this entry is free */
     bool waits;
-    double until; /* when it is dropped, or answered at last */
+    double until; /* time limit for the request, or for a late answer */
 } connection;
 
 typedef struct http_server {
-    watch_server base; /* first */
+    watch_server base; /* must be the first member */
     watch_handler *handler;
     void *user;
     struct MHD_Daemon *daemon;
@@ -58,14 +59,14 @@ static void notify(void *shared, struct MHD_Connection *handle, void **slot,
         *slot = c;
         return;
     }
-    /* Input left unread would reset the connection before the client has read the answer. */
+    /* Unread input would reset the connection before the client has read the answer. */
     char rest[512];
     for (int i = 0; i < 16 && recv(socket_of(handle), rest, sizeof rest, MSG_DONTWAIT) > 0; ++i)
         continue;
     ((connection *)*slot)->handle = NULL;
 }
 
-/* The status of a request that the handler need not see, or 0. Bodies are not accepted. */
+/* The status of a request that is answered without the handler, or 0. Bodies are not accepted. */
 static int refuse(struct MHD_Connection *handle, const char *target) {
     const char *const size = MHD_lookup_connection_value(handle, MHD_HEADER_KIND, "Content-Length");
     if (target[0] != '/')
@@ -77,7 +78,7 @@ static int refuse(struct MHD_Connection *handle, const char *target) {
 }
 
 static enum MHD_Result send_answer(struct MHD_Connection *handle, const watch_answer *answer) {
-    /* The page may use its own script and data only, and no other site learns its address. */
+    /* Restricts the page to its script and data, and hides its address from other sites. */
     const char *const fields[][2] = {
         {"Content-Type", answer->type != NULL ? answer->type : "text/plain; charset=utf-8"},
         {"Connection", "close"},
@@ -100,7 +101,7 @@ static enum MHD_Result send_answer(struct MHD_Connection *handle, const watch_an
     return result;
 }
 
-/* Called when the fields of a request are complete, and after MHD_resume_connection. */
+/* Called when the header fields of a request are complete, and after MHD_resume_connection. */
 static enum MHD_Result handle_request(void *shared, struct MHD_Connection *handle, const char *target,
                                       const char *method, const char *version, const char *upload,
                                       size_t *upload_size, void **state) {
@@ -115,11 +116,12 @@ static enum MHD_Result handle_request(void *shared, struct MHD_Connection *handl
         MHD_suspend_connection(handle);
         return MHD_YES;
     }
-    *c = (connection){.handle = handle, .until = INFINITY}; /* the library drops those that do not receive */
+    *c =
+        (connection){.handle = handle, .until = INFINITY}; /* the library drops clients that do not receive */
     return send_answer(handle, &answer);
 }
 
-/* Wakes requests that wait, and drops connections that are slow to send theirs. */
+/* Resumes waiting requests, and drops connections that are slow to send theirs. */
 static void attend(const connection *c, bool woken) {
     const bool late = now() >= c->until;
     if (c->handle == NULL)
@@ -143,7 +145,7 @@ static void *serve(void *shared) {
     return NULL;
 }
 
-/* The thread leaves the host's signals to the host's threads. */
+/* Signals are for the host's threads. */
 static bool start(http_server *server, int listener) {
     server->daemon = MHD_start_daemon(
         MHD_USE_AUTO | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, handle_request, server,

@@ -12,20 +12,20 @@
 
 #include "program/watch/server.h"
 
-/* Pixels a side of the parts in which an image is sent, as tev's own client does. */
+/* Pixels per side of the tiles in which an image is sent, as in tev's client. */
 enum { TILE = 128, DEFAULT_PORT = 14158 };
 
 struct watch_display {
     int connection;
     char name[256];
     pthread_t thread;
-    pthread_mutex_t lock; /* guards what follows */
+    pthread_mutex_t lock; /* protects the following members */
     pthread_cond_t news;
     aur_image *next; /* to be sent */
     bool busy, end;
-    int failure; /* the errno of a send that failed */
-    /* Of the thread: */
-    aur_image *sent; /* what the viewer has */
+    int failure; /* errno of a failed send */
+    /* Only used by the thread: */
+    aur_image *sent; /* the image that the viewer has */
 };
 
 /* --- packets */
@@ -33,12 +33,12 @@ struct watch_display {
 /* Kinds of packets. */
 enum { CLOSE_IMAGE = 2, CREATE_IMAGE = 4, UPDATE_IMAGE_3 = 6 };
 
-/* A part of an image, in pixels. */
+/* A rectangle of an image, in pixels. */
 typedef struct image_part {
     size_t x, y, width, height;
 } image_part;
 
-/* The lowest `count` bytes, the lowest one first. */
+/* The low `count` bytes in little-endian order. */
 static void put_number(FILE *packet, size_t count, uint64_t value) {
     for (size_t i = 0; i < count; ++i)
         putc_unlocked((int)(value >> 8 * i & 255), packet);
@@ -55,16 +55,16 @@ static void put_channels(FILE *packet, const aur_image *image) {
         put_text(packet, aur_image_channel_name(image, c));
 }
 
-/* The size and the channels of `image`, for a new black one. */
+/* The size and the channels of `image`, for a new black image. */
 static void put_creation(FILE *packet, const char *name, const aur_image *image) {
-    put_number(packet, 1, 1); /* it is to be seen at once */
+    put_number(packet, 1, 1); /* select it in the viewer */
     put_text(packet, name);
     put_number(packet, 4, aur_image_width(image));
     put_number(packet, 4, aur_image_height(image));
     put_channels(packet, image);
 }
 
-/* A part of the image, all its channels pixel by pixel. */
+/* A rectangle of the image with interleaved channels. */
 static void put_update(FILE *packet, const char *name, const aur_image *image, const image_part *part) {
     const size_t channels = aur_image_channel_count(image);
     put_number(packet, 1, 0);
@@ -74,9 +74,9 @@ static void put_update(FILE *packet, const char *name, const aur_image *image, c
     put_number(packet, 4, part->y);
     put_number(packet, 4, part->width);
     put_number(packet, 4, part->height);
-    for (size_t c = 0; c < channels; ++c) /* where its first value is */
+    for (size_t c = 0; c < channels; ++c) /* offset of its first value */
         put_number(packet, 8, c);
-    for (size_t c = 0; c < channels; ++c) /* and how far its next one */
+    for (size_t c = 0; c < channels; ++c) /* stride of its values */
         put_number(packet, 8, channels);
     for (size_t y = part->y; y < part->y + part->height; ++y) {
         const float *const line = aur_image_data(image) + (y * aur_image_width(image) + part->x) * channels;
@@ -98,7 +98,7 @@ static bool send_bytes(int connection, size_t size, const char *bytes) {
     return true;
 }
 
-/* Sends a packet of one kind; an update has a part, and CLOSE_IMAGE needs no image. */
+/* Sends a packet; an update has a rectangle, and CLOSE_IMAGE needs no image. */
 static bool send_packet(const watch_display *display, unsigned kind, const aur_image *image,
                         const image_part *part) {
     char *bytes = NULL;
@@ -106,7 +106,7 @@ static bool send_packet(const watch_display *display, unsigned kind, const aur_i
     FILE *const packet = open_memstream(&bytes, &size);
     if (packet == NULL)
         return false;
-    put_number(packet, 4, 0); /* the count of bytes is written last */
+    put_number(packet, 4, 0); /* the size is written last */
     put_number(packet, 1, kind);
     if (kind == CREATE_IMAGE)
         put_creation(packet, display->name, image);
@@ -125,12 +125,12 @@ static bool send_packet(const watch_display *display, unsigned kind, const aur_i
     return sent;
 }
 
-static bool is_alike(const aur_image *a, const aur_image *b) {
-    bool alike = a != NULL && aur_image_channel_count(a) == aur_image_channel_count(b) &&
-                 aur_image_width(a) == aur_image_width(b) && aur_image_height(a) == aur_image_height(b);
-    for (size_t c = 0; alike && c < aur_image_channel_count(a); ++c)
-        alike = strcmp(aur_image_channel_name(a, c), aur_image_channel_name(b, c)) == 0;
-    return alike;
+static bool is_compatible(const aur_image *a, const aur_image *b) {
+    bool compatible = a != NULL && aur_image_channel_count(a) == aur_image_channel_count(b) &&
+                      aur_image_width(a) == aur_image_width(b) && aur_image_height(a) == aur_image_height(b);
+    for (size_t c = 0; compatible && c < aur_image_channel_count(a); ++c)
+        compatible = strcmp(aur_image_channel_name(a, c), aur_image_channel_name(b, c)) == 0;
+    return compatible;
 }
 
 static bool has_changed(const aur_image *before, const aur_image *image, const image_part *part) {
@@ -144,11 +144,11 @@ static bool has_changed(const aur_image *before, const aur_image *image, const i
     return false;
 }
 
-/* The first image makes the viewer's; of all others the parts that have changed are sent. */
-static bool send_picture(const watch_display *display, const aur_image *image) {
+/* The first image is created in the viewer; later only changed tiles are sent. */
+static bool send_image(const watch_display *display, const aur_image *image) {
     bool good = display->sent != NULL || (send_packet(display, CLOSE_IMAGE, NULL, NULL) &&
                                           send_packet(display, CREATE_IMAGE, image, NULL));
-    const bool alike = is_alike(display->sent, image);
+    const bool compatible = is_compatible(display->sent, image);
     const size_t width = aur_image_width(image), height = aur_image_height(image);
     for (size_t y = 0; good && y < height; y += TILE)
         for (size_t x = 0; good && x < width; x += TILE) {
@@ -156,13 +156,13 @@ static bool send_picture(const watch_display *display, const aur_image *image) {
                                      .y = y,
                                      .width = width - x < TILE ? width - x : TILE,
                                      .height = height - y < TILE ? height - y : TILE};
-            if (!alike || has_changed(display->sent, image, &part))
+            if (!compatible || has_changed(display->sent, image, &part))
                 good = send_packet(display, UPDATE_IMAGE_3, image, &part);
         }
     return good;
 }
 
-static void *send_pictures(void *shared) {
+static void *send_images(void *shared) {
     watch_display *const display = shared;
     pthread_mutex_lock(&display->lock);
     for (;;) {
@@ -175,7 +175,7 @@ static void *send_pictures(void *shared) {
         display->busy = true;
         const bool failed = display->failure != 0;
         pthread_mutex_unlock(&display->lock);
-        const int failure = failed || send_picture(display, image) ? 0 : errno;
+        const int failure = failed || send_image(display, image) ? 0 : errno;
         aur_image_destroy(display->sent);
         display->sent = image;
         pthread_mutex_lock(&display->lock);
@@ -187,22 +187,22 @@ static void *send_pictures(void *shared) {
     return NULL;
 }
 
-/* The thread leaves the host's signals to the host's threads. */
+/* Signals are for the host's threads. */
 static bool start(watch_display *display) {
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    const bool started = pthread_create(&display->thread, NULL, send_pictures, display) == 0;
+    const bool started = pthread_create(&display->thread, NULL, send_images, display) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return started;
 }
 
 aur_result watch_display_create(const char *where, const char *name, watch_display **made, aur_error *error) {
-    watch_place place = {.host = "127.0.0.1", .port = DEFAULT_PORT};
+    watch_endpoint endpoint = {.host = "127.0.0.1", .port = DEFAULT_PORT};
     int connection = -1;
-    aur_result result = watch_place_read("display-server", where, &place, error);
+    aur_result result = watch_endpoint_parse("display-server", where, &endpoint, error);
     if (result == AUR_OK)
-        result = watch_connect("display-server", &place, &connection, error);
+        result = watch_connect("display-server", &endpoint, &connection, error);
     if (result != AUR_OK)
         return result;
     watch_display *const display = calloc(1, sizeof *display);

@@ -56,7 +56,7 @@ size_t watch_layers(const aur_image *image, watch_layer layers[WATCH_LAYER_LIMIT
     return count;
 }
 
-char *watch_picture(const aur_image *image, const watch_layer *layer, size_t *size) {
+char *watch_layer_json(const aur_image *image, const watch_layer *layer, size_t *size) {
     const char *names[3];
     for (size_t c = 0; c < layer->channel_count; ++c)
         names[c] = aur_image_channel_name(image, layer->channel + c);
@@ -64,9 +64,9 @@ char *watch_picture(const aur_image *image, const watch_layer *layer, size_t *si
     char *text = NULL;
     if (aur_image_select(image, layer->channel_count, names, &part, NULL) != AUR_OK)
         return NULL;
-    const report_picture picture = {.name = layer->name, .image = part, .quick = true};
+    const report_image image_options = {.name = layer->name, .image = part, .quick = true};
     FILE *const stream = open_memstream(&text, size);
-    const bool good = stream != NULL && report_put_picture(stream, &picture, NULL) == AUR_OK;
+    const bool good = stream != NULL && report_put_image(stream, &image_options, NULL) == AUR_OK;
     aur_image_destroy(part);
     if (stream != NULL && fclose(stream) == 0 && good)
         return text;

@@ -12,8 +12,8 @@
 
 #include <aureole/text.h>
 
-/* In the folder of the library, or of the program that has it inside; else where the system looks. A run path
- * alone is not enough: sanitizers call dlopen in the program's place. */
+/* In the folder of the library, or of the program if linked statically; otherwise from the system. An rpath
+ * alone is not enough: sanitizers intercept dlopen. */
 static void *open_module(const char *file) {
     const char *(*const inside)(void) = aur_version;
     void *address;
@@ -33,8 +33,8 @@ static const watch_server_module *find_module(void) {
     return module != NULL ? dlsym(module, "aureole_serve") : NULL;
 }
 
-aur_result watch_server_create(const char *option, watch_place *place, watch_handler *handler, void *user,
-                               watch_server **server, aur_error *error) {
+aur_result watch_server_create(const char *option, watch_endpoint *endpoint, watch_handler *handler,
+                               void *user, watch_server **server, aur_error *error) {
     const watch_server_module *const module = find_module();
     if (module == NULL) {
         const char *const why = dlerror();
@@ -43,7 +43,7 @@ aur_result watch_server_create(const char *option, watch_place *place, watch_han
                         why != NULL ? why : "it is of another version");
     }
     int listener = -1;
-    const aur_result result = watch_listen(option, place, &listener, error);
+    const aur_result result = watch_listen(option, endpoint, &listener, error);
     if (result != AUR_OK)
         return result;
     if (!module->create(listener, handler, user, server))

@@ -1,32 +1,32 @@
-/* A small server of HTTP/1.1, in a thread of its own: one request per connection, few connections at once,
- * each bounded in size and time. */
+/* A small HTTP/1.1 server in a separate thread: one request per connection, few connections, each with limits
+ * on size and time. */
 #pragma once
 
 #include <aureole/core.h>
 #include <stdbool.h>
 
-/* Places on the network: read from text, listened at, connected to. */
+/* Network endpoints: parsing, listening, connecting. */
 
 enum { WATCH_HOST_CAPACITY = 256 };
 
-typedef struct watch_place {
+typedef struct watch_endpoint {
     char host[WATCH_HOST_CAPACITY]; /* without brackets */
     unsigned port;
-} watch_place;
+} watch_endpoint;
 
-/* Reads "PORT", "HOST:PORT" or "[HOST]:PORT"; without a host `place` keeps the one that it has, and with an
- * empty text its port too. `option` stands in messages. Errors: ARGUMENT. */
-aur_result watch_place_read(const char *option, const char *text, watch_place *place, aur_error *error);
+/* Parses "PORT", "HOST:PORT" or "[HOST]:PORT" into `endpoint`; omitted parts are unchanged. `option` is for
+ * messages. Errors: ARGUMENT. */
+aur_result watch_endpoint_parse(const char *option, const char *text, watch_endpoint *endpoint,
+                                aur_error *error);
 
-/* "127.0.0.1:8080", with brackets about a host that has colons. */
-void watch_place_write(const watch_place *place, size_t capacity, char *text);
+/* Formats "127.0.0.1:8080", with brackets around a host that contains colons. */
+void watch_endpoint_format(const watch_endpoint *endpoint, size_t capacity, char *text);
 
-/* A socket that listens there, closed by the caller; port 0 becomes the free one that was found. Errors:
- * OPEN.
- */
-aur_result watch_listen(const char *option, watch_place *place, int *listener, aur_error *error);
-/* A socket that is connected. Errors: OPEN. */
-aur_result watch_connect(const char *option, const watch_place *place, int *connection, aur_error *error);
+/* A listening socket, closed by the caller; port 0 becomes the assigned one. Errors: OPEN. */
+aur_result watch_listen(const char *option, watch_endpoint *endpoint, int *listener, aur_error *error);
+/* A connected socket. Errors: OPEN. */
+aur_result watch_connect(const char *option, const watch_endpoint *endpoint, int *connection,
+                         aur_error *error);
 
 /* The answer to a request. */
 typedef struct watch_answer {
@@ -41,24 +41,24 @@ typedef struct watch_answer {
 typedef bool watch_handler(void *user, const char *method, const char *target, bool last,
                            watch_answer *answer);
 
-/* The module's own server begins with this. */
+/* The first member of the module's server object. */
 typedef struct watch_server {
     const struct watch_server_module *module;
 } watch_server;
 
-/* Begins to serve at `place`, whose port 0 becomes a free one. Errors: OPEN, UNSUPPORTED (an installation
- * without the module). */
-aur_result watch_server_create(const char *option, watch_place *place, watch_handler *handler, void *user,
-                               watch_server **server, aur_error *error);
-/* Calls the handler again for the requests that wait. From any thread. NULL is allowed. */
+/* Starts a server at `endpoint`, whose port 0 becomes the assigned one. Errors: OPEN, UNSUPPORTED (an
+ * installation without the module). */
+aur_result watch_server_create(const char *option, watch_endpoint *endpoint, watch_handler *handler,
+                               void *user, watch_server **server, aur_error *error);
+/* Calls the handler again for waiting requests. Thread-safe. NULL is allowed. */
 void watch_server_wake(watch_server *server);
 /* Drops all connections. NULL is allowed. */
 void watch_server_destroy(watch_server *server);
 
-/* What the module (src/program/serve) has under the name `aureole_serve`; it stands beside the libraries and
- * is loaded when somebody asks for a server. */
+/* The functions of the module (src/program/serve), exported as `aureole_serve`; it is installed next to the
+ * libraries and loaded on demand. */
 typedef struct watch_server_module {
-    /* Takes the listening socket over; false where it cannot serve, with errno. */
+    /* Takes ownership of the listening socket; false on failure, with errno. */
     bool (*create)(int listener, watch_handler *handler, void *user, watch_server **server);
     void (*wake)(watch_server *server);
     void (*destroy)(watch_server *server);

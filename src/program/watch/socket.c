@@ -10,7 +10,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-aur_result watch_place_read(const char *option, const char *text, watch_place *place, aur_error *error) {
+aur_result watch_endpoint_parse(const char *option, const char *text, watch_endpoint *endpoint,
+                                aur_error *error) {
     if (text[0] == '\0')
         return AUR_OK;
     const char *const colon = strrchr(text, ':');
@@ -23,7 +24,7 @@ aur_result watch_place_read(const char *option, const char *text, watch_place *p
         length -= 2;
     }
     uint64_t number = 0;
-    const bool good = aur_parse_integer(port, 65535, &number) && length < sizeof place->host &&
+    const bool good = aur_parse_integer(port, 65535, &number) && length < sizeof endpoint->host &&
                       (colon == NULL || length > 0) &&
                       (bracketed || colon == NULL || memchr(text, ':', length) == NULL);
     if (!good)
@@ -31,18 +32,18 @@ aur_result watch_place_read(const char *option, const char *text, watch_place *p
             error, AUR_ERROR_ARGUMENT,
             "--%s: expected PORT, HOST:PORT or [HOST]:PORT, with a port of at most 65535, not '%s'", option,
             text);
-    place->port = (unsigned)number;
+    endpoint->port = (unsigned)number;
     if (colon != NULL) {
-        memcpy(place->host, host, length);
-        place->host[length] = '\0';
+        memcpy(endpoint->host, host, length);
+        endpoint->host[length] = '\0';
     }
     return AUR_OK;
 }
 
-void watch_place_write(const watch_place *place, size_t capacity, char *text) {
-    const bool bracketed = strchr(place->host, ':') != NULL;
-    aur_format(text, capacity, "%s%s%s:%u", bracketed ? "[" : "", place->host, bracketed ? "]" : "",
-               place->port);
+void watch_endpoint_format(const watch_endpoint *endpoint, size_t capacity, char *text) {
+    const bool bracketed = strchr(endpoint->host, ':') != NULL;
+    aur_format(text, capacity, "%s%s%s:%u", bracketed ? "[" : "", endpoint->host, bracketed ? "]" : "",
+               endpoint->port);
 }
 
 typedef int socket_action(int socket, const struct sockaddr *address, socklen_t size);
@@ -54,18 +55,18 @@ static int bind_and_listen(int socket, const struct sockaddr *address, socklen_t
     return bind(socket, address, size) != 0 ? -1 : listen(socket, QUEUE);
 }
 
-/* Does something at the first of a host's addresses where it can be done. */
-static aur_result open_socket(const char *option, const watch_place *place, bool passive,
+/* Applies the action to the first of a host's addresses that allows it. */
+static aur_result open_socket(const char *option, const watch_endpoint *endpoint, bool passive,
                               socket_action *action, const char *failed, int *out, aur_error *error) {
     char port[12], name[WATCH_HOST_CAPACITY + 16];
-    aur_format(port, sizeof port, "%u", place->port);
-    watch_place_write(place, sizeof name, name);
-    const struct addrinfo wanted = {.ai_socktype = SOCK_STREAM, .ai_flags = passive ? AI_PASSIVE : 0};
+    aur_format(port, sizeof port, "%u", endpoint->port);
+    watch_endpoint_format(endpoint, sizeof name, name);
+    const struct addrinfo hints = {.ai_socktype = SOCK_STREAM, .ai_flags = passive ? AI_PASSIVE : 0};
     struct addrinfo *found = NULL;
-    const int unknown = getaddrinfo(place->host, port, &wanted, &found);
-    if (unknown != 0)
+    const int status = getaddrinfo(endpoint->host, port, &hints, &found);
+    if (status != 0)
         return aur_fail(error, AUR_ERROR_OPEN, "--%s: %s: %s", option, name,
-                        unknown == EAI_SYSTEM ? strerror(errno) : gai_strerror(unknown));
+                        status == EAI_SYSTEM ? strerror(errno) : gai_strerror(status));
     int result = -1, why = 0;
     for (const struct addrinfo *at = found; at != NULL && result < 0; at = at->ai_next) {
         const int made = socket(at->ai_family, at->ai_socktype, at->ai_protocol);
@@ -85,27 +86,28 @@ static aur_result open_socket(const char *option, const watch_place *place, bool
     return AUR_OK;
 }
 
-aur_result watch_listen(const char *option, watch_place *place, int *listener, aur_error *error) {
+aur_result watch_listen(const char *option, watch_endpoint *endpoint, int *listener, aur_error *error) {
     const aur_result result =
-        open_socket(option, place, true, bind_and_listen, "cannot listen at", listener, error);
+        open_socket(option, endpoint, true, bind_and_listen, "cannot listen at", listener, error);
     struct sockaddr_storage address;
     socklen_t size = sizeof address;
     if (result != AUR_OK || getsockname(*listener, (struct sockaddr *)&address, &size) != 0)
         return result;
     if (address.ss_family == AF_INET)
-        place->port = ntohs(((const struct sockaddr_in *)&address)->sin_port);
+        endpoint->port = ntohs(((const struct sockaddr_in *)&address)->sin_port);
     else if (address.ss_family == AF_INET6)
-        place->port = ntohs(((const struct sockaddr_in6 *)&address)->sin6_port);
+        endpoint->port = ntohs(((const struct sockaddr_in6 *)&address)->sin6_port);
     return AUR_OK;
 }
 
-/* Neither connecting nor sending waits for ever. */
+/* Timeouts for connecting and sending. */
 static int connect_soon(int socket, const struct sockaddr *address, socklen_t size) {
     const struct timeval patience = {.tv_sec = 10};
     setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     return connect(socket, address, size);
 }
 
-aur_result watch_connect(const char *option, const watch_place *place, int *connection, aur_error *error) {
-    return open_socket(option, place, false, connect_soon, "cannot connect to", connection, error);
+aur_result watch_connect(const char *option, const watch_endpoint *endpoint, int *connection,
+                         aur_error *error) {
+    return open_socket(option, endpoint, false, connect_soon, "cannot connect to", connection, error);
 }

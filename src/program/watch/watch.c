@@ -14,42 +14,43 @@
 
 enum { TOKEN_BYTES = 16, TOKEN_LENGTH = 2 * TOKEN_BYTES, TEXT_CAPACITY = 256, MOST_PAGES = 16 };
 
-/* Seconds between two words on the progress, the part of the time that developing images may take, and how
- * long a page that says nothing more is waited for in the end, and one that does. */
+/* Seconds between status updates, the fraction of time for developing images, and how long the end waits for
+ * silent and for active pages. */
 static const double PAUSE = 0.2, DEVELOPING_PART = 0.05, SILENCE = 3.0, GOODBYE = 60.0;
 
-/* A page that somebody has open. */
+/* A page that is open in a browser. */
 typedef struct open_page {
     uint64_t id;
-    bool has_all; /* the image that the render has ended with */
+    bool has_all; /* it has fetched the final image */
 } open_page;
 
 struct watch_session {
     char token[TOKEN_LENGTH + 1], address[WATCH_HOST_CAPACITY + TOKEN_LENGTH + 32], title[TEXT_CAPACITY];
     watch_server *server;
     watch_display *display;
-    bool display_lost; /* and said so */
+    bool display_lost; /* and it was reported */
     atomic_bool stop;
-    /* Of the thread that reports progress: */
+    /* Only used by the thread that reports progress: */
     watch_source source;
-    char pending[TEXT_CAPACITY];  /* what is known of the image, until it is told with all else */
-    double told, developed, cost; /* when it was last told and developed, and the seconds that this took */
-    pthread_mutex_t lock;         /* guards what follows */
-    uint64_t serial;              /* of the state */
-    char what[TEXT_CAPACITY], known[TEXT_CAPACITY], ended[TEXT_CAPACITY];
+    char pending[TEXT_CAPACITY]; /* description of the image for the next status */
+    double updated, developed,
+        cost;             /* time of the last status and of the last development, and its seconds */
+    pthread_mutex_t lock; /* protects the following members */
+    uint64_t serial;      /* version number of the state */
+    char what[TEXT_CAPACITY], description[TEXT_CAPACITY], ended[TEXT_CAPACITY];
     double share;
-    bool turns, has_turned; /* pages may turn the camera; one has */
-    bool turned;            /* `turn` is to be taken */
+    bool turns, has_turned; /* pages may turn the camera; a page has turned it */
+    bool turned;            /* `turn` has not been applied yet */
     watch_turn turn;
-    bool wanted;           /* a page asks for a newer image */
-    aur_image *fresh;      /* which the server's thread takes over */
-    const aur_image *last; /* what the render has ended with; its owner's */
-    double asked;          /* the time of the last request */
+    bool image_requested;  /* a page requests a newer image */
+    aur_image *fresh;      /* for the server's thread to take */
+    const aur_image *last; /* the final image, owned by the caller */
+    double requested_at;   /* the time of the last request */
     size_t page_count;
     open_page pages[MOST_PAGES];
-    /* Of the server's thread: */
-    aur_image *kept;        /* what it has taken over */
-    const aur_image *shown; /* that, or what the render has ended with */
+    /* Only used by the server's thread: */
+    aur_image *taken;       /* the image that it has taken */
+    const aur_image *shown; /* that image or the final one */
     uint64_t version;
     size_t layer_count;
     watch_layer layers[WATCH_LAYER_LIMIT];
@@ -80,8 +81,8 @@ static void take_over(watch_session *watch) {
     const aur_image *const newest = watch->last != NULL ? watch->last : fresh;
     pthread_mutex_unlock(&watch->lock);
     if (fresh != NULL) {
-        aur_image_destroy(watch->kept);
-        watch->kept = fresh;
+        aur_image_destroy(watch->taken);
+        watch->taken = fresh;
     }
     if (newest == NULL || newest == watch->shown)
         return;
@@ -115,7 +116,8 @@ static char *state_text(watch_session *watch, size_t *size) {
         return NULL;
     aur_json_open(&json, '{', false);
     pthread_mutex_lock(&watch->lock);
-    const char *const texts[][2] = {{"what", watch->what}, {"known", watch->known}, {"ended", watch->ended}};
+    const char *const texts[][2] = {
+        {"what", watch->what}, {"known", watch->description}, {"ended", watch->ended}};
     for (size_t i = 0; i < 3; ++i) {
         aur_json_name(&json, texts[i][0]);
         aur_json_string(&json, texts[i][1]);
@@ -141,7 +143,7 @@ static char *state_text(watch_session *watch, size_t *size) {
     return NULL;
 }
 
-/* With the lock held. Where there are too many pages the last one is forgotten. */
+/* Requires the lock. With too many pages the last one is replaced. */
 static open_page *page_of(watch_session *watch, uint64_t id) {
     for (size_t i = 0; i < watch->page_count; ++i)
         if (watch->pages[i].id == id)
@@ -152,20 +154,20 @@ static open_page *page_of(watch_session *watch, uint64_t id) {
     return page;
 }
 
-/* "state/PAGE/SERIAL": what is newer than the state of that number. */
+/* "state/PAGE/SERIAL": answers when the state is newer than SERIAL. */
 static bool answer_state(watch_session *watch, const char *text, bool last, watch_answer *answer) {
     char id_text[24] = "";
-    uint64_t id = 0, seen = 0;
+    uint64_t id = 0, shown_serial = 0;
     const size_t length = strcspn(text, "/");
     if (length >= sizeof id_text || text[length] != '/' ||
         !aur_parse_integer(memcpy(id_text, text, length), UINT64_MAX, &id) ||
-        !aur_parse_integer(text + length + 1, UINT64_MAX, &seen))
+        !aur_parse_integer(text + length + 1, UINT64_MAX, &shown_serial))
         return answer_status(answer, 404);
     pthread_mutex_lock(&watch->lock);
     page_of(watch, id);
-    watch->asked = now();
-    watch->wanted = true;
-    const bool news = watch->serial > seen || last;
+    watch->requested_at = now();
+    watch->image_requested = true;
+    const bool news = watch->serial > shown_serial || last;
     pthread_mutex_unlock(&watch->lock);
     if (!news)
         return false;
@@ -175,16 +177,16 @@ static bool answer_state(watch_session *watch, const char *text, bool last, watc
     return answer_text(answer, 200, "application/json", body, size);
 }
 
-static bool answer_picture(watch_session *watch, const char *text, watch_answer *answer) {
+static bool answer_layer(watch_session *watch, const char *text, watch_answer *answer) {
     uint64_t layer = 0;
     take_over(watch);
     pthread_mutex_lock(&watch->lock);
-    watch->asked = now();
+    watch->requested_at = now();
     pthread_mutex_unlock(&watch->lock);
     if (!aur_parse_integer(text, WATCH_LAYER_LIMIT, &layer) || layer >= watch->layer_count)
         return answer_status(answer, 404);
     size_t size = 0;
-    char *const body = watch_picture(watch->shown, &watch->layers[layer], &size);
+    char *const body = watch_layer_json(watch->shown, &watch->layers[layer], &size);
     return answer_text(answer, 200, "application/json", body, size);
 }
 
@@ -198,7 +200,7 @@ static bool answer_goodbye(watch_session *watch, const char *text, watch_answer 
     return answer_text(answer, 200, NULL, strdup("Goodbye.\n"), strlen("Goodbye.\n"));
 }
 
-/* "turn/AZIMUTH/ELEVATION/DISTANCE": adds to what is to be turned. */
+/* "turn/AZIMUTH/ELEVATION/DISTANCE": accumulates a turn. */
 static bool answer_turn(watch_session *watch, const char *text, watch_answer *answer) {
     double numbers[3];
     for (size_t i = 0; i < 3; ++i) {
@@ -217,7 +219,7 @@ static bool answer_turn(watch_session *watch, const char *text, watch_answer *an
         turn->azimuth += numbers[0];
         turn->elevation += numbers[1];
         turn->distance = fmin(fmax(turn->distance * numbers[2], 1e-3), 1e3);
-        watch->has_turned = true; /* also by nothing, which a page begins with */
+        watch->has_turned = true; /* also for the identity, which a page sends first */
         watch->turned = watch->turned || numbers[0] != 0.0 || numbers[1] != 0.0 || numbers[2] != 1.0;
     }
     pthread_mutex_unlock(&watch->lock);
@@ -225,7 +227,8 @@ static bool answer_turn(watch_session *watch, const char *text, watch_answer *an
                    : answer_status(answer, 404);
 }
 
-/* What comes after "/TOKEN/", or NULL. How long it takes tells nothing of the token. */
+/* The path after "/TOKEN/", or NULL. Constant-time comparison, so that timing reveals nothing about the
+ * token. */
 static const char *after_token(const watch_session *watch, const char *target) {
     unsigned char difference = 0;
     if (strlen(target) < TOKEN_LENGTH + 2 || target[TOKEN_LENGTH + 1] != '/')
@@ -253,7 +256,7 @@ static bool handle(void *user, const char *method, const char *target, bool last
     if (strncmp(what, "state/", 6) == 0)
         return answer_state(watch, what + 6, last, answer);
     if (strncmp(what, "picture/", 8) == 0)
-        return answer_picture(watch, what + 8, answer);
+        return answer_layer(watch, what + 8, answer);
     if (!acts)
         return answer_status(answer, 404);
     if (what[0] == 't')
@@ -264,7 +267,7 @@ static bool handle(void *user, const char *method, const char *target, bool last
     return answer_text(answer, 200, NULL, strdup("Stopping.\n"), strlen("Stopping.\n"));
 }
 
-/* --- making */
+/* --- creation */
 
 static aur_result make_token(watch_session *watch, aur_error *error) {
     unsigned char bytes[TOKEN_BYTES];
@@ -276,25 +279,25 @@ static aur_result make_token(watch_session *watch, aur_error *error) {
 }
 
 static aur_result begin_serving(watch_session *watch, const char *where, aur_error *error) {
-    watch_place place = {.host = "127.0.0.1"};
-    aur_result result = watch_place_read("serve", where, &place, error);
+    watch_endpoint endpoint = {.host = "127.0.0.1"};
+    aur_result result = watch_endpoint_parse("serve", where, &endpoint, error);
     if (result == AUR_OK)
         result = make_token(watch, error);
     if (result == AUR_OK)
-        result = watch_server_create("serve", &place, handle, watch, &watch->server, error);
+        result = watch_server_create("serve", &endpoint, handle, watch, &watch->server, error);
     if (result != AUR_OK)
         return result;
-    /* All addresses of this machine are none that a browser goes to. */
-    if (strcmp(place.host, "0.0.0.0") == 0 || strcmp(place.host, "::") == 0)
-        gethostname(place.host, sizeof place.host - 1);
+    /* Wildcard addresses are replaced by the host name, because browsers cannot open them. */
+    if (strcmp(endpoint.host, "0.0.0.0") == 0 || strcmp(endpoint.host, "::") == 0)
+        gethostname(endpoint.host, sizeof endpoint.host - 1);
     char text[WATCH_HOST_CAPACITY + 16];
-    watch_place_write(&place, sizeof text, text);
+    watch_endpoint_format(&endpoint, sizeof text, text);
     aur_format(watch->address, sizeof watch->address, "http://%s/%s/", text, watch->token);
     return AUR_OK;
 }
 
-aur_result watch_create(const watch_options *options, watch_session **made, aur_error *error) {
-    *made = NULL;
+aur_result watch_create(const watch_options *options, watch_session **created, aur_error *error) {
+    *created = NULL;
     watch_session *const watch = calloc(1, sizeof *watch);
     if (watch == NULL || pthread_mutex_init(&watch->lock, NULL) != 0) {
         free(watch);
@@ -308,7 +311,7 @@ aur_result watch_create(const watch_options *options, watch_session **made, aur_
     if (result == AUR_OK && options->display != NULL)
         result = watch_display_create(options->display, watch->title, &watch->display, error);
     if (result == AUR_OK)
-        *made = watch;
+        *created = watch;
     else
         watch_destroy(watch);
     return result;
@@ -320,7 +323,7 @@ void watch_destroy(watch_session *watch) {
     watch_server_destroy(watch->server);
     watch_display_destroy(watch->display);
     aur_image_destroy(watch->fresh);
-    aur_image_destroy(watch->kept);
+    aur_image_destroy(watch->taken);
     pthread_mutex_destroy(&watch->lock);
     free(watch);
 }
@@ -332,31 +335,31 @@ const char *watch_address(const watch_session *watch) {
 /* --- the render's side */
 
 void watch_set_source(watch_session *watch, const watch_source *source) {
-    if (watch->source.describe != NULL) /* as it is at its end */
+    if (watch->source.describe != NULL) /* its final description */
         watch->source.describe(watch->source.user, sizeof watch->pending, watch->pending);
     watch->source = *source;
 }
 
-void watch_tell(watch_session *watch, const char *text) {
+void watch_describe(watch_session *watch, const char *text) {
     aur_format(watch->pending, sizeof watch->pending, "%s", text);
 }
 
-/* Images for the pages, which is returned, and the display server, if they want any and the last ones have
- * not cost too much for others. */
+/* Develops images for the pages, returned, and for the display server, if requested and within the time
+ * budget. */
 static aur_image *develop(watch_session *watch) {
     pthread_mutex_lock(&watch->lock);
-    const bool wanted = watch->wanted && watch->fresh == NULL;
+    const bool image_requested = watch->image_requested && watch->fresh == NULL;
     pthread_mutex_unlock(&watch->lock);
     const bool sends = watch->display != NULL && watch_display_is_free(watch->display);
     const double begin = now();
     const watch_source *const source = &watch->source;
     aur_image *image = NULL, *fresh = NULL;
-    if ((!wanted && !sends) || source->develop == NULL ||
+    if ((!image_requested && !sends) || source->develop == NULL ||
         begin - watch->developed < watch->cost / DEVELOPING_PART)
         return NULL;
     if (sends && source->develop(source->user, &image, NULL) == AUR_OK)
         watch_display_show(watch->display, image);
-    if (wanted && source->develop(source->user, &fresh, NULL) != AUR_OK)
+    if (image_requested && source->develop(source->user, &fresh, NULL) != AUR_OK)
         fresh = NULL;
     watch->developed = now();
     watch->cost = watch->developed - begin;
@@ -383,11 +386,11 @@ bool watch_take_turn(watch_session *watch, watch_turn *turn) {
     watch->turned = false;
     watch->share = 0.0;
     pthread_mutex_unlock(&watch->lock);
-    watch->developed = watch->cost = watch->told = 0.0; /* the first image is wanted at once */
+    watch->developed = watch->cost = watch->updated = 0.0; /* the first image is shown immediately */
     return turned;
 }
 
-/* All channels of an image, up to a number that few have more than. */
+/* Copies up to MOST_CHANNELS channels of an image. */
 static aur_result copy_of(const void *user, aur_image **image, aur_error *error) {
     enum { MOST_CHANNELS = 128 };
     const aur_image *const from = user;
@@ -404,9 +407,9 @@ bool watch_wait_for_turn(watch_session *watch, aur_image *image) {
     watch->cost = 0.0;
     for (bool open = true; open && !is_turned(watch); nanosleep(&moment, NULL)) {
         pthread_mutex_lock(&watch->lock);
-        open = watch->has_turned && now() - watch->asked < SILENCE;
-        for (size_t i = 0, gone = 0; i < watch->page_count; ++i)
-            open = open && (gone += watch->pages[i].has_all) < watch->page_count;
+        open = watch->has_turned && now() - watch->requested_at < SILENCE;
+        for (size_t i = 0, finished = 0; i < watch->page_count; ++i)
+            open = open && (finished += watch->pages[i].has_all) < watch->page_count;
         pthread_mutex_unlock(&watch->lock);
         open = open && !watch_progress(watch, "finished: turn the camera, or stop", 1.0);
     }
@@ -418,18 +421,18 @@ bool watch_progress(watch_session *watch, const char *what, double share) {
     if (atomic_load(&watch->stop) || is_turned(watch))
         return true;
     const double time = now();
-    if (time - watch->told < PAUSE)
+    if (time - watch->updated < PAUSE)
         return false;
-    watch->told = time;
+    watch->updated = time;
     if (watch->source.describe != NULL)
         watch->source.describe(watch->source.user, sizeof watch->pending, watch->pending);
     aur_image *const fresh = develop(watch);
-    pthread_mutex_lock(&watch->lock); /* words, share and image are of this moment */
+    pthread_mutex_lock(&watch->lock); /* updates text, fraction and image together */
     aur_format(watch->what, sizeof watch->what, "%s", what != NULL ? what : "working");
-    memcpy(watch->known, watch->pending, sizeof watch->known);
+    memcpy(watch->description, watch->pending, sizeof watch->description);
     if (fresh != NULL) {
         watch->fresh = fresh;
-        watch->wanted = false;
+        watch->image_requested = false;
     }
     watch->share = share;
     ++watch->serial;
@@ -439,13 +442,13 @@ bool watch_progress(watch_session *watch, const char *what, double share) {
     return false;
 }
 
-/* Whether pages are still to fetch what the render, which ended then, has ended with. */
+/* Whether to wait for pages that have not fetched the final image. */
 static bool is_waited_for(watch_session *watch, double ended) {
     bool waited = false;
     pthread_mutex_lock(&watch->lock);
     for (size_t i = 0; i < watch->page_count; ++i)
         waited = waited || !watch->pages[i].has_all;
-    const double last = fmax(watch->asked, ended), time = now();
+    const double last = fmax(watch->requested_at, ended), time = now();
     waited = waited && time - last < SILENCE && time - ended < GOODBYE;
     pthread_mutex_unlock(&watch->lock);
     return waited;
@@ -459,7 +462,7 @@ bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text) {
     return true;
 }
 
-/* The whole image as it is written. */
+/* Sends the complete final image. */
 static void send_last(watch_session *watch, const aur_image *image) {
     aur_image *copy = NULL;
     if (copy_of(image, &copy, NULL) == AUR_OK)
@@ -475,7 +478,7 @@ void watch_end(watch_session *watch, const aur_image *image, const char *words) 
         return;
     pthread_mutex_lock(&watch->lock);
     aur_format(watch->ended, sizeof watch->ended, "%s", words);
-    memcpy(watch->known, watch->pending, sizeof watch->known); /* of the whole image */
+    memcpy(watch->description, watch->pending, sizeof watch->description); /* of the complete image */
     watch->last = image;
     ++watch->serial;
     pthread_mutex_unlock(&watch->lock);

@@ -1,5 +1,5 @@
-/* Watching an image while it is rendered: a page that a browser opens, and an image viewer that is sent the
- * image. None of it changes the image. */
+/* Live display of an image during rendering: a page in a browser, and an image viewer that receives the
+ * image. Neither changes the image. */
 #pragma once
 
 #include <aureole-render/image.h>
@@ -8,68 +8,66 @@
 
 typedef struct watch_session watch_session;
 
-/* Both may be asked for; NULL: it is not. */
+/* Both are optional; NULL: off. */
 typedef struct watch_options {
-    const char *serve;   /* "", PORT or HOST:PORT: where the page is, on this machine alone without a host */
+    const char *serve;   /* address of the page: "", PORT or HOST:PORT; only local without a host */
     const char *display; /* PORT or HOST:PORT of a display server (display.c) */
-    const char *title;   /* the page's, and the image's name */
+    const char *title;   /* of the page, and name of the image */
 } watch_options;
 
-/* Errors: ARGUMENT (no such place), OPEN (it cannot be listened at or connected to), MEMORY. */
+/* Errors: ARGUMENT (invalid address), OPEN (cannot listen or connect), MEMORY. */
 aur_result watch_create(const watch_options *options, watch_session **made, aur_error *error);
-/* How far somebody has turned the camera in the page: degrees to the right and up, and a factor of the
- * distance. */
+/* A rotation of the camera by the page: degrees to the right and up, and a factor on the distance. */
 typedef struct watch_turn {
     double azimuth, elevation, distance;
 } watch_turn;
 
-/* From now on pages can turn the camera; watch_progress is true when one has. */
+/* From now on pages can turn the camera; watch_progress then returns true after a turn. */
 void watch_allow_turns(watch_session *watch);
-/* What pages have turned since the last call; false: nothing. */
+/* The accumulated turn since the last call; false: none. */
 bool watch_take_turn(watch_session *watch, watch_turn *turn);
-/* Waits, when the render has ended with `image`, as long as a page that has turned the camera stays open;
- * true when it has turned it again. */
+/* After the render has ended with `image`: waits as long as a page that has turned the camera stays open;
+ * true if it turns it again. */
 bool watch_wait_for_turn(watch_session *watch, aur_image *image);
 
 /* NULL is allowed. */
 void watch_destroy(watch_session *watch);
 
-/* Where the page is: "http://127.0.0.1:40001/5f.../"; NULL where there is none. */
+/* The address of the page: "http://127.0.0.1:40001/5f.../"; NULL without one. */
 const char *watch_address(const watch_session *watch);
 
-/* Where the image comes from while it is rendered, in whichever thread reports progress. */
+/* The source of the image during rendering; called by the threads that report progress. */
 typedef struct watch_source {
     const void *user;
     aur_result (*develop)(const void *user, aur_image **image, aur_error *error);
-    /* Writes what is known of the image, such as its samples and its error, to text[capacity]; may be NULL.
+    /* Writes a description of the image, such as its samples and its error, to text[capacity]; may be NULL.
      */
     void (*describe)(const void *user, size_t capacity, char *text);
 } watch_source;
 
-/* From now on there is an image; with a source of zeros there is none any more. */
+/* Sets the source of the image; zeros: no image. */
 void watch_set_source(watch_session *watch, const watch_source *source);
-/* What is known of the image, where the source does not describe it; shown with the next progress. */
-void watch_tell(watch_session *watch, const char *text);
-/* To be called with the progress, `share` from 0 to 1; true when somebody has asked for the render to stop.
- * One thread at a time. */
+/* Sets the description of an image whose source has no `describe`; shown with the next progress. */
+void watch_describe(watch_session *watch, const char *text);
+/* Call with every progress report, `share` from 0 to 1; true if a page requests a stop. One thread at a time.
+ */
 bool watch_progress(watch_session *watch, const char *what, double share);
 
-/* Why a display server gets no more: text[capacity], once; else false. */
+/* Why the display server gets no more images: text[capacity], once; otherwise false. */
 bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text);
 
-/* The render has ended with the image `image`, or NULL, which `words` say: "finished". Pages that are open
- * are given some seconds to fetch it, and a display server is sent it. */
+/* The render has ended with `image` or NULL, and the status text `words`: "finished". Waits some seconds for
+ * open pages to fetch the image, and sends it to the display server. */
 void watch_end(watch_session *watch, const aur_image *image, const char *words);
 
-/* What the page of a render that is watched consists of: texts from memory that the caller frees, NULL when
- * there is none left. */
+/* The parts of the page: texts from malloc, NULL when out of memory. */
 
 extern const report_asset watch_assets[]; /* ends without a name */
 
-/* The page itself, which asks for all else. */
+/* The page, which requests all other parts. */
 char *watch_page(const char *title, size_t *size);
 
-/* A part of an image that is seen at once: three channels, or one. */
+/* A layer of an image: three channels, or one. */
 typedef struct watch_layer {
     char name[AUR_CHANNEL_NAME_CAPACITY]; /* "albedo" */
     size_t channel, channel_count;
@@ -77,30 +75,29 @@ typedef struct watch_layer {
 
 enum { WATCH_LAYER_LIMIT = 80 };
 
-/* Channels in turn whose names have the same beginning before a dot are one layer where they are three, such
- * as R, G, B. Returns how many layers there are, at most WATCH_LAYER_LIMIT. */
+/* Three consecutive channels with the same prefix before a dot form one layer, such as R, G, B. Returns the
+ * number of layers, at most WATCH_LAYER_LIMIT. */
 size_t watch_layers(const aur_image *image, watch_layer layers[WATCH_LAYER_LIMIT]);
 
-/* One layer of an image as `unpack` of src/program/report/page/pictures.js takes it. */
-char *watch_picture(const aur_image *image, const watch_layer *layer, size_t *size);
+/* A layer of an image as JSON for `unpack` of src/program/report/page/pictures.js. */
+char *watch_layer_json(const aur_image *image, const watch_layer *layer, size_t *size);
 
-/* The image sent to an image viewer on the network, by the protocol of tev (Müller), which pbrt-v4 speaks
- * too: little-endian packets over TCP, each the count of its bytes (uint32), a kind (uint8) and what belongs
- * to it. */
+/* Sends the image to a viewer on the network with the protocol of tev (Müller), which pbrt-v4 uses too:
+ * little-endian packets over TCP, each with its size (uint32), a type (uint8) and its data. */
 
 typedef struct watch_display watch_display;
 
-/* Connects to "PORT" or "HOST:PORT"; `name` is the image's there, where an earlier one of that name is
- * closed. Errors: ARGUMENT, OPEN, MEMORY. */
+/* Connects to "PORT" or "HOST:PORT"; `name` is the image's name there, which replaces an earlier one. Errors:
+ * ARGUMENT, OPEN, MEMORY. */
 aur_result watch_display_create(const char *where, const char *name, watch_display **display,
                                 aur_error *error);
 void watch_display_destroy(watch_display *display); /* NULL is allowed */
 
-/* Whether another image would be sent at once. */
+/* Whether another image would be sent immediately. */
 bool watch_display_is_free(watch_display *display);
-/* Sends what has changed since the last image; takes the image over. From any thread. */
+/* Sends the changes since the last image; takes ownership of the image. Thread-safe. */
 void watch_display_show(watch_display *display, aur_image *image);
-/* Waits until all is sent or nothing can be; then nothing more is to be shown. */
+/* Waits until everything is sent or sending fails; no image may follow. */
 void watch_display_finish(watch_display *display);
-/* Why nothing is sent any more: text[capacity]; false where all is well. */
+/* Why sending has failed: text[capacity]; false if it has not. */
 bool watch_display_has_failed(watch_display *display, size_t capacity, char *text);

@@ -1,5 +1,5 @@
-/* In the place of the commands of libaureole-lighting, in a program that is built without it. The lab takes
- * all libraries. */
+/* Replaces the commands of libaureole-lighting in a program that is built without it. The lab requires all
+ * libraries. */
 #include "program/cli/options.h"
 
 #define ABSENT(name_)                                                                                        \

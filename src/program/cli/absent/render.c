@@ -1,4 +1,4 @@
-/* In the place of the commands of libaureole-render, and of what others take from it, in a program that is
+/* Replaces the commands of libaureole-render, and the functions that other commands use, in a program that is
  * built without it. */
 #include "program/cli/listing.h"
 #include "program/cli/points/point_source.h"
@@ -32,4 +32,4 @@ bool cli_describe_rendered(const cli_info_input *input, size_t size, const char 
     return false;
 }
 
-const report_canvas_format report_canvas_png = {.name = "png"}; /* which report_figure_save refuses */
+const report_canvas_format report_canvas_png = {.name = "png"}; /* report_figure_save rejects it */

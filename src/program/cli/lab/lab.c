@@ -1,4 +1,4 @@
-/* aureole lab: the papers' experiments. */
+/* aureole lab: the experiments of the papers. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static aur_result add_named(cli_definitions *definitions, const char *name, cons
     return AUR_OK;
 }
 
-/* The field of both is the count that the definitions begin with. */
+/* The field of both is the count, the first member of the definitions. */
 static aur_result add_scene(const char *text, void *field, aur_error *error) {
     return add_named(field, "scene", text, error);
 }
@@ -60,7 +60,7 @@ static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.scenes, "scenes", "DIR", "./scenes, or those of the source tree",
               "folder of the bundled scenes"),
      .key.computed = true, .content = "folder"},
-    {CLI_TEXT(cli_lab, kept, "kept", "DIR", "./docs/report/results, or those of the source tree",
+    {CLI_TEXT(cli_lab, stored, "kept", "DIR", "./docs/report/results, or those of the source tree",
               "folder of the stored tables that check compares with"),
      .key.computed = true, .content = "folder"},
     {.key = {0}}};
@@ -92,7 +92,7 @@ static int list(report_format format) {
     return cli_finish_listing(table, format);
 }
 
-/* The page of the results in a folder, and its plots for print. */
+/* Writes the page of results to a folder, and its plots for print. */
 static int report(const char *results, const char *folder, bool small) {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
         fprintf(stderr, "aureole: %s: cannot create the folder: %s\n", folder, strerror(errno));
@@ -106,12 +106,12 @@ static int report(const char *results, const char *folder, bool small) {
     return status;
 }
 
-/* The library stays until the process ends. */
+/* The library stays loaded until the process ends. */
 static int load_module(const char *path) {
-    char place[AUR_ERROR_FILE_CAPACITY];
+    char module_path[AUR_ERROR_FILE_CAPACITY];
     aur_error error = {0};
-    snprintf(place, sizeof place, "%s%s", strchr(path, '/') != NULL ? "" : "./", path);
-    void *const library = dlopen(place, RTLD_NOW | RTLD_LOCAL);
+    snprintf(module_path, sizeof module_path, "%s%s", strchr(path, '/') != NULL ? "" : "./", path);
+    void *const library = dlopen(module_path, RTLD_NOW | RTLD_LOCAL);
     const lab_module *(*find)(void) = NULL;
     *(void **)&find = library != NULL ? dlsym(library, "aureole_lab_module") : NULL;
     if (find == NULL) {

@@ -18,15 +18,15 @@
 #define AUR_SCENES_FOLDER "scenes"
 #endif
 
-/* What is run, and how far it is. */
+/* The experiments to run and their progress. */
 typedef struct schedule {
     const cli_lab *command;
     size_t count;
     const lab_experiment **experiments;
-    double expected, spent; /* processor seconds: of what is to be run, and of what was */
-    double spent_expected;  /* what had been expected of the latter */
+    double expected, spent; /* processor seconds: expected in total, and spent */
+    double spent_expected;  /* expected for the experiments that have been run */
     report_table *summary;
-    cli_phase *phases; /* of the progress: the experiments that are run */
+    cli_phase *phases; /* for the progress: number of experiments */
 } schedule;
 
 void cli_lab_duration(double seconds, char text[32]) {
@@ -43,8 +43,8 @@ static double expected_of(const schedule *plan, const lab_experiment *experiment
     return plan->command->lab.quick ? experiment->quick_seconds : experiment->seconds;
 }
 
-/* Whether the results that are there are taken as they are. */
-static bool is_kept(const schedule *plan, const lab_experiment *experiment) {
+/* Whether existing results are used without running the experiment. */
+static bool has_result(const schedule *plan, const lab_experiment *experiment) {
     const cli_lab *const command = plan->command;
     return command->all && !command->check && !command->again && lab_is_finished(experiment, &command->lab);
 }
@@ -62,7 +62,7 @@ static int print_result(const lab_experiment *experiment, lab_result *result, re
     if (format == REPORT_TABLE)
         printf("%s (%s)\n\n", experiment->name, experiment->reproduces);
     report_table *const table = result->table;
-    result->table = NULL; /* cli_finish ends it */
+    result->table = NULL; /* cli_finish destroys it */
     const int status = cli_finish(table, format);
     if (format != REPORT_TABLE)
         return status;
@@ -76,11 +76,12 @@ static int print_result(const lab_experiment *experiment, lab_result *result, re
 
 static size_t processors(const schedule *plan) {
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    const size_t there = online > 0 ? (size_t)online : 1, asked = plan->command->common.threads;
-    return asked > 0 && asked < there ? asked : there;
+    const size_t available = online > 0 ? (size_t)online : 1, threads = plan->command->common.threads;
+    return threads > 0 && threads < available ? threads : available;
 }
 
-/* The time left is what was expected of the rest, corrected by what the experiments so far took. */
+/* The remaining time is the expectation for the other experiments, scaled by the error of the expectation so
+ * far. */
 static void announce(const schedule *plan, size_t index) {
     if (plan->command->common.quiet || plan->count == 1 || aur_ranks_rank() != 0)
         return;
@@ -104,14 +105,14 @@ static void summarize(schedule *plan, const lab_experiment *experiment, const la
     report_number(plan->summary, result->seconds, 3);
 }
 
-/* Whether the run has the kept tables: a row of the summary. */
+/* Adds a row to the summary: whether the run reproduces the stored tables. */
 static int check_one(schedule *plan, const lab_experiment *experiment, const lab_result *result) {
     const cli_lab *const command = plan->command;
     lab_comparison found;
     aur_error error = {0};
     const char *const of_tree = AUR_SCENES_FOLDER "/../docs/report/results";
     const char *const here = access("docs/report/results", R_OK) == 0 ? "docs/report/results" : of_tree;
-    int status = cli_status(lab_compare(experiment, command->kept != NULL ? command->kept : here,
+    int status = cli_status(lab_compare(experiment, command->stored != NULL ? command->stored : here,
                                         command->lab.folder, command->lab.quick, &found, &error),
                             &error);
     const bool missing = result->notes != NULL && strstr(result->notes, "scripts/scenes.sh") != NULL;
@@ -132,7 +133,7 @@ static int run_one(schedule *plan, const lab_experiment *experiment) {
     const cli_lab *const command = plan->command;
     lab_result result = {0};
     aur_error error = {0};
-    if (is_kept(plan, experiment)) {
+    if (has_result(plan, experiment)) {
         summarize(plan, experiment, &result, "stored");
         return CLI_SUCCESS;
     }
@@ -153,7 +154,7 @@ static int run_one(schedule *plan, const lab_experiment *experiment) {
     return status;
 }
 
-/* With --all, and in checks, an experiment that fails does not keep the others from being run. */
+/* With --all and --check, an experiment that fails does not stop the others. */
 static int run_all(schedule *plan) {
     const bool go_on = plan->command->all || plan->command->check;
     int worst = CLI_SUCCESS;
@@ -165,7 +166,7 @@ static int run_all(schedule *plan) {
     return worst;
 }
 
-/* Hours of work are not lost with a full standard output. */
+/* Results that took hours are on disk even if standard output is full. */
 static int save_summary(const schedule *plan, int status) {
     char path[AUR_ERROR_FILE_CAPACITY];
     aur_error error = {0};
@@ -174,7 +175,7 @@ static int save_summary(const schedule *plan, int status) {
     return saved > status ? saved : status;
 }
 
-/* Whether there is a file of any size of file:NAME-%d.csv; of a folder nothing is said. */
+/* Whether file:NAME-%d.csv exists for some size; always true for a folder. */
 static bool has_some_size(const char *set) {
     const char *const mark = strstr(set, "%d");
     char pattern[AUR_ERROR_FILE_CAPACITY];
@@ -187,7 +188,7 @@ static bool has_some_size(const char *set) {
     return some;
 }
 
-/* A set that there is not, or whose file cannot be read, is found before an hour of work. */
+/* Detects a missing set or unreadable file before an hour of work. */
 static int check_set(const char *set) {
     aur_error error;
     aur_points *points = NULL;
@@ -199,7 +200,7 @@ static int check_set(const char *set) {
     aur_points_request_init(&some, &request, NULL);
     const aur_result result = aur_points_generate(set, &request, &points, &error);
     aur_points_destroy(points);
-    /* There need not be a file of this size. */
+    /* a file of this size is not required */
     const bool sized = cli_is_sized_file(set) && has_some_size(set);
     const bool wrong =
         result == AUR_ERROR_NAME || result == AUR_ERROR_FORMAT || (result == AUR_ERROR_OPEN && !sized);
@@ -210,7 +211,7 @@ static void estimate(schedule *plan) {
     size_t count = 0;
     for (size_t i = 0; i < plan->count; ++i) {
         const lab_experiment *const experiment = plan->experiments[i];
-        if (is_kept(plan, experiment))
+        if (has_result(plan, experiment))
             continue;
         plan->expected += expected_of(plan, experiment);
         if (plan->phases != NULL)
@@ -269,7 +270,7 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
     lab->threads = command->common.threads;
     lab->parameter_count = command->definitions.count;
     lab->parameters = command->definitions.items;
-    lab->progress = cli_progress_of_kept(command->common.quiet);
+    lab->progress = cli_progress_of_resumable(command->common.quiet);
     lab->warnings = cli_warnings(command->common.quiet);
     if (status == CLI_SUCCESS) {
         plan.phases = calloc(plan.count, sizeof *plan.phases);

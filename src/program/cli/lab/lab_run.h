@@ -1,4 +1,4 @@
-/* aureole lab run: the experiments one after the other. */
+/* aureole lab run: runs experiments one after the other. */
 #pragma once
 
 #include "program/cli/options.h"
@@ -6,16 +6,16 @@
 
 typedef struct cli_lab {
     lab_options lab;
-    cli_definitions definitions; /* parameters of experiments */
+    cli_definitions definitions; /* overrides parameters of experiments */
     const char *module;
     lab_paper_style paper;
     bool all, again, small;
-    bool check;       /* compare what is run with the tables that are kept */
-    const char *kept; /* the folder of those; NULL: ./docs/report/results, else that of the source tree */
+    bool check;         /* compare the results with the stored tables */
+    const char *stored; /* folder of those tables; NULL: docs/report/results here or in the source tree */
     cli_common common;
 } cli_lab;
 
 /* "8 s", "12 min", "1 h 5 min". */
 void cli_lab_duration(double seconds, char text[32]);
-/* Runs experiments, and compares their tables with the kept ones with `check`. Returns the exit status. */
+/* Runs experiments and, with `check`, compares their tables with the stored ones. Returns the exit status. */
 int cli_lab_run(cli_lab *command, size_t count, char **names);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* `count` numbers with commas or blanks between them, and nothing else. */
+/* Parses `count` numbers separated by commas or blanks. */
 static bool read_numbers(const char *text, size_t count, double *values) {
     char copy[128];
     if (strlen(text) >= sizeof copy)
@@ -32,7 +32,7 @@ static aur_result parse_range(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
-/* Hours like 8-18, or 22-6 over midnight. */
+/* Parses hours such as 8-18, or 22-6 across midnight. */
 static bool read_hours(const char *text, aur_daylight_options *options) {
     const char *const dash = strchr(text, '-');
     char first[8] = "";
@@ -47,7 +47,7 @@ static bool read_hours(const char *text, aur_daylight_options *options) {
     return true;
 }
 
-/* A number for each hour of the weather, one a line or the first of a line; above 0 it counts. */
+/* Reads a number for each hour of the weather, the first in each line; hours with a positive number count. */
 static aur_result read_schedule(const char *path, size_t count, bool *hours, aur_error *error) {
     aur_error why;
     FILE *const file = cli_open_input(path, &why);
@@ -143,7 +143,7 @@ const cli_option cli_daylight_options[] = {
         "matrix for dctimestep, or as .npy (sensors x patches x 3)")},
     {.key = {0}}};
 
-/* Whether an option is for --sky or --coefficients as well, which is given. */
+/* Whether an option also belongs to --sky or --coefficients, and that was given. */
 static bool is_shared(const cli_call *call, const char *name) {
     const bool coefficients = cli_given(call, "coefficients") != NULL;
     const bool frame = strcmp(name, "up") == 0 || strcmp(name, "north") == 0;
@@ -176,7 +176,7 @@ bool cli_daylight_check(const cli_call *call) {
     return true;
 }
 
-/* On one line, for people. */
+/* Prints a summary line. */
 static void print_summary(const aur_daylight_summary *summary) {
     aur_print(stderr,
               "aureole: %zu occupied hours; %.4g %% of the sensors reach the threshold in half of them or "

@@ -1,4 +1,4 @@
-/* Figures of a year over all sensors, as LM-83, LEED and EN 17037 ask for them. */
+/* Annual metrics over all sensors, as defined by LM-83, LEED and EN 17037. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,10 +7,11 @@
 #include "program/cli/lighting/irradiance.h"
 #include "program/report/report.h"
 
-/* Student's quantile of 97.5 % for 15 degrees of freedom: sensors have 16 randomisations. */
+/* The 97.5 % quantile of Student's distribution with 15 degrees of freedom: sensors have 16 randomizations.
+ */
 static const double WIDTH = 2.131449545559323;
 
-/* A value in percent with the ends of its 95 % interval. */
+/* Prints a value in percent with its 95 % interval. */
 typedef struct share {
     double value, least, most;
 } share;
@@ -30,7 +31,7 @@ static void put(report_table *table, const char *name, share found, double targe
     report_text(table, found.least >= target ? "yes" : found.most < target ? "no" : "undecided");
 }
 
-/* Of the sensors that reach `least` (or exceed it, where `beyond`) in a measure. */
+/* The fraction of sensors at or above `least` in a measure, or only above it with `beyond`. */
 static share count(size_t sensors, const aur_daylight *results, aur_daylight_measure measure, double least,
                    bool beyond) {
     share found = {0.0, 0.0, 0.0};
@@ -45,8 +46,8 @@ static share count(size_t sensors, const aur_daylight *results, aur_daylight_mea
     return found;
 }
 
-/* The mean over sensors. Their errors have the same directions: the interval takes them as wholly dependent.
- */
+/* The mean over sensors. All sensors share their random directions, so the interval assumes fully correlated
+ * errors. */
 static share mean(size_t sensors, const aur_daylight *results, aur_daylight_measure measure) {
     double sum = 0.0, half = 0.0;
     for (size_t i = 0; i < sensors; ++i) {
@@ -56,7 +57,7 @@ static share mean(size_t sensors, const aur_daylight *results, aur_daylight_meas
     return (share){sum, sum - half, sum + half};
 }
 
-/* LEED v4.1, option 1, and LM-83 before blinds: 300 lux for half of the hours from 8 to 18. */
+/* LEED v4.1, option 1, and LM-83 without blinds: 300 lux for half of the hours from 8 to 18. */
 static void put_leed(report_table *table, const aur_daylight_options *o, share autonomy) {
     static const double targets[] = {40.0, 55.0, 75.0};
     static const char *const names[] = {"LEED v4.1, 1 point", "LEED v4.1, 2 points", "LEED v4.1, 3 points"};
@@ -67,8 +68,8 @@ static void put_leed(report_table *table, const aur_daylight_options *o, share a
         put(table, names[i], autonomy, targets[i]);
 }
 
-/* EN 17037, method 2: an illuminance for half of the hours of daylight, 4380 of the year, over half of the
- * space, and a lower one over 95 % of it. Over all 8760 hours that is an autonomy of 50 %. */
+/* EN 17037, method 2: a target illuminance over half of the space and a lower one over 95 % of it, for half
+ * of the daylight hours (4380 per year). Over all 8760 hours that is an autonomy of 50 %. */
 static void put_en17037(report_table *table, const aur_daylight_options *o, share autonomy) {
     static const struct {
         double threshold;

@@ -1,4 +1,4 @@
-/* aureole irradiance: how much light arrives at points. */
+/* aureole irradiance: irradiance at points. */
 #include <aureole-lighting/irradiance.h>
 #include <aureole/text.h>
 #include <math.h>
@@ -24,7 +24,7 @@ typedef struct irradiance_command {
     cli_common common;
 } irradiance_command;
 
-/* "1%" or ".01". */
+/* Parses "1%" or ".01". */
 static aur_result parse_error(const char *text, void *field, aur_error *error) {
     char copy[64];
     const size_t length = strlen(text);
@@ -40,7 +40,7 @@ static aur_result parse_error(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
-/* TARGET:SPACING[@HEIGHT], where the target may have colons. The field is that of the target. */
+/* Parses TARGET:SPACING[@HEIGHT], where the target may contain colons. The field is the target's. */
 static aur_result parse_grid(const char *text, void *field, aur_error *error) {
     aur_grid_options *const grid =
         (aur_grid_options *)(void *)((char *)field - offsetof(aur_grid_options, target));
@@ -56,7 +56,7 @@ static aur_result parse_grid(const char *text, void *field, aur_error *error) {
                         "--grid: expected a surface, rectangle or mesh, a spacing and a height, such as "
                         "floor:0.5@0.8, not '%s'",
                         text);
-    char *const target = (char *)(uintptr_t)text; /* an argument of the program, which is cut here */
+    char *const target = (char *)(uintptr_t)text; /* an argument of the program, modified here */
     target[colon - text] = '\0';
     grid->target = text;
     return AUR_OK;
@@ -136,7 +136,7 @@ static const cli_option options[] = {
     {CLI_INTEGER(irradiance_command, estimate.seed, "seed", "S", 0, INFINITY, "0", "random seed")},
     {.key = {0}}};
 
-/* Lumens a watt times the weights of r, g, b. */
+/* Luminous efficacy times the weights of r, g, b. */
 static void set_illuminance(irradiance_command *given) {
     static const struct {
         double efficacy, weights[3];
@@ -149,7 +149,7 @@ static void set_illuminance(irradiance_command *given) {
     given->columns.unit = "lux";
 }
 
-/* Percent of the sky's illuminance, in the place of lux. */
+/* Percent of the sky's illuminance instead of lux. */
 static void set_daylight_factor(irradiance_command *given) {
     aur_scene_sky *const sky = &given->sky.sky;
     sky->alone = true;
@@ -159,7 +159,7 @@ static void set_daylight_factor(irradiance_command *given) {
     given->columns.unit = "daylight_factor";
 }
 
-/* A year of weather takes what the estimate at one time was told. */
+/* Copies the options of the single-time estimate to the annual simulation. */
 static aur_result estimate_year(irradiance_command *given, const aur_scene *scene,
                                 const aur_sensors_view *sensors, aur_error *error) {
     const aur_irradiance_options *const estimate = &given->estimate;
@@ -178,7 +178,7 @@ static aur_result estimate_year(irradiance_command *given, const aur_scene *scen
                                   given->common.quiet, error);
 }
 
-/* In the time of a particle: a path from a sensor takes that of two. */
+/* In units of a particle's time: a path from a sensor takes two. */
 static void plan(const irradiance_command *given, size_t sensors) {
     static cli_phase phases[] = {{"photons", 0.0}, {"radiosity", 0.0}, {"sensors", 0.0}};
     const double particles = given->estimate.particles > 0 ? (double)given->estimate.particles : 5e5;
@@ -209,7 +209,7 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
     return result;
 }
 
-/* The format that the output's name tells, unless one was asked for. */
+/* The format given by option, or else by the output file's name. */
 static void find_format(const cli_call *call, irradiance_command *given) {
     static const char *const formats[] = {"csv", "json", "npy", "ply"};
     const char *const dot = strrchr(given->output, '.');
@@ -221,7 +221,7 @@ static void find_format(const cli_call *call, irradiance_command *given) {
             given->format = formats[i];
 }
 
-/* False, with a message, where options do not go together. */
+/* False, with a message, if options conflict. */
 static bool check(const cli_call *call) {
     const irradiance_command *const given = call->options;
     const char *wrong = NULL;
@@ -238,7 +238,7 @@ static bool check(const cli_call *call) {
     return wrong == NULL && cli_daylight_check(call) && cli_sky_check(call);
 }
 
-/* How the scene is to be read. */
+/* Options of the scene loader. */
 static aur_scene_options loading(const cli_call *call) {
     const irradiance_command *const given = call->options;
     aur_scene_options load = {.size = sizeof load};
@@ -263,7 +263,7 @@ static aur_scene_options loading(const cli_call *call) {
     return load;
 }
 
-/* Sensors of a grid, whose surfaces are the scene's. */
+/* Places a grid of sensors on surfaces of the scene. */
 static aur_result place_grid(irradiance_command *given, const aur_scene *scene, aur_sensors **sensors,
                              aur_error *error) {
     aur_grid_options grid = {.size = sizeof grid};
@@ -274,9 +274,9 @@ static aur_result place_grid(irradiance_command *given, const aur_scene *scene, 
     return aur_sensors_grid(scene, &given->grid, sensors, error);
 }
 
-/* What is likely a mistake of units or places. */
+/* Warns of probable mistakes in units or positions. */
 static void warn_of_units(const irradiance_command *given, const aur_scene *scene) {
-    static const double LARGEST = 1000.0; /* metres, of a room with lamps */
+    static const double LARGEST = 1000.0; /* metres: a room with light sources */
     const aur_warnings warnings = cli_warnings(given->common.quiet);
     aur_scene_description d = {.size = sizeof d};
     double zero[2] = {1.0, 1.0}, extent = 0.0;
@@ -299,9 +299,9 @@ static void warn_of_units(const irradiance_command *given, const aur_scene *scen
                           "--location 0,0 is in the sea: expected degrees north, then degrees east");
 }
 
-/* Sensors farther from the scene than its own size, as millimetres would be. */
-static void warn_of_places(const irradiance_command *given, const aur_scene *scene,
-                           const aur_sensors_view *sensors) {
+/* Warns of sensors farther from the scene than its size, as with positions in millimetres. */
+static void warn_of_positions(const irradiance_command *given, const aur_scene *scene,
+                              const aur_sensors_view *sensors) {
     const aur_warnings warnings = cli_warnings(given->common.quiet);
     aur_scene_description d = {.size = sizeof d};
     double extent = 0.0;
@@ -359,7 +359,7 @@ static int run(const cli_call *call) {
     if (result == AUR_OK && given->sensors == NULL)
         result = place_grid(given, scene, &sensors, &error);
     if (result == AUR_OK)
-        warn_of_places(given, scene, aur_sensors_get_view(sensors));
+        warn_of_positions(given, scene, aur_sensors_get_view(sensors));
     if (result == AUR_OK)
         result = given->daylight.weather != NULL || given->daylight.coefficients
                      ? estimate_year(given, scene, aur_sensors_get_view(sensors), &error)

@@ -1,4 +1,4 @@
-/* A map of what arrives at sensors. */
+/* A map of irradiance at sensors. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,12 +6,12 @@
 #include "program/cli/lighting/irradiance.h"
 #include "program/report/contours.h"
 
-enum { SIDE = 480 }; /* of the map, in pixels */
+enum { SIDE = 480 }; /* size of the map in pixels */
 
-/* The sensors along one coordinate. */
+/* The sensors' positions along one coordinate. */
 typedef struct spread {
     double low, high;
-    double step; /* the least distance of two that differ; 0: all are at one place */
+    double step; /* smallest distance of different positions; 0: all are equal */
 } spread;
 
 static int ascending(const void *a, const void *b) {
@@ -19,23 +19,23 @@ static int ascending(const void *a, const void *b) {
     return (p > q) - (p < q);
 }
 
-/* `room` holds a number for each sensor. What differs by less than a millionth of the whole is the same
- * place. */
-static spread measure(const aur_sensors_view *sensors, size_t axis, double *room) {
+/* `scratch` holds a number for each sensor. Positions that differ by less than a millionth of the extent are
+ * equal. */
+static spread measure(const aur_sensors_view *sensors, size_t axis, double *scratch) {
     for (size_t i = 0; i < sensors->count; ++i)
-        room[i] = sensors->positions[3 * i + axis];
-    qsort(room, sensors->count, sizeof *room, ascending);
-    spread s = {room[0], room[sensors->count - 1], 0.0};
+        scratch[i] = sensors->positions[3 * i + axis];
+    qsort(scratch, sensors->count, sizeof *scratch, ascending);
+    spread s = {scratch[0], scratch[sensors->count - 1], 0.0};
     for (size_t i = 1; i < sensors->count; ++i) {
-        const double gap = room[i] - room[i - 1];
+        const double gap = scratch[i] - scratch[i - 1];
         if (gap > 1e-6 * (s.high - s.low) && !(s.step > 0.0 && s.step <= gap))
             s.step = gap;
     }
     return s;
 }
 
-/* Whether so few cells fill the ground between all sensors that they are a grid; then their width and height.
- */
+/* Whether the bounding rectangle has few enough cells per sensor to draw a grid; then sets the size of a
+ * cell. */
 static bool find_cells(size_t count, const spread *x, const spread *y, double cell[2]) {
     const double step = fmax(x->step, y->step);
     cell[0] = x->step > 0.0 ? x->step : step;
@@ -45,30 +45,30 @@ static bool find_cells(size_t count, const spread *x, const spread *y, double ce
     return ((x->high - x->low) / cell[0] + 1.0) * ((y->high - y->low) / cell[1] + 1.0) <= 4.0 * (double)count;
 }
 
-/* The cells of a grid, and values at their middles: NaN where there is no sensor. */
+/* The cells of a grid, and values at their centers: NaN without a sensor. */
 static bool take_cells(const spread spreads[2], size_t count, const report_point *points,
                        report_contours *lines, double **values) {
     const size_t across = (size_t)floor((spreads[0].high - spreads[0].low) / lines->step[0] + 1.5);
     const size_t up = (size_t)floor((spreads[1].high - spreads[1].low) / lines->step[1] + 1.5);
-    double *const made = malloc(across * up * sizeof *made);
-    for (size_t i = 0; i < across * up && made != NULL; ++i)
-        made[i] = NAN;
-    for (size_t i = 0; i < count && made != NULL; ++i) {
+    double *const values_of_cells = malloc(across * up * sizeof *values_of_cells);
+    for (size_t i = 0; i < across * up && values_of_cells != NULL; ++i)
+        values_of_cells[i] = NAN;
+    for (size_t i = 0; i < count && values_of_cells != NULL; ++i) {
         const size_t x = (size_t)floor((points[i].x - spreads[0].low) / lines->step[0] + 0.5);
         const size_t y = (size_t)floor((points[i].y - spreads[1].low) / lines->step[1] + 0.5);
-        made[y * across + x] = points[i].value;
+        values_of_cells[y * across + x] = points[i].value;
     }
     lines->across = across;
     lines->up = up;
-    lines->values = *values = made;
-    return made != NULL;
+    lines->values = *values = values_of_cells;
+    return values_of_cells != NULL;
 }
 
-/* Along which axis the sensors spread least: the map is seen along it. */
-static size_t find_view(const aur_sensors_view *sensors, double *room, spread spreads[3]) {
+/* The axis along which the sensors spread least, the viewing direction of the map. */
+static size_t find_view(const aur_sensors_view *sensors, double *scratch, spread spreads[3]) {
     size_t along = 2;
     for (size_t a = 3; a-- > 0;) {
-        spreads[a] = measure(sensors, a, room);
+        spreads[a] = measure(sensors, a, scratch);
         if (spreads[a].high - spreads[a].low < spreads[along].high - spreads[along].low)
             along = a;
     }
@@ -90,12 +90,13 @@ static double take_points(const aur_sensors_view *sensors, const aur_irradiance 
 }
 
 static aur_result draw(const char *path, const char *unit, const aur_sensors_view *sensors,
-                       const aur_irradiance *results, double *room, report_point *points, aur_error *error) {
+                       const aur_irradiance *results, double *scratch, report_point *points,
+                       aur_error *error) {
     static const char *const names[] = {"x", "y", "z"};
     static const size_t seen[3][2] = {{1, 2}, {0, 2}, {0, 1}}; /* along x, y, z */
     report_figure figure = {.width = SIDE + 80, .height = SIDE, .columns = 1, .panel_count = 1};
     spread spreads[3];
-    const size_t *const axes = seen[find_view(sensors, room, spreads)];
+    const size_t *const axes = seen[find_view(sensors, scratch, spreads)];
     const spread ground[2] = {spreads[axes[0]], spreads[axes[1]]};
     report_contours lines = {.low = {ground[0].low, ground[1].low}};
     double *values = NULL;
@@ -129,12 +130,12 @@ static aur_result draw(const char *path, const char *unit, const aur_sensors_vie
 
 aur_result cli_irradiance_plot(const char *path, const char *unit, const aur_sensors_view *sensors,
                                const aur_irradiance *results, aur_error *error) {
-    double *const room = malloc(sensors->count * sizeof *room);
+    double *const scratch = malloc(sensors->count * sizeof *scratch);
     report_point *const points = malloc(sensors->count * sizeof *points);
-    const aur_result result = room == NULL || points == NULL
+    const aur_result result = scratch == NULL || points == NULL
                                   ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the map")
-                                  : draw(path, unit, sensors, results, room, points, error);
+                                  : draw(path, unit, sensors, results, scratch, points, error);
     free(points);
-    free(room);
+    free(scratch);
     return result;
 }

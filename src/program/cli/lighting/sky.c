@@ -1,11 +1,11 @@
-/* The options of a sky at one time, and of lamps. */
+/* Options for a sky at one time, and for luminaires. */
 #include <aureole/text.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "program/cli/lighting/irradiance.h"
 
-/* FILE@X,Y,Z[,AIMX,AIMY,AIMZ[,TURN]]; the field is the count of lamps. */
+/* Parses FILE@X,Y,Z[,AIMX,AIMY,AIMZ[,TURN]]; the field is the number of luminaires. */
 static aur_result parse_lamp(const char *text, void *field, aur_error *error) {
     cli_sky *const given = (cli_sky *)(void *)((char *)field - offsetof(cli_sky, lamp_count));
     char *const at = strrchr(text, '@');
@@ -16,8 +16,8 @@ static aur_result parse_lamp(const char *text, void *field, aur_error *error) {
                         "must be a file and its place, aim and turn, like lamp.ies@2,1,2.8 or "
                         "lamp.ies@2,1,2.8,0,0,-1,90, not '%s'",
                         text);
-    if (given->lamp_count == CLI_LAMP_LIMIT)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "--lamp: more than %d lamps", (int)CLI_LAMP_LIMIT);
+    if (given->lamp_count == CLI_LUMINAIRE_LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--lamp: more than %d lamps", (int)CLI_LUMINAIRE_LIMIT);
     *at = '\0'; /* an argument of the program */
     given->lamps[given->lamp_count++] = (aur_scene_lamp){text, {n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]};
     return AUR_OK;

@@ -1,4 +1,4 @@
-/* aureole viewfactors: how much of what leaves each facet arrives at each other one. */
+/* aureole viewfactors: the fraction of radiation from each facet that arrives at each other facet. */
 #include <aureole-lighting/view_factors.h>
 #include <aureole/text.h>
 #include <math.h>
@@ -72,7 +72,7 @@ static const cli_option options[] = {
               "for --radiosity: trace the rays again for each reflection instead of storing a matrix")},
     {.key = {0}}};
 
-/* The format that the output's name tells. */
+/* The format given by the output file's extension. */
 static bool find_format(factor_command *given) {
     if (given->format != NULL || given->output == NULL)
         return true;
@@ -92,7 +92,7 @@ static bool find_format(factor_command *given) {
     return false;
 }
 
-/* Whether radiosities are printed, and no matrix is. */
+/* Whether radiosities are printed instead of a matrix. */
 static bool is_radiosity(const cli_call *call) {
     const factor_command *const given = call->options;
     return cli_given(call, "radiosity") != NULL || (given->surfaces != NULL && !given->script);
@@ -119,7 +119,7 @@ static bool options_fit(const cli_call *call) {
     return wrong == NULL && (radiosity || find_format(given));
 }
 
-/* The sources of light: the sky where no other is named. */
+/* The light sources: the sky unless others are given. */
 static bool read_light(const cli_call *call) {
     factor_command *const given = call->options;
     const bool other = given->sun != NULL || cli_given(call, "emission") != NULL;
@@ -157,7 +157,7 @@ static bool read_light(const cli_call *call) {
     return false;
 }
 
-/* What has been done, for people. */
+/* Prints a summary. */
 static int print_summary(const aur_view_factors *factors, report_format format) {
     aur_view_factors_description d = {.size = sizeof d};
     aur_view_factors_matrix m = {.size = sizeof m};
@@ -197,7 +197,7 @@ static int write_matrix(const aur_facets *facets, const factor_command *given, c
     return status;
 }
 
-/* In the time of a ray: a half plane takes that of three rays, edges that of half as many as usual. */
+/* In units of a ray's time: a half plane takes three, edges half of the default number of rays. */
 static void plan(const factor_command *given) {
     static cli_phase phases[] = {{"tracing rays", 0.0},
                                  {"measuring the sky", 0.0},
@@ -211,7 +211,7 @@ static void plan(const factor_command *given) {
                                                       : 4.5 * rays;
     phases[2].work = all ? 1024.0 : 0.0;
     phases[3].work = 64.0;
-    if (!given->matrix_free) /* whose progress is one phase */
+    if (!given->matrix_free) /* progress with a single phase */
         cli_progress_plan(sizeof phases / sizeof phases[0], phases);
 }
 

@@ -6,18 +6,18 @@
 
 #include "program/report/report.h"
 
-/* What the rows are made of, [rows] each; `emittances` owns all three. */
+/* Surface properties of the rows, [rows] each; `emittances` owns the memory of all three. */
 typedef struct cli_surfaces {
     double *emittances, *reflectances, *emissions;
 } cli_surfaces;
 
-/* Reads a table of CSV with a header: `name` (of a group, or *) or `row`, `reflectance` or `emittance`, and
- * `emission` or `temperature` (kelvin). Later lines replace what earlier ones say of a row. Returns the exit
- * status; what is in `made` is the caller's to free. */
-int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *made);
+/* Reads a CSV table with a header: `name` (of a group, or *) or `row`, `reflectance` or `emittance`, and
+ * `emission` or `temperature` (kelvin). Later lines override earlier ones. Returns the exit status; the
+ * caller frees the contents of `properties`. */
+int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *properties);
 
-/* Writes a line of CSV, or an object of JSON, for each row: area, sky factor, radiosity and half its
- * interval; with `net` what arrives and what the row loses too. Returns the exit status. */
+/* Writes a CSV line or JSON object per row: area, sky factor, radiosity and half its interval; with `net`
+ * also the irradiance and the net loss. Returns the exit status. */
 int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_options *options,
                               bool matrix_free, bool net, const aur_facets_light *light, report_format format,
                               const char *output);

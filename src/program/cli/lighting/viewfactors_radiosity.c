@@ -1,4 +1,4 @@
-/* Radiosities of facets under sun and sky, with the matrix or by products without one. */
+/* Radiosities of facets under sun and sky, with the matrix or matrix-free. */
 #include <aureole/text.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static aur_result write_rows(const aur_facets *facets, const double *numbers, bo
     return result;
 }
 
-/* uDALES's netsw.inp.NNN: what facets absorb of the short-wave light. */
+/* uDALES's netsw.inp.NNN: short-wave radiation absorbed by facets. */
 static aur_result write_absorbed(const aur_facets *facets, const double *numbers,
                                  const aur_facets_light *light, const char *output, aur_error *error) {
     const size_t rows = aur_facets_rows(facets);

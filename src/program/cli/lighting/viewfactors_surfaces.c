@@ -30,7 +30,7 @@ static int fail(const table_reading *self, const char *what, const char *found) 
     return CLI_BAD_INPUT;
 }
 
-/* The next field of a line, without blanks about it; NULL at the end. */
+/* The next field of a line, trimmed; NULL at the end. */
 static char *next_field(char **at) {
     char *field = *at;
     if (field == NULL)
@@ -68,7 +68,7 @@ static int read_header(table_reading *self, char *text) {
     return CLI_SUCCESS;
 }
 
-/* Whether a line of this name is of the row. */
+/* Whether a line with this name applies to the row. */
 static bool is_of_row(const table_reading *self, const aur_facets *facets, const char *field, size_t row) {
     if (strcmp(field, "*") == 0)
         return true;
@@ -79,10 +79,10 @@ static bool is_of_row(const table_reading *self, const aur_facets *facets, const
     return name != NULL && strcmp(name, field) == 0;
 }
 
-/* The line's numbers go to every row that it names; those of '*' to the rows that no line names, before it
- * or after. */
+/* Applies a line's numbers to every row that it names; lines for '*' apply to rows that no line names, in any
+ * order. */
 static int use_line(const table_reading *self, const aur_facets *facets, const char *key,
-                    const double values[COLUMNS], cli_surfaces *made) {
+                    const double values[COLUMNS], cli_surfaces *properties) {
     const double emittance = self->has[EMITTANCE] ? values[EMITTANCE] : 1.0 - values[REFLECTANCE];
     const double kelvin = self->has[TEMPERATURE] ? values[TEMPERATURE] : 0.0;
     if (!(emittance >= 0.0 && emittance <= 1.0))
@@ -100,11 +100,11 @@ static int use_line(const table_reading *self, const aur_facets *facets, const c
         if (self->named[i])
             return fail(self, "a second line of this name", key);
         self->named[i] = !others;
-        made->emittances[i] = emittance;
-        made->reflectances[i] = 1.0 - emittance;
-        made->emissions[i] = self->has[TEMPERATURE]
-                                 ? emittance * STEFAN_BOLTZMANN * kelvin * kelvin * kelvin * kelvin
-                                 : values[EMISSION];
+        properties->emittances[i] = emittance;
+        properties->reflectances[i] = 1.0 - emittance;
+        properties->emissions[i] = self->has[TEMPERATURE]
+                                       ? emittance * STEFAN_BOLTZMANN * kelvin * kelvin * kelvin * kelvin
+                                       : values[EMISSION];
     }
     if (count > 0)
         return CLI_SUCCESS;
@@ -115,7 +115,7 @@ static int use_line(const table_reading *self, const aur_facets *facets, const c
                 key);
 }
 
-static int read_line(table_reading *self, const aur_facets *facets, char *text, cli_surfaces *made) {
+static int read_line(table_reading *self, const aur_facets *facets, char *text, cli_surfaces *properties) {
     double values[COLUMNS] = {0.0};
     const char *key = "";
     for (size_t i = 0; i < self->columns; ++i) {
@@ -127,12 +127,12 @@ static int read_line(table_reading *self, const aur_facets *facets, char *text, 
         else if (!aur_parse_double(field, &values[self->order[i]]) || !isfinite(values[self->order[i]]))
             return fail(self, "a number expected", field);
     }
-    return use_line(self, facets, key, values, made);
+    return use_line(self, facets, key, values, properties);
 }
 
-static int check_rows(const table_reading *self, const aur_facets *facets, const cli_surfaces *made) {
+static int check_rows(const table_reading *self, const aur_facets *facets, const cli_surfaces *properties) {
     for (size_t i = 0; i < aur_facets_rows(facets); ++i)
-        if (isnan(made->emittances[i])) {
+        if (isnan(properties->emittances[i])) {
             const char *const name = aur_facets_name(facets, i);
             return cli_bad_usage("%s: no line is of row %zu%s%s: name it, or '*' for all others", self->path,
                                  i, name != NULL ? ", " : "", name != NULL ? name : "");
@@ -140,7 +140,8 @@ static int check_rows(const table_reading *self, const aur_facets *facets, const
     return CLI_SUCCESS;
 }
 
-/* --- uDALES: facets.inp.NNN has the type of each facet, and factypes.inp.NNN beside it albedos of types */
+/* --- uDALES: facets.inp.NNN has the type of each facet; factypes.inp.NNN in the same folder has the albedos
+ */
 
 enum { MOST_TYPES = 256, ALBEDO = 4 };
 
@@ -149,7 +150,7 @@ typedef struct facet_types {
     double types[MOST_TYPES], albedos[MOST_TYPES];
 } facet_types;
 
-/* The first `count` numbers of a line with blanks between; false where there are fewer. */
+/* Reads the first `count` numbers of a line; false if there are fewer. */
 static bool read_blanks(char *line, size_t count, double *numbers) {
     size_t found = 0;
     for (char *rest = line, *word; found < count && (word = strtok_r(rest, " \t\r\n", &rest)) != NULL;
@@ -159,7 +160,7 @@ static bool read_blanks(char *line, size_t count, double *numbers) {
     return found == count;
 }
 
-/* Hands the numbers of each line that is no comment to `use`. */
+/* Passes the numbers of each non-comment line to `use`. */
 static int read_lines(const char *path, size_t count, int (*use)(table_reading *, const double *, void *),
                       void *context) {
     table_reading self = {.path = path};
@@ -195,7 +196,7 @@ static int use_type(table_reading *self, const double *numbers, void *context) {
 typedef struct facet_rows {
     const facet_types *types;
     size_t row, count;
-    cli_surfaces *made;
+    cli_surfaces *properties;
 } facet_rows;
 
 static int use_facet(table_reading *self, const double *numbers, void *context) {
@@ -207,24 +208,24 @@ static int use_facet(table_reading *self, const double *numbers, void *context) 
     if (rows->row == rows->count || i == types->count)
         return fail(self, "a line for each facet, of a type of factypes.inp, expected",
                     rows->row == rows->count ? "too many lines" : "unknown type");
-    rows->made->reflectances[rows->row] = types->albedos[i];
-    rows->made->emittances[rows->row] = 1.0 - types->albedos[i];
-    rows->made->emissions[rows->row++] = 0.0;
+    rows->properties->reflectances[rows->row] = types->albedos[i];
+    rows->properties->emittances[rows->row] = 1.0 - types->albedos[i];
+    rows->properties->emissions[rows->row++] = 0.0;
     return CLI_SUCCESS;
 }
 
 static const char UDALES[] = "facets.inp";
 
-/* Whether the path names uDALES's facets.inp.NNN; *name is where that begins. */
+/* Whether the path names a facets.inp.NNN of uDALES; *name is the start of the file name. */
 static bool is_udales(const char *path, size_t *name) {
     const char *const slash = strrchr(path, '/');
     *name = slash != NULL ? (size_t)(slash - path) + 1 : 0;
     return strncmp(path + *name, UDALES, sizeof UDALES - 1) == 0;
 }
 
-static int read_udales(const char *path, size_t name, const aur_facets *facets, cli_surfaces *made) {
+static int read_udales(const char *path, size_t name, const aur_facets *facets, cli_surfaces *properties) {
     facet_types types = {.count = 0};
-    facet_rows rows = {.types = &types, .count = aur_facets_rows(facets), .made = made};
+    facet_rows rows = {.types = &types, .count = aur_facets_rows(facets), .properties = properties};
     char beside[1024];
     const int length = snprintf(beside, sizeof beside, "%.*sfactypes.inp%s", (int)name, path,
                                 path + name + sizeof UDALES - 1);
@@ -238,18 +239,18 @@ static int read_udales(const char *path, size_t name, const aur_facets *facets, 
     return status;
 }
 
-int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *made) {
+int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *properties) {
     const size_t rows = aur_facets_rows(facets);
     table_reading self = {.path = path};
-    made->emittances = malloc((3 * rows + 1) * sizeof *made->emittances);
-    int status = made->emittances != NULL ? CLI_SUCCESS : cli_bad_usage("out of memory");
+    properties->emittances = malloc((3 * rows + 1) * sizeof *properties->emittances);
+    int status = properties->emittances != NULL ? CLI_SUCCESS : cli_bad_usage("out of memory");
     for (size_t i = 0; i < rows && status == CLI_SUCCESS; ++i)
-        made->emittances[i] = NAN;
-    made->reflectances = made->emittances + rows;
-    made->emissions = made->reflectances + rows;
+        properties->emittances[i] = NAN;
+    properties->reflectances = properties->emittances + rows;
+    properties->emissions = properties->reflectances + rows;
     size_t name;
     if (status != CLI_SUCCESS || is_udales(path, &name))
-        return status != CLI_SUCCESS ? status : read_udales(path, name, facets, made);
+        return status != CLI_SUCCESS ? status : read_udales(path, name, facets, properties);
     aur_error error;
     FILE *const file = cli_open_input(path, &error);
     if (file == NULL)
@@ -263,10 +264,10 @@ int cli_surfaces_read(const char *path, const aur_facets *facets, cli_surfaces *
         ++self.line;
         if (line[strspn(line, " \t\r\n")] == '\0' || line[0] == '#')
             continue;
-        status = self.columns == 0 ? read_header(&self, line) : read_line(&self, facets, line, made);
+        status = self.columns == 0 ? read_header(&self, line) : read_line(&self, facets, line, properties);
     }
     free(self.named);
     free(line);
     fclose(file);
-    return status == CLI_SUCCESS ? check_rows(&self, facets, made) : status;
+    return status == CLI_SUCCESS ? check_rows(&self, facets, properties) : status;
 }

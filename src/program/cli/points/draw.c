@@ -7,20 +7,20 @@
 
 enum { SIDE = 400, MARGINS = 40, POINT_LIMIT = 1000000, PANELS = 2 };
 
-/* What a point's coordinates are on a panel, and its distance to the eye. */
+/* The coordinates of a point in a panel, and its depth towards the viewer. */
 typedef struct view {
     const char *title;
     bool round;
     size_t across, up; /* which coordinates */
-    size_t depth;      /* which coordinate points to the eye */
-    double depth_sign; /* 0: there is none */
+    size_t depth;      /* which coordinate points to the viewer */
+    double depth_sign; /* 0: no depth */
 } view;
 
-/* Returns how many there are. */
+/* Returns the number of panels. */
 static size_t choose_views(const aur_points_view *points, view views[PANELS]) {
     static const view square = {NULL, false, 0, 1, 0, 0.0}, disk = {NULL, true, 0, 1, 0, 0.0};
     static const view side = {"side", true, 0, 2, 1, -1.0}, pole = {"pole", true, 0, 1, 2, 1.0};
-    /* The vector part of quaternions, a ball. */
+    /* The vector part of quaternions, in a ball. */
     static const view turned_side = {"side", true, 1, 3, 2, -1.0}, turned_pole = {"pole", true, 1, 2, 3, 1.0};
     const bool rotations = points->domain == AUR_DOMAIN_ROTATIONS;
     if (rotations || (points->domain >= AUR_DOMAIN_HEMISPHERE && points->domain != AUR_DOMAIN_DISK)) {

@@ -1,4 +1,4 @@
-/* aureole info: what is in a scene, an image, a file of points or a table of weights. */
+/* aureole info: describes a scene, an image, a file of points or a table of weights. */
 #include <aureole/quadrature.h>
 #include <errno.h>
 #include <math.h>
@@ -17,7 +17,7 @@ static int describe_points(const cli_info_input *input, const cli_info_options *
                                                                          input->data, NULL, &points, &error)
                                                 : aur_points_read(input->path, NULL, &points, &error);
     if (read != AUR_OK) {
-        /* Nothing says that this is a file of points. */
+        /* The content has no mark of a file of points. */
         if (read == AUR_ERROR_FORMAT && error.line <= 1) {
             const aur_error as_points = error;
             snprintf(error.message, sizeof error.message, "unknown kind of file; as points: %.900s",
@@ -62,7 +62,7 @@ static int describe_weight_table(const char *path, const cli_info_options *optio
     report_fact_number(facts, "samples", (double)o->count);
     report_fact_number(facts, "mirror_samples", (double)o->mirror_count);
     report_fact_number(facts, "exponent", o->lobe.exponent);
-    /* Programs are given both, of which one is not known. */
+    /* Machine-readable output has both; one is empty. */
     const bool ggx = o->mirror_lobe.kind == AUR_LOBE_GGX, all = options->common.format != REPORT_TABLE;
     if (ggx || all)
         report_fact_number(facts, "mirror_alpha", ggx ? o->mirror_lobe.alpha : NAN);
@@ -82,7 +82,7 @@ static int describe_weight_table(const char *path, const cli_info_options *optio
     return cli_finish(facts, options->common.format);
 }
 
-/* Its numbers have a meaning beside its scene alone. */
+/* The file's numbers are only meaningful with its scene. */
 static int describe_radiosity(const cli_info_options *options) {
     report_table *const facts = report_create(0, NULL);
     report_fact_text(facts, "kind", "solution of radiosity");
@@ -120,7 +120,7 @@ static int describe_file(const char *path, const cli_info_options *options) {
     return describe(&(cli_info_input){.path = path}, size, start, options);
 }
 
-/* All of standard input, in memory that doubles. */
+/* Reads standard input into a buffer that grows by doubling. */
 static int describe_stream(const cli_info_options *options) {
     cli_info_input input = {.path = "-"};
     size_t capacity = START_CAPACITY;

@@ -1,4 +1,4 @@
-/* aureole measure: quality figures of points. */
+/* aureole measure: quality measures of points. */
 #include "program/cli/points/measure.h"
 #include "program/cli/listing.h"
 
@@ -35,8 +35,7 @@ static const cli_option options[] = {
      .parse = cli_parse_plot, .content = "file", .writes = true},
     {.key = {0}}};
 
-/* The domain that the first word of the first measure's list names, or the one that the dimension asks for.
- */
+/* The domain of the first measure's list, or the one with the given dimension. */
 static aur_domain choose_domain(const cli_measure_arguments *arguments) {
     const aur_measure_description *description = NULL;
     aur_domain domain = AUR_DOMAIN_SPHERE;
@@ -50,7 +49,7 @@ static aur_domain choose_domain(const cli_measure_arguments *arguments) {
     return domain;
 }
 
-/* What --metric all asks for: where the points of the first source are, unless --domain says it. */
+/* The domain for --metric all: --domain, or that of the first source's points. */
 static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
     const char *const source = arguments->sources[0];
     cli_points from = arguments->points;
@@ -75,7 +74,7 @@ static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
                            &arguments->metrics, &arguments->metric_texts, error);
 }
 
-/* What the options mean together. */
+/* Derives values from combinations of options. */
 static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
         return cli_bad_usage("measure: no file or set given: try 'aureole help measure'"), false;
@@ -160,7 +159,7 @@ static int print_rows(const cli_measure_arguments *arguments, const cli_measure_
     return arguments->series ? cli_measure_plot_series(arguments, rows) : cli_measure_plot(arguments, rows);
 }
 
-/* A row for each source and size; rows that are finished are kept when the work ends early. */
+/* A row for each source and size; finished rows are printed if the work is stopped. */
 static aur_result measure(const cli_measure_arguments *arguments, cli_measure_rows *rows, aur_error *error) {
     for (size_t s = 0; s < arguments->source_count; ++s) {
         char *const source = arguments->sources[s];
@@ -182,7 +181,7 @@ static aur_result measure(const cli_measure_arguments *arguments, cli_measure_ro
     return AUR_OK;
 }
 
-/* Most measures sum over pairs of points; sizes of files are not known yet. */
+/* Most measures sum over pairs of points; the sizes of files are not available yet. */
 static cli_phase *plan(const cli_measure_arguments *arguments, size_t rows) {
     const size_t per = cli_phases_per_row(arguments);
     cli_phase *const phases = calloc(rows * per, sizeof *phases);
@@ -240,7 +239,7 @@ static int run(const cli_call *call) {
         return print_list(arguments->common.format);
     int status = CLI_BAD_INPUT;
     if (complete(arguments)) {
-        arguments->options.progress = cli_progress_of_kept(arguments->common.quiet);
+        arguments->options.progress = cli_progress_of_resumable(arguments->common.quiet);
         status = measure_all(arguments);
     }
     free(arguments->size_texts);

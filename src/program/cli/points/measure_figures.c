@@ -1,4 +1,4 @@
-/* The figures of `aureole measure` for one set or file and size. */
+/* Computes the measures of `aureole measure` for one set or file and size. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,8 @@
 
 #include "program/cli/points/measure.h"
 
-/* Whether these points have no such figure, which is no error where all figures are asked for: a warning. */
+/* Whether the measure is undefined for these points, which is only a warning if all measures are requested.
+ */
 static bool is_left_out(const cli_measure_arguments *arguments, const char *source, size_t metric,
                         aur_result result, const aur_error *error) {
     const bool all = arguments->metric_texts != NULL;
@@ -21,7 +22,7 @@ static bool is_left_out(const cli_measure_arguments *arguments, const char *sour
     return true;
 }
 
-/* All metrics of one set of points into values[metrics.count], then the bounds of their errors, or the table;
+/* Computes all metrics of one set of points into values[metrics.count], then the error bounds, or the table;
  * messages name the file. */
 static aur_result measure_points(const cli_measure_arguments *arguments, const char *source, size_t count,
                                  uint64_t seed, cli_measure_row *row, double *values, aur_error *error) {
@@ -57,7 +58,7 @@ static aur_result measure_points(const cli_measure_arguments *arguments, const c
     return result;
 }
 
-/* Mean, spread (the sample's standard deviation) and root mean square over seeds. */
+/* Mean, sample standard deviation and root mean square over seeds. */
 static aur_result measure_seeds(const cli_measure_arguments *arguments, const char *source, size_t count,
                                 cli_measure_row *row, double *values, aur_error *error) {
     const size_t metrics = arguments->metrics.count, groups = cli_phases_per_row(arguments);

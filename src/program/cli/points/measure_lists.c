@@ -1,4 +1,4 @@
-/* What the words of `aureole measure` stand for: ranges of sizes, and all figures of a domain. */
+/* Expands the arguments of `aureole measure`: ranges of sizes, and all measures of a domain. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,11 +7,11 @@
 
 #include "program/cli/points/measure.h"
 
-enum { SIZE_LIMIT = 10000 }; /* sizes of one command */
+enum { SIZE_LIMIT = 10000 }; /* sizes per command */
 
 /* first, first * ratio, ... or first, first + step, ... up to last. */
 typedef struct size_range {
-    uint64_t first, last, step; /* 0: by the ratio */
+    uint64_t first, last, step; /* 0: geometric */
     double ratio;
 } size_range;
 
@@ -19,7 +19,7 @@ static bool read_size(const char *text, uint64_t *size) {
     return aur_parse_integer(text, SIZE_MAX, size) && *size > 0;
 }
 
-/* N, A:B, A:B:xR or A:B:S. */
+/* Parses N, A:B, A:B:xR or A:B:S. */
 static bool read_range(const char *text, size_range *range) {
     char parts[3][32] = {"", "", ""};
     size_t count = 0;
@@ -46,11 +46,11 @@ static bool read_range(const char *text, size_range *range) {
     return read_size(parts[2], &range->step);
 }
 
-/* The size after this one, 0 behind the last; `index` counts from the first. */
+/* The size after this one, 0 after the last; `index` counts from the first. */
 static uint64_t next_size(const size_range *range, size_t *index, uint64_t size) {
     if (range->step > 0)
         return range->last - size >= range->step ? size + range->step : 0;
-    /* Ratios near to 1 may round to the same size more than once. */
+    /* Ratios near 1 may round to the same size several times. */
     uint64_t next = size;
     while (next == size) {
         const double exact = rint((double)range->first * pow(range->ratio, (double)++*index));
@@ -73,7 +73,7 @@ aur_result cli_check_sizes(const char *text, void *field, aur_error *error) {
         text);
 }
 
-/* An item more, behind a zero byte; false without memory. */
+/* Appends an item; false when out of memory. */
 typedef struct growing_list {
     cli_list list;
     char *text;
@@ -97,13 +97,13 @@ static bool append(growing_list *items, const char *item) {
     return true;
 }
 
-static aur_result finish(growing_list *items, aur_result result, cli_list *list, char **kept) {
-    *kept = items->text;
+static aur_result finish(growing_list *items, aur_result result, cli_list *list, char **storage) {
+    *storage = items->text;
     *list = items->list;
     return result;
 }
 
-aur_result cli_expand_sizes(cli_list *sizes, char **kept, aur_error *error) {
+aur_result cli_expand_sizes(cli_list *sizes, char **storage, aur_error *error) {
     growing_list items = {.used = 0};
     aur_result result = AUR_OK;
     for (size_t i = 0; i < sizes->count && result == AUR_OK; ++i) {
@@ -120,19 +120,19 @@ aur_result cli_expand_sizes(cli_list *sizes, char **kept, aur_error *error) {
                 result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
         }
     }
-    return finish(&items, result, sizes, kept);
+    return finish(&items, result, sizes, storage);
 }
 
-/* Whether a word stands in a list such as "sphere, hemisphere, caps". */
+/* Whether a word is in a list such as "sphere, hemisphere, caps". */
 static bool is_listed(const char *list, const char *word) {
     const size_t length = strlen(word);
-    for (const char *place = list; (place = strstr(place, word)) != NULL; place += length)
-        if ((place == list || place[-1] == ' ') && (place[length] == ',' || place[length] == '\0'))
+    for (const char *found = list; (found = strstr(found, word)) != NULL; found += length)
+        if ((found == list || found[-1] == ' ') && (found[length] == ',' || found[length] == '\0'))
             return true;
     return false;
 }
 
-/* What is exact and has a bound in the table takes long: the bound stands for it. */
+/* An exact measure with a bound in the table is slow: the bound replaces it. */
 static bool has_bound(const aur_measure_description *measure) {
     char name[64];
     snprintf(name, sizeof name, "%s-bound", measure->row.name);
@@ -142,13 +142,13 @@ static bool has_bound(const aur_measure_description *measure) {
     return false;
 }
 
-aur_result cli_all_metrics(aur_domain domain, bool cap, cli_list *metrics, char **kept, aur_error *error) {
+aur_result cli_all_metrics(aur_domain domain, bool cap, cli_list *metrics, char **storage, aur_error *error) {
     growing_list items = {.used = 0};
     aur_result result = AUR_OK;
     for (size_t i = 0; i < aur_measure_count() && result == AUR_OK; ++i) {
         const aur_measure_description *const measure = aur_measure_at(i);
-        const bool wants = measure->parameter != NULL && measure->parameter[0] == ':';
-        if (measure->series || wants || has_bound(measure) ||
+        const bool accepts = measure->parameter != NULL && measure->parameter[0] == ':';
+        if (measure->series || accepts || has_bound(measure) ||
             !is_listed(measure->domains, aur_domain_name(domain)) ||
             (cap && !is_listed(measure->domains, "caps")))
             continue;
@@ -158,5 +158,5 @@ aur_result cli_all_metrics(aur_domain domain, bool cap, cli_list *metrics, char 
     if (result == AUR_OK && items.list.count == 0)
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--metric all: there is no measure for the %s",
                           aur_domain_name(domain));
-    return finish(&items, result, metrics, kept);
+    return finish(&items, result, metrics, storage);
 }

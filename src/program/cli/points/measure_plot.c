@@ -1,4 +1,4 @@
-/* Figures against N on log-log axes: what every paper in the field shows. And measures that are tables. */
+/* Measures against N on log-log axes, and tables. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,9 +8,9 @@
 #include "program/cli/points/measure.h"
 #include "program/report/figure.h"
 
-/* value = factor * N^slope by least squares of the logarithms. */
+/* The power law value = factor * N^slope, fitted by least squares of the logarithms. */
 typedef struct power_model {
-    size_t count; /* points that have a logarithm */
+    size_t count; /* points with finite logarithms */
     double slope, factor;
 } power_model;
 
@@ -49,7 +49,7 @@ static power_model fit(const cli_measure_arguments *arguments, const cli_measure
 
 enum { LABEL = 512 };
 
-/* What a figure is made of: for each metric and source the values and the line fitted to them. */
+/* The data of a figure: values and fitted line for each metric and source. */
 typedef struct drawing {
     report_panel *panels;
     report_series *series;
@@ -65,7 +65,7 @@ static bool allocate(drawing *d, size_t panels, size_t series, size_t points) {
     return d->panels != NULL && d->series != NULL && d->points != NULL && d->labels != NULL;
 }
 
-/* Writes the figure, or says what is wrong, and frees what it was made of; returns the exit status. */
+/* Writes the figure, or prints the error, and frees its data; returns the exit status. */
 static int finish(drawing *d, bool allocated, const char *path, const report_figure *figure) {
     aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
     const int status =
@@ -79,12 +79,12 @@ static int finish(drawing *d, bool allocated, const char *path, const report_fig
     return status;
 }
 
-/* A source's values and its line in two series; returns what follows its points. */
+/* Adds a source's values and its line as two series; returns the end of its points. */
 static report_point *plot_source(const cli_measure_arguments *arguments, const cli_measure_rows *rows,
                                  size_t metric, size_t source, report_series *series, char *label,
                                  report_point *points) {
     const char *const name = arguments->sources[source];
-    const power_model law = fit(arguments, rows, name, metric);
+    const power_model power_law = fit(arguments, rows, name, metric);
     const bool spread = arguments->seed_count > 0;
     const unsigned ink = REPORT_INK_SERIES + (unsigned)source;
     double least = INFINITY, most = 0.0;
@@ -103,13 +103,13 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
     }
     points += series[0].count;
     series[1] = (report_series){.parts = REPORT_LINE | REPORT_DASHED, .ink = ink, .points = points};
-    if (law.count == 0) {
+    if (power_law.count == 0) {
         snprintf(label, LABEL, "%s", name);
         return points;
     }
-    aur_format(label, LABEL, "%s  slope %.3f", name, law.slope);
-    points[0] = (report_point){.x = least, .y = law.factor * pow(least, law.slope)};
-    points[1] = (report_point){.x = most, .y = law.factor * pow(most, law.slope)};
+    aur_format(label, LABEL, "%s  slope %.3f", name, power_law.slope);
+    points[0] = (report_point){.x = least, .y = power_law.factor * pow(least, power_law.slope)};
+    points[1] = (report_point){.x = most, .y = power_law.factor * pow(most, power_law.slope)};
     series[1].count = 2;
     return points + 2;
 }
@@ -117,10 +117,10 @@ static report_point *plot_source(const cli_measure_arguments *arguments, const c
 static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
     for (size_t m = 0; m < arguments->metrics.count; ++m)
         for (size_t s = 0; s < arguments->source_count; ++s) {
-            const power_model law = fit(arguments, rows, arguments->sources[s], m);
-            if (law.count > 0)
+            const power_model power_law = fit(arguments, rows, arguments->sources[s], m);
+            if (power_law.count > 0)
                 fprintf(stderr, "%s of %s: slope %.4f over %zu sizes\n", cli_metric(arguments, m),
-                        arguments->sources[s], law.slope, law.count);
+                        arguments->sources[s], power_law.slope, power_law.count);
         }
 }
 
@@ -171,26 +171,26 @@ static void plot_table(const cli_measure_row *row, size_t index, report_series *
     const size_t columns = aur_series_column_count(table), count = aur_series_row_count(table);
     const double *const values = aur_series_values(table);
     const char *const first = aur_series_column(table, 0);
-    const bool picture = strcmp(first, "kx") == 0;
+    const bool is_image = strcmp(first, "kx") == 0;
     snprintf(label, LABEL, "%s, N = %zu", row->source, row->count);
     for (size_t r = 0; r < count; ++r)
         points[r] = (report_point){.x = values[r * columns],
                                    .y = values[r * columns + 1],
                                    .value = values[r * columns + columns - 1]};
-    *series = (report_series){.label = picture ? NULL : label,
-                              .parts = picture                       ? REPORT_CELLS
+    *series = (report_series){.label = is_image ? NULL : label,
+                              .parts = is_image                      ? REPORT_CELLS
                                        : strcmp(first, "point") == 0 ? REPORT_MARKS
                                                                      : REPORT_LINE,
-                              .ink = picture ? REPORT_INK_SCALE : REPORT_INK_SERIES + (unsigned)index,
-                              .cell = {1.0, 1.0}, /* frequencies are whole numbers */
+                              .ink = is_image ? REPORT_INK_SCALE : REPORT_INK_SERIES + (unsigned)index,
+                              .cell = {1.0, 1.0}, /* frequencies are integers */
                               .count = count,
                               .points = points};
 }
 
 int cli_measure_plot_series(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
     const aur_series *const first = rows->items[0].series;
-    const bool picture = strcmp(aur_series_column(first, 0), "kx") == 0;
-    const size_t panels = picture ? rows->count : 1;
+    const bool is_image = strcmp(aur_series_column(first, 0), "kx") == 0;
+    const size_t panels = is_image ? rows->count : 1;
     size_t point_count = 0;
     for (size_t i = 0; i < rows->count; ++i)
         point_count += aur_series_row_count(rows->items[i].series);
@@ -202,19 +202,19 @@ int cli_measure_plot_series(const cli_measure_arguments *arguments, const cli_me
         points += d.series[i].count;
     }
     for (size_t p = 0; p < panels && allocated; ++p)
-        d.panels[p] = (report_panel){.title = picture ? d.labels[p] : NULL,
+        d.panels[p] = (report_panel){.title = is_image ? d.labels[p] : NULL,
                                      .x = {.label = aur_series_column(first, 0)},
                                      .y = {.label = aur_series_column(first, 1)},
-                                     .equal = picture,
-                                     .series_count = picture ? 1 : rows->count,
+                                     .equal = is_image,
+                                     .series_count = is_image ? 1 : rows->count,
                                      .series = d.series + p};
-    report_figure figure = {.width = picture ? 480.0 : 800.0,
+    report_figure figure = {.width = is_image ? 480.0 : 800.0,
                             .height = 480.0,
                             .columns = panels,
                             .panel_count = panels,
                             .panels = d.panels,
                             .legend = REPORT_LEGEND_EACH};
-    if (picture)
+    if (is_image)
         figure.scale = (report_scale){"power", 0.0, 4.0, 2, {0x000000, 0xffffff}};
     return finish(&d, allocated, arguments->plot, &figure);
 }

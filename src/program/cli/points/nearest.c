@@ -1,4 +1,4 @@
-/* aureole nearest: the points of a set or file that are nearest to others. */
+/* aureole nearest: the nearest points of a set or file to query points. */
 #include <aureole/nearest.h>
 #include <math.h>
 #include <stdlib.h>
@@ -19,28 +19,28 @@ static const cli_option options[] = {
      .letter = 'k'},
     {.key = {0}}};
 
-static int print(const nearest_command *wanted, size_t count, const size_t *indices,
+static int print(const nearest_command *command, size_t count, const size_t *indices,
                  const double *distances) {
     report_table *const table = report_create(3, (const char *const[]){"query", "point", "distance"});
-    for (size_t i = 0; i < count * wanted->neighbours; ++i) {
-        report_integer(table, i / wanted->neighbours);
+    for (size_t i = 0; i < count * command->neighbours; ++i) {
+        report_integer(table, i / command->neighbours);
         report_integer(table, indices[i]);
         report_number(table, distances[i], 9);
     }
-    return cli_finish(table, wanted->common.format);
+    return cli_finish(table, command->common.format);
 }
 
-static int find(const nearest_command *wanted, const aur_points_view *points,
+static int find(const nearest_command *command, const aur_points_view *points,
                 const aur_points_view *queries) {
     if (points->domain != queries->domain || points->dimension != queries->dimension)
         return cli_bad_usage("nearest: the points are on the %s and the queries on the %s: give --domain",
                              aur_domain_name(points->domain), aur_domain_name(queries->domain));
     aur_nearest_options how = {.size = sizeof how};
     aur_nearest_options_init(&how, NULL);
-    how.neighbours = wanted->neighbours;
-    how.threads = wanted->common.threads;
-    how.progress = cli_progress(wanted->common.quiet);
-    const size_t size = queries->count * wanted->neighbours;
+    how.neighbours = command->neighbours;
+    how.threads = command->common.threads;
+    how.progress = cli_progress(command->common.quiet);
+    const size_t size = queries->count * command->neighbours;
     size_t *const indices = calloc(size, sizeof *indices);
     double *const distances = calloc(size, sizeof *distances);
     aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
@@ -49,14 +49,14 @@ static int find(const nearest_command *wanted, const aur_points_view *points,
         indices != NULL && distances != NULL && aur_nearest_create(points, &nearest, &error) == AUR_OK;
     good = good && aur_nearest_find(nearest, &how, queries->count, queries->coordinates, indices, distances,
                                     &error) == AUR_OK;
-    const int status = good ? print(wanted, queries->count, indices, distances) : cli_fail(&error);
+    const int status = good ? print(command, queries->count, indices, distances) : cli_fail(&error);
     aur_nearest_destroy(nearest);
     free(indices);
     free(distances);
     return status;
 }
 
-/* Where only the numbers said what the domain is, it is that of the others; and the hemisphere is a part of
+/* If only the coordinates of one file determine its domain, it gets the other's; the hemisphere is part of
  * the sphere. */
 static void agree(aur_points_view *a, aur_points_view *b) {
     aur_points_view *const views[] = {a, b};
@@ -69,29 +69,29 @@ static void agree(aur_points_view *a, aur_points_view *b) {
 }
 
 static int run(const cli_call *call) {
-    nearest_command *const wanted = call->options;
+    nearest_command *const command = call->options;
     const char *const source = call->operands[0];
-    if (wanted->count == 0 && !cli_has_size(source))
+    if (command->count == 0 && !cli_has_size(source))
         return cli_bad_usage("nearest: -n is missing for the set '%s' (there is no such file)", source);
     if (!cli_is_file(call->operands[1]))
         return cli_bad_usage("nearest: cannot read '%s': expected a file of queries", call->operands[1]);
-    wanted->from.domain_given = cli_given(call, "domain") != NULL;
-    wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
+    command->from.domain_given = cli_given(call, "domain") != NULL;
+    command->from.options.warnings = cli_warnings(command->common.quiet);
     aur_points *points = NULL, *queries = NULL;
-    aur_points_view seen, asked;
+    aur_points_view point_view, query_view;
     aur_error error;
-    aur_result result = cli_load_points(call->operands[1], &wanted->from, 0, &queries, &asked, &error);
-    /* The queries say where a set's points are when nothing else does. */
-    if (result == AUR_OK && !wanted->from.domain_given && !cli_is_file(source)) {
-        wanted->from.options.domain =
-            asked.domain == AUR_DOMAIN_HEMISPHERE ? AUR_DOMAIN_SPHERE : asked.domain;
-        wanted->from.domain_given = asked.domain != AUR_DOMAIN_CUBE;
+    aur_result result = cli_load_points(call->operands[1], &command->from, 0, &queries, &query_view, &error);
+    /* The queries determine the domain of a set unless it is given. */
+    if (result == AUR_OK && !command->from.domain_given && !cli_is_file(source)) {
+        command->from.options.domain =
+            query_view.domain == AUR_DOMAIN_HEMISPHERE ? AUR_DOMAIN_SPHERE : query_view.domain;
+        command->from.domain_given = query_view.domain != AUR_DOMAIN_CUBE;
     }
     if (result == AUR_OK)
-        result = cli_load_points(source, &wanted->from, wanted->count, &points, &seen, &error);
+        result = cli_load_points(source, &command->from, command->count, &points, &point_view, &error);
     if (result == AUR_OK)
-        agree(&seen, &asked);
-    const int status = result == AUR_OK ? find(wanted, &seen, &asked) : cli_fail(&error);
+        agree(&point_view, &query_view);
+    const int status = result == AUR_OK ? find(command, &point_view, &query_view) : cli_fail(&error);
     aur_points_destroy(points);
     aur_points_destroy(queries);
     return status;

@@ -64,7 +64,7 @@ bool cli_has_size(const char *text) {
     return cli_is_file(text) || (strncmp(text, "file:", 5) == 0 && !cli_is_sized_file(text));
 }
 
-/* Weights of 1/N say nothing. */
+/* Whether all weights are 1/N. */
 static bool are_equal(size_t count, const double *weights) {
     for (size_t i = 0; i < count; ++i)
         if (!(fabs(weights[i] * (double)count - 1.0) <= 1e-12))

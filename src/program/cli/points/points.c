@@ -8,11 +8,11 @@
 #include "program/cli/points/point_source.h"
 #include "program/report/figure.h"
 
-enum { FIRST_PICTURE = AUR_POINTS_PLY + 1 }; /* those of figures come after the library's formats */
+enum { FIRST_FIGURE = AUR_POINTS_PLY + 1 }; /* figure formats follow the library's formats */
 
 typedef struct points_command {
     const char *path;
-    const char *warp; /* an image's path */
+    const char *warp; /* path of an image */
     unsigned format;
     const char *symmetry;
     bool matrices; /* of rotations */
@@ -23,8 +23,8 @@ typedef struct points_command {
 } points_command;
 
 static const char *format_name(unsigned format) {
-    return format < FIRST_PICTURE ? aur_points_format_name((aur_points_format)format)
-                                  : report_figure_format(format - FIRST_PICTURE);
+    return format < FIRST_FIGURE ? aur_points_format_name((aur_points_format)format)
+                                 : report_figure_format(format - FIRST_FIGURE);
 }
 
 static aur_result choose_json(const char *text, void *field, aur_error *error) {
@@ -62,48 +62,49 @@ static const cli_option options[] = {
      .letter = 'o', .content = "file", .writes = true},
     {.key = {0}}};
 
-/* By the file's name, unless it is `told`. A name without an ending, and '-', are CSV. */
-static bool choose_format(points_command *wanted, bool told) {
-    const char *const slash = strrchr(wanted->path, '/');
-    const char *const dot = strrchr(slash != NULL ? slash : wanted->path, '.');
-    if (told || dot == NULL)
+/* The format given by option, or else by the file's extension. CSV without an extension and for '-'. */
+static bool choose_format(points_command *command, bool format_given) {
+    const char *const slash = strrchr(command->path, '/');
+    const char *const dot = strrchr(slash != NULL ? slash : command->path, '.');
+    if (format_given || dot == NULL)
         return true;
     for (unsigned i = 0; format_name(i) != NULL; ++i)
         if (strcasecmp(format_name(i), dot + 1) == 0) {
-            wanted->format = i;
+            command->format = i;
             return true;
         }
     cli_bad_usage("-o: '%s' must end in .csv, .json, .npy, .ply, .svg, .pdf, .png or .tex, or --format say "
                   "how it is written",
-                  wanted->path);
+                  command->path);
     return false;
 }
 
-/* What is left to the set and to the file's name when the command line does not say it. */
+/* Values that follow from the set and the file name unless they are given. */
 static bool complete(const cli_call *call) {
-    points_command *const wanted = call->options;
+    points_command *const command = call->options;
     bool domain_given = cli_given(call, "domain") != NULL;
     if (cli_given(call, "size") == NULL && !cli_has_size(call->operands[0])) {
         cli_bad_usage("points: the size of the set is missing: give -n N");
         return false;
     }
     if (!domain_given && cli_given(call, "lobe") != NULL) {
-        wanted->from.options.domain = AUR_DOMAIN_HEMISPHERE;
+        command->from.options.domain = AUR_DOMAIN_HEMISPHERE;
         domain_given = true;
     }
-    wanted->points.natural_domain = !domain_given;
-    if (cli_given(call, "map") != NULL && (!domain_given || wanted->from.options.domain <= AUR_DOMAIN_CUBE)) {
+    command->points.natural_domain = !domain_given;
+    if (cli_given(call, "map") != NULL &&
+        (!domain_given || command->from.options.domain <= AUR_DOMAIN_CUBE)) {
         cli_bad_usage("--map: needs --domain disk, hemisphere, sphere or axes");
         return false;
     }
-    return choose_format(wanted, cli_given(call, "format") != NULL || cli_given(call, "json") != NULL);
+    return choose_format(command, cli_given(call, "format") != NULL || cli_given(call, "json") != NULL);
 }
 
 static int out_of_memory(void) {
     return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
 }
 
-/* Moves the points into an array of their own, which the caller frees. */
+/* Copies the points to an array, which the caller frees. */
 static int warp(const char *path, aur_points_view *points, double **warped) {
     if (points->domain != AUR_DOMAIN_SQUARE)
         return cli_bad_usage("--warp: needs points of the square");
@@ -119,7 +120,7 @@ static int warp(const char *path, aur_points_view *points, double **warped) {
     return *warped != NULL ? CLI_SUCCESS : out_of_memory();
 }
 
-/* Weights of whole orbits add up to 1 where the set has the symmetry. */
+/* Weights of whole orbits sum to 1 if the set has the symmetry. */
 static int check_sum(const aur_points_view *points) {
     double sum = 0.0;
     for (size_t i = 0; i < points->count; ++i)
@@ -131,24 +132,23 @@ static int check_sum(const aur_points_view *points) {
                                sum);
 }
 
-/* Points in the fundamental region, and rotations as matrices, into an array of their own, which the caller
- * frees. */
-static int change_points(const points_command *wanted, aur_points_view *points, double **changed) {
-    if (wanted->symmetry == NULL && !wanted->matrices)
+/* Copies points of the fundamental region, and rotations as matrices, to an array, which the caller frees. */
+static int change_points(const points_command *command, aur_points_view *points, double **changed) {
+    if (command->symmetry == NULL && !command->matrices)
         return CLI_SUCCESS;
     cli_symmetry symmetry;
     aur_error error = {0};
-    if (cli_parse_symmetry(wanted->symmetry, points->domain, &symmetry, &error) != AUR_OK)
+    if (cli_parse_symmetry(command->symmetry, points->domain, &symmetry, &error) != AUR_OK)
         return cli_fail(&error);
     const size_t count = points->count, from = points->dimension;
-    if (wanted->matrices && points->domain != AUR_DOMAIN_ROTATIONS)
+    if (command->matrices && points->domain != AUR_DOMAIN_ROTATIONS)
         return cli_bad_usage("--matrices: needs --domain rotations");
     if (points->weights != NULL && symmetry.given && from != 3)
         return cli_bad_usage("--symmetry: the rotations have weights, which would no longer add up to 1");
     *changed = malloc((from + 10) * count * sizeof **changed);
     if (*changed == NULL)
         return out_of_memory();
-    double *const kept = *changed + (wanted->matrices ? 9 * count : 0);
+    double *const kept = *changed + (command->matrices ? 9 * count : 0);
     double *const weights = points->weights != NULL ? *changed + (from + 9) * count : NULL;
     for (size_t i = 0; i < from * count; ++i)
         kept[i] = points->coordinates[i / from * points->stride + i % from];
@@ -159,39 +159,40 @@ static int change_points(const points_command *wanted, aur_points_view *points, 
                                   : aur_symmetry_select(symmetry.crystal, count, kept);
     if (points->count == 0)
         return cli_bad_usage("--symmetry: no point is in the fundamental region: take a larger -n");
-    for (size_t i = 0; i < points->count && wanted->matrices; ++i) {
+    for (size_t i = 0; i < points->count && command->matrices; ++i) {
         aur_rotation rotation;
         aur_rotation_from_quaternion(kept + 4 * i, &rotation);
         memcpy(*changed + 9 * i, rotation.m, sizeof rotation.m);
     }
     points->coordinates = *changed;
     points->weights = weights;
-    points->dimension = points->stride = wanted->matrices ? 9 : from;
+    points->dimension = points->stride = command->matrices ? 9 : from;
     return weights != NULL && symmetry.given ? check_sum(points) : CLI_SUCCESS;
 }
 
-static int write_points(const char *set, points_command *wanted, const aur_points_view *points) {
+static int write_points(const char *set, points_command *command, const aur_points_view *points) {
     aur_error error = {0};
-    const uint64_t size = wanted->from.options.count; /* 0: all of a file */
+    const uint64_t size = command->from.options.count; /* 0: all points of a file */
     const aur_points_origin origin = {.size = sizeof origin,
                                       .set = set,
-                                      .count = size != 0 ? size : wanted->points.first + points->count,
-                                      .first = wanted->points.first,
-                                      .scramble = wanted->from.options.scramble,
-                                      .seed = wanted->from.options.seed};
-    wanted->write.size = sizeof wanted->write;
-    wanted->write.origin = &origin;
-    const aur_result result = wanted->format >= FIRST_PICTURE
-                                  ? cli_draw_points(wanted->path, format_name(wanted->format), points, &error)
-                                  : aur_points_write(wanted->path, (aur_points_format)wanted->format, points,
-                                                     &wanted->write, &error);
+                                      .count = size != 0 ? size : command->points.first + points->count,
+                                      .first = command->points.first,
+                                      .scramble = command->from.options.scramble,
+                                      .seed = command->from.options.seed};
+    command->write.size = sizeof command->write;
+    command->write.origin = &origin;
+    const aur_result result =
+        command->format >= FIRST_FIGURE
+            ? cli_draw_points(command->path, format_name(command->format), points, &error)
+            : aur_points_write(command->path, (aur_points_format)command->format, points, &command->write,
+                               &error);
     return cli_status(result, &error);
 }
 
 /* A GGX lobe's visible normals reflect some directions below the horizon. */
-static void warn_below(const points_command *wanted, const aur_points_view *view) {
-    const aur_warnings warnings = wanted->from.options.warnings;
-    const aur_lobe_kind kind = wanted->from.options.lobe.kind;
+static void warn_below(const points_command *command, const aur_points_view *view) {
+    const aur_warnings warnings = command->from.options.warnings;
+    const aur_lobe_kind kind = command->from.options.lobe.kind;
     if ((kind != AUR_LOBE_GGX && kind != AUR_LOBE_VISIBLE) || view->domain != AUR_DOMAIN_HEMISPHERE ||
         warnings.function == NULL)
         return;
@@ -209,27 +210,27 @@ static void warn_below(const points_command *wanted, const aur_points_view *view
 }
 
 static int run(const cli_call *call) {
-    points_command *const wanted = call->options;
+    points_command *const command = call->options;
     const char *const set = call->operands[0];
     if (!complete(call))
         return CLI_BAD_INPUT;
-    wanted->from.options.size = sizeof wanted->from.options;
-    wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
-    wanted->points.size = sizeof wanted->points;
-    wanted->points.options = &wanted->from.options;
-    wanted->points.dimension = wanted->from.dimension;
+    command->from.options.size = sizeof command->from.options;
+    command->from.options.warnings = cli_warnings(command->common.quiet);
+    command->points.size = sizeof command->points;
+    command->points.options = &command->from.options;
+    command->points.dimension = command->from.dimension;
     aur_error error = {0};
     aur_points *points;
-    if (aur_points_generate(set, &wanted->points, &points, &error) != AUR_OK)
+    if (aur_points_generate(set, &command->points, &points, &error) != AUR_OK)
         return cli_fail(&error);
     aur_points_view view = *aur_points_get_view(points);
-    warn_below(wanted, &view);
+    warn_below(command, &view);
     double *warped = NULL;
-    int status = wanted->warp != NULL ? warp(wanted->warp, &view, &warped) : CLI_SUCCESS;
-    if (status == CLI_SUCCESS && wanted->warp == NULL)
-        status = change_points(wanted, &view, &warped);
+    int status = command->warp != NULL ? warp(command->warp, &view, &warped) : CLI_SUCCESS;
+    if (status == CLI_SUCCESS && command->warp == NULL)
+        status = change_points(command, &view, &warped);
     if (status == CLI_SUCCESS)
-        status = write_points(set, wanted, &view);
+        status = write_points(set, command, &view);
     free(warped);
     aur_points_destroy(points);
     return status;

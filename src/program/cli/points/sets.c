@@ -5,7 +5,7 @@
 
 #include "program/cli/listing.h"
 
-/* Where a set's points can be: sets of the square come to the other domains by a map. */
+/* The domains of a set: sets of the square are mapped to the other domains. */
 static void add_domains(report_table *table, const aur_set_description *set) {
     enum {
         LIFTED =
@@ -38,7 +38,7 @@ static void add_keys(report_table *table, const aur_row *row) {
 static int run(const cli_call *call) {
     const report_format format = ((const cli_common *)call->options)->format;
     if (call->operand_count > 0)
-        return cli_print_thing("set", call->operands[0], format);
+        return cli_print_row("set", call->operands[0], format);
     static const char *const columns[] = {"set",        "keys",   "domains", "sizes",
                                           "extensible", "source", "summary"};
     report_table *const table = report_create(7, columns);

@@ -1,4 +1,4 @@
-/* aureole voronoi: the cells of the points of a set or file, their areas and corners. */
+/* aureole voronoi: the Voronoi cells of a set or file of points, with areas and vertices. */
 #include <aureole/quality.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ static const cli_option options[] = {
      .content = "file", .writes = true},
     {.key = {0}}};
 
-/* Rows of a corner each: the number of its point, x, y, z. */
+/* Writes a row per vertex: the index of its point, x, y, z. */
 typedef struct corners {
     size_t count;
     const double *rows;
@@ -38,7 +38,7 @@ static void write_csv(corners c, FILE *stream) {
     }
 }
 
-/* One past the last corner of the cell that begins with corner `first`. */
+/* One past the last vertex of the cell that begins with vertex `first`. */
 static size_t end_of_cell(corners c, size_t first) {
     size_t end = first + 1;
     while (end < c.count && c.rows[4 * end] == c.rows[4 * first])
@@ -46,7 +46,7 @@ static size_t end_of_cell(corners c, size_t first) {
     return end;
 }
 
-/* A line a corner, then a line a cell. */
+/* Writes a line per vertex, then a line per cell. */
 static void write_polygons(corners c, const char *corner_mark, size_t first_index, bool with_size,
                            FILE *stream) {
     for (size_t i = 0; i < c.count; ++i) {
@@ -86,7 +86,7 @@ typedef struct cell_format {
     void (*write)(corners c, FILE *stream);
 } cell_format;
 
-/* By the ending of the path; NULL for another. */
+/* The format by the path's extension; NULL if unknown. */
 static const cell_format *find_format(const char *path) {
     static const cell_format formats[] = {{".csv", write_csv}, {".obj", write_obj}, {".ply", write_ply}};
     const char *const dot = strrchr(path, '.');
@@ -116,7 +116,7 @@ static aur_result write_cells(const char *path, const aur_points_view *points, c
     return result;
 }
 
-/* The area and the side count of each point's cell, with the point. */
+/* Writes the area and the number of sides of each point's cell, with the point. */
 static report_table *tabulate(const aur_points_view *points, double cap_degrees, const aur_series *series) {
     static const char *const columns[] = {"point", "x", "y", "z", "area", "steradians", "radius", "sides"};
     const double whole = points->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
@@ -136,46 +136,47 @@ static report_table *tabulate(const aur_points_view *points, double cap_degrees,
     return table;
 }
 
-static int find_cells(const voronoi_command *wanted, const aur_points_view *points, aur_error *error) {
+static int find_cells(const voronoi_command *command, const aur_points_view *points, aur_error *error) {
     aur_measure_options how = {.size = sizeof how};
     aur_measure_options_init(&how, NULL);
-    how.cap_degrees = wanted->from.options.cap_degrees;
-    how.threads = wanted->common.threads;
+    how.cap_degrees = command->from.options.cap_degrees;
+    how.threads = command->common.threads;
     static const cli_phase phases[] = {
         {"cutting cells", 1.0}, {"cutting cells", 1.0}, {"cutting cells", 1.0}};
-    how.progress = cli_progress(wanted->common.quiet);
-    cli_progress_plan(wanted->cells != NULL ? 3 : 1, phases); /* corners are found twice, to count them */
-    how.warnings = cli_warnings(wanted->common.quiet);
+    how.progress = cli_progress(command->common.quiet);
+    cli_progress_plan(command->cells != NULL ? 3 : 1,
+                      phases); /* the vertices are computed twice, first to count them */
+    how.warnings = cli_warnings(command->common.quiet);
     aur_series *series;
     aur_result result = aur_measure_series("voronoi", points, &how, &series, error);
-    if (result == AUR_OK && wanted->cells != NULL)
-        result = write_cells(wanted->cells, points, &how, error);
+    if (result == AUR_OK && command->cells != NULL)
+        result = write_cells(command->cells, points, &how, error);
     const int status = result == AUR_OK
-                           ? cli_finish(tabulate(points, how.cap_degrees, series), wanted->common.format)
+                           ? cli_finish(tabulate(points, how.cap_degrees, series), command->common.format)
                            : cli_fail(error);
     aur_series_destroy(series);
     return status;
 }
 
 static int run(const cli_call *call) {
-    voronoi_command *const wanted = call->options;
+    voronoi_command *const command = call->options;
     const char *const source = call->operands[0];
-    if (wanted->count == 0 && !cli_has_size(source))
+    if (command->count == 0 && !cli_has_size(source))
         return cli_bad_usage("voronoi: -n is missing for the set '%s' (there is no such file)", source);
-    if (wanted->cells != NULL && find_format(wanted->cells) == NULL)
-        return cli_bad_usage("--cells: '%s' ends in none of .csv, .obj, .ply", wanted->cells);
-    if (wanted->cells != NULL && wanted->from.options.cap_degrees > 0.0)
+    if (command->cells != NULL && find_format(command->cells) == NULL)
+        return cli_bad_usage("--cells: '%s' ends in none of .csv, .obj, .ply", command->cells);
+    if (command->cells != NULL && command->from.options.cap_degrees > 0.0)
         return cli_bad_usage("--cells cannot be used with --cap: cells at the rim are not polygons");
-    wanted->from.domain_given = cli_given(call, "domain") != NULL;
-    if (!wanted->from.domain_given && !cli_is_file(source))
-        wanted->from.options.domain =
+    command->from.domain_given = cli_given(call, "domain") != NULL;
+    if (!command->from.domain_given && !cli_is_file(source))
+        command->from.options.domain =
             cli_given(call, "lobe") != NULL ? AUR_DOMAIN_HEMISPHERE : AUR_DOMAIN_SPHERE;
-    wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
+    command->from.options.warnings = cli_warnings(command->common.quiet);
     aur_points *points = NULL;
-    aur_points_view seen;
+    aur_points_view view;
     aur_error error;
-    const aur_result result = cli_load_points(source, &wanted->from, wanted->count, &points, &seen, &error);
-    const int status = result == AUR_OK ? find_cells(wanted, &seen, &error) : cli_fail(&error);
+    const aur_result result = cli_load_points(source, &command->from, command->count, &points, &view, &error);
+    const int status = result == AUR_OK ? find_cells(command, &view, &error) : cli_fail(&error);
     aur_points_destroy(points);
     return status;
 }

@@ -1,4 +1,4 @@
-/* aureole weights: optimal, exact and other weights of samples, and what they gain. */
+/* aureole weights: optimal, exact and other weights of samples, and their gain. */
 #include "program/cli/points/weights.h"
 
 #include <math.h>
@@ -90,7 +90,7 @@ static const cli_option options[] = {
     {CLI_FLAG(cli_weights_arguments, mirrored, "mirrored", "mirror the samples that are looked up")},
     {.key = {0}}};
 
-/* What the options mean together; the first rule that they break, or NULL. */
+/* Checks combinations of options; returns the first violated rule, or NULL. */
 static const char *broken_rule(const cli_call *call, const cli_weights_arguments *arguments) {
     const bool two = arguments->two;
     if (arguments->points.options.optimal_density && cli_has_size(arguments->source))
@@ -126,7 +126,7 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
     return NULL;
 }
 
-/* What follows from a set or file; the status of what is wrong. */
+/* Derives values from a set or file; returns the status of an error. */
 static int complete(const cli_call *call, cli_weights_arguments *arguments) {
     cli_points *const points = &arguments->points;
     arguments->source = call->operands[0];
@@ -156,7 +156,7 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
 
 enum { FIGURES = 11 };
 
-/* Of one lobe or one level; NaN is what the method does not have. */
+/* A row for one lobe or one level; NaN where the method has no value. */
 static void find_figures(const cli_weights_arguments *arguments, const cli_weights_result *result, size_t k,
                          double figures[FIGURES]) {
     for (size_t i = 0; i < FIGURES; ++i)
@@ -168,7 +168,7 @@ static void find_figures(const cli_weights_arguments *arguments, const cli_weigh
         memcpy(figures + 6, found, sizeof found);
         return;
     }
-    /* What the points would give without a solve. */
+    /* Values with equal weights, without a solve. */
     const double plain = result->has_ratio ? result->ratio[k] : result->equal[k];
     figures[0] = result->equal[k];
     figures[1] = result->has_ratio ? result->ratio[k] : NAN;
@@ -178,7 +178,7 @@ static void find_figures(const cli_weights_arguments *arguments, const cli_weigh
     figures[5] = result->condition > 0.0 ? result->condition : NAN;
 }
 
-/* Programs are given one set of columns, people those that have figures. */
+/* Machine-readable tables have all columns, text only the nonempty ones. */
 static int print_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
     static const struct {
         const char *name;
@@ -225,9 +225,9 @@ static int weigh(const cli_weights_arguments *arguments) {
         status = print_report(arguments, &result);
     if (status == CLI_SUCCESS && arguments->plot != NULL)
         status = cli_weights_plot(arguments, &result);
-    /* Figures or an image were asked for: the samples only where -o says. */
-    const bool asked = arguments->path != NULL || (!arguments->report && arguments->plot == NULL);
-    if (status == CLI_SUCCESS && asked)
+    /* A report or plot was requested: samples are written only with -o. */
+    const bool writes = arguments->path != NULL || (!arguments->report && arguments->plot == NULL);
+    if (status == CLI_SUCCESS && writes)
         status = write_points(arguments, &result);
     free(result.xyz);
     free(result.weights);

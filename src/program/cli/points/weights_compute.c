@@ -1,4 +1,4 @@
-/* From the options of `aureole weights` to samples, weights and their worst-case errors. */
+/* Computes samples, weights and worst-case errors from the options of `aureole weights`. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,12 +6,12 @@
 
 #include "program/cli/points/weights.h"
 
-/* One computation: what it works on. `own` is how many of the samples follow each lobe; the first lobe's come
- * first. */
+/* The data of one computation. `lobe_counts` is the number of samples of each lobe; the first lobe's samples
+ * come first. */
 typedef struct weights_job {
     const cli_weights_arguments *arguments;
     cli_weights_result *result;
-    size_t own[2];
+    size_t lobe_counts[2];
     aur_strategy strategies[2];
     aur_potential *potentials[2];
 } weights_job;
@@ -33,7 +33,7 @@ static void mirror_axis(const weights_job *task, double axis[3]) {
     axis[2] = fmax(0.0, cos(radians));
 }
 
-/* Potentials, and the lobes that samples are drawn from. */
+/* Creates the potentials and the lobes that samples are drawn from. */
 static aur_result prepare_lobes(weights_job *task, aur_error *error) {
     const cli_weights_arguments *const arguments = task->arguments;
     const aur_directions_options *const points = &arguments->points.options;
@@ -50,7 +50,7 @@ static aur_result prepare_lobes(weights_job *task, aur_error *error) {
             mirror_axis(task, density.axis);
             density.clipped = arguments->clipped;
         }
-        task->strategies[k] = (aur_strategy){.count = task->own[k], .sampled = lobe};
+        task->strategies[k] = (aur_strategy){.count = task->lobe_counts[k], .sampled = lobe};
         memcpy(task->strategies[k].axis, density.axis, sizeof density.axis);
         if (points->optimal_density && lobe.kind == AUR_LOBE_COSINE_POWER)
             result = aur_lobe_optimal(&lobe, points->smoothness, &task->strategies[k].sampled, error);
@@ -138,22 +138,22 @@ static aur_result load_two(weights_job *task, aur_error *error) {
     else
         result = aur_oswa_points(oswa, task->arguments->degrees * pi / 180.0, (const double[2]){0.0, 0.0},
                                  false, 3 * task->result->count, task->result->xyz, error);
-    task->own[0] = options.count;
-    task->own[1] = options.mirror_count;
+    task->lobe_counts[0] = options.count;
+    task->lobe_counts[1] = options.mirror_count;
     aur_oswa_destroy(oswa);
     return result;
 }
 
-/* The samples of lobe k alone: where they start, and how many. */
+/* The samples of lobe k: first index and count. */
 static size_t first_of(const weights_job *task, size_t k) {
-    return k == 1 && task->own[1] > 0 ? task->own[0] : 0;
+    return k == 1 && task->lobe_counts[1] > 0 ? task->lobe_counts[0] : 0;
 }
 
 static size_t count_of(const weights_job *task, size_t k) {
-    return task->own[k] > 0 ? task->own[k] : task->result->count;
+    return task->lobe_counts[k] > 0 ? task->lobe_counts[k] : task->result->count;
 }
 
-/* 1/N over the samples of a lobe that its density can see. */
+/* 1/N over the samples of a lobe that are not below its horizon. */
 static void equal_weights(const weights_job *task, size_t k, double *weights) {
     const size_t first = first_of(task, k), count = count_of(task, k);
     const aur_lobe *const lobe = k == 0 ? &task->arguments->points.options.lobe : &task->arguments->mirror;
@@ -170,11 +170,11 @@ static void equal_weights(const weights_job *task, size_t k, double *weights) {
 static aur_result ratio_weights(const weights_job *task, size_t k, double *weights, aur_error *error) {
     const size_t first = first_of(task, k);
     memset(weights, 0, task->result->count * sizeof *weights);
-    if (task->own[k] == 0)
+    if (task->lobe_counts[k] == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "a file does not say what density its points were drawn from");
     if (task->result->domain != AUR_DOMAIN_HEMISPHERE) {
-        equal_weights(task, k, weights); /* only the uniform density is there */
+        equal_weights(task, k, weights); /* only for the uniform density */
         return AUR_OK;
     }
     return aur_mis_weights(AUR_MIS_BALANCE, 1, &task->strategies[k], task->potentials[k], count_of(task, k),
@@ -185,7 +185,7 @@ static aur_result optimal_weights(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
     const aur_potential *const *const potentials = (const aur_potential *const *)task->potentials;
     double *const condition = task->arguments->report ? &result->condition : NULL;
-    if (task->arguments->method == CLI_METHOD_OSWA || result->lobe_count == 1 || task->own[1] == 0)
+    if (task->arguments->method == CLI_METHOD_OSWA || result->lobe_count == 1 || task->lobe_counts[1] == 0)
         return aur_weights_solve(result->count, result->xyz, result->lobe_count, potentials,
                                  &task->arguments->weights, result->lobe_count * result->count,
                                  result->weights, NULL, condition, error);
@@ -201,27 +201,27 @@ static aur_result optimal_weights(weights_job *task, aur_error *error) {
     return AUR_OK;
 }
 
-static aur_result rival_weights(weights_job *task, aur_error *error) {
+static aur_result mis_weights(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
     const cli_method method = task->arguments->method;
     if (method == CLI_METHOD_VORONOI)
         return cli_weights_by_cells(task->arguments, result, error);
     for (size_t k = 0; k < result->lobe_count; ++k) {
         double *const weights = result->weights + k * result->count;
-        aur_result made = AUR_OK;
+        aur_result status = AUR_OK;
         if (method == CLI_METHOD_EQUAL)
             equal_weights(task, k, weights);
         else if (method == CLI_METHOD_RATIO)
-            made = ratio_weights(task, k, weights, error);
-        else if (result->lobe_count == 1 || task->own[1] == 0)
-            made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                            "multiple importance sampling needs a set and two lobes: give --lobe2");
+            status = ratio_weights(task, k, weights, error);
+        else if (result->lobe_count == 1 || task->lobe_counts[1] == 0)
+            status = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                              "multiple importance sampling needs a set and two lobes: give --lobe2");
         else
-            made = aur_mis_weights(method == CLI_METHOD_POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2,
-                                   task->strategies, task->potentials[k], result->count, result->xyz, weights,
-                                   error);
-        if (made != AUR_OK)
-            return made;
+            status = aur_mis_weights(method == CLI_METHOD_POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2,
+                                     task->strategies, task->potentials[k], result->count, result->xyz,
+                                     weights, error);
+        if (status != AUR_OK)
+            return status;
     }
     return AUR_OK;
 }
@@ -259,7 +259,7 @@ static aur_result judge(weights_job *task, aur_error *error) {
     return judged;
 }
 
-/* In the time of a pair of points: the cells take that of thousands for each point. */
+/* In units of a pair of points: the Voronoi cells take thousands per point. */
 static void plan(const weights_job *task) {
     enum { MOST = 7 };
     static cli_phase phases[MOST];
@@ -279,26 +279,26 @@ static void plan(const weights_job *task) {
 static aur_result compute(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
     const bool two_patterns = task->arguments->two && !from_file(task);
-    aur_result made = two_patterns ? load_two(task, error) : load_one(task, error);
-    if (made == AUR_OK && !two_patterns && !from_file(task))
-        task->own[0] = result->count;
+    aur_result status = two_patterns ? load_two(task, error) : load_one(task, error);
+    if (status == AUR_OK && !two_patterns && !from_file(task))
+        task->lobe_counts[0] = result->count;
     plan(task);
     const bool exact = task->arguments->method == CLI_METHOD_EXACT;
-    if (made == AUR_OK && result->domain == AUR_DOMAIN_AXES && !exact &&
+    if (status == AUR_OK && result->domain == AUR_DOMAIN_AXES && !exact &&
         task->arguments->method != CLI_METHOD_VORONOI)
-        made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "weights of axes are exact ones or areas of cells: give --method exact or voronoi");
+        status = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                          "weights of axes are exact ones or areas of cells: give --method exact or voronoi");
     const bool directions = cli_has_directions(result->domain);
-    if (made == AUR_OK && !directions && !exact)
-        made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "weights on the domain '%s' are exact ones: give --method exact",
-                        aur_domain_name(result->domain));
-    if (made == AUR_OK && !directions && task->arguments->plot != NULL)
-        made = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--plot: draws directions");
-    if (made == AUR_OK && !exact && result->domain != AUR_DOMAIN_AXES)
-        made = prepare_lobes(task, error);
-    if (made != AUR_OK)
-        return made;
+    if (status == AUR_OK && !directions && !exact)
+        status = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                          "weights on the domain '%s' are exact ones: give --method exact",
+                          aur_domain_name(result->domain));
+    if (status == AUR_OK && !directions && task->arguments->plot != NULL)
+        status = aur_fail(error, AUR_ERROR_UNSUPPORTED, "--plot: draws directions");
+    if (status == AUR_OK && !exact && result->domain != AUR_DOMAIN_AXES)
+        status = prepare_lobes(task, error);
+    if (status != AUR_OK)
+        return status;
     if (task->arguments->levels.count > 0)
         result->lobe_count = task->arguments->levels.count;
     result->weights = malloc(result->lobe_count * result->count * sizeof *result->weights);
@@ -308,8 +308,8 @@ static aur_result compute(weights_job *task, aur_error *error) {
         return cli_weights_by_degree(task->arguments, result, error);
     const bool optimal =
         task->arguments->method == CLI_METHOD_OSW || task->arguments->method == CLI_METHOD_OSWA;
-    made = optimal ? optimal_weights(task, error) : rival_weights(task, error);
-    return made == AUR_OK && task->arguments->report ? judge(task, error) : made;
+    status = optimal ? optimal_weights(task, error) : mis_weights(task, error);
+    return status == AUR_OK && task->arguments->report ? judge(task, error) : status;
 }
 
 int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result) {
@@ -317,8 +317,8 @@ int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_resu
     result->domain = arguments->points.options.domain;
     result->lobe_count = arguments->two ? 2 : 1;
     aur_error error = {0};
-    const aur_result made = compute(&task, &error);
+    const aur_result status = compute(&task, &error);
     aur_potential_destroy(task.potentials[0]);
     aur_potential_destroy(task.potentials[1]);
-    return cli_status(made, &error);
+    return cli_status(status, &error);
 }

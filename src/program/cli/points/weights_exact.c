@@ -1,4 +1,4 @@
-/* aureole weights --method exact and voronoi: weights that depend on one domain and its samples alone. */
+/* aureole weights --method exact and voronoi: weights that depend only on the domain and the samples. */
 #include <aureole/quality.h>
 #include <aureole/text.h>
 
@@ -34,7 +34,7 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
                             text);
         counts[k] = (size_t)number;
     }
-    const aur_result made =
+    const aur_result status =
         arguments->levels.count == 0
             ? aur_weights_exact(result->count, result->xyz, &options, result->count, result->weights,
                                 result->exact, error)
@@ -43,10 +43,10 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
     cli_progress_clear();
     const aur_warnings warnings = points->warnings;
     const size_t last = result->lobe_count - 1;
-    if (made == AUR_OK && result->exact[last].places < result->exact[last].points &&
+    if (status == AUR_OK && result->exact[last].places < result->exact[last].points &&
         warnings.function != NULL)
         warnings.function(warnings.user, "points lie on each other and share their weights");
-    return made;
+    return status;
 }
 
 aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weights_result *result,
@@ -57,8 +57,8 @@ aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weig
     options.cap_degrees = points->cap_degrees;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);
-    const aur_result made = aur_weights_voronoi(result->count, result->xyz, result->domain, &points->lobe,
-                                                &options, result->count, result->weights, error);
+    const aur_result status = aur_weights_voronoi(result->count, result->xyz, result->domain, &points->lobe,
+                                                  &options, result->count, result->weights, error);
     cli_progress_clear();
-    return made;
+    return status;
 }

@@ -1,12 +1,12 @@
-/* Samples coloured by weight, in Lambert's azimuthal projection (Marques 2018 figs 3 to 5). */
+/* Samples colored by weight, in Lambert's azimuthal projection (Marques 2018 figs 3 to 5). */
 #include <math.h>
 #include <stdlib.h>
 
 #include "program/cli/points/weights.h"
 #include "program/report/figure.h"
 
-/* A panel a lobe. The whole sphere reaches sqrt 2, and so do samples below the horizon. The value is N w: 1
- * is an equal weight. */
+/* A panel per lobe. The whole sphere extends to radius sqrt 2, as do samples below the horizon. The value is
+ * N w: 1 is an equal weight. */
 static void project(const cli_weights_result *result, size_t lobe, double reach, report_point *points) {
     for (size_t i = 0; i < result->count; ++i) {
         const double *const u = result->xyz + 3 * i;

@@ -1,4 +1,4 @@
-/* aureole weights --table: builds a table of optimal weights, or looks weights up in one. */
+/* aureole weights --table: builds a table of optimal weights, or looks up weights in one. */
 #include <stdlib.h>
 
 #include "program/cli/points/weights.h"

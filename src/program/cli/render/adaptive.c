@@ -62,15 +62,15 @@ const cli_option cli_target_options[] = {
     {.key = {0}}};
 
 /* In the order of aur_error_measure. */
-static const char *const measure_words[AUR_ERROR_MEASURE_COUNT] = {
+static const char *const measure_texts[AUR_ERROR_MEASURE_COUNT] = {
     "of its surroundings (relative)", "of its mean (mean)", "of the displayed range (display)"};
 
 bool cli_is_target(const cli_target *target) {
     return target->error > 0.0 || target->seconds > 0.0 || target->rays > 0 || target->rounds > 0;
 }
 
-/* An option with the fewest digits that mean the same number. */
-static void say_number(const char *option, double value) {
+/* Prints an option with the fewest digits that preserve the value. */
+static void print_option(const char *option, double value) {
     char text[40];
     for (int digits = 15; digits <= 17; ++digits) {
         aur_format(text, sizeof text, "%.*g", digits, value);
@@ -80,19 +80,19 @@ static void say_number(const char *option, double value) {
     aur_print(stderr, " %s %s", option, text);
 }
 
-/* The command that makes the same bits without a choice and without a clock. */
-static void say_again(const aur_adaptive *adaptive, const cli_target *target,
-                      const aur_adaptive_report *report) {
+/* Prints the command that reproduces the image bit for bit without a choice of integrator or a time limit. */
+static void print_command(const aur_adaptive *adaptive, const cli_target *target,
+                          const aur_adaptive_report *report) {
     aur_print(stderr, "aureole: to reproduce this image:");
     if (*aur_adaptive_integrator(adaptive) != '\0')
         aur_print(stderr, " --integrator '%s'", aur_adaptive_integrator(adaptive));
     if (target->error > 0.0)
-        say_number("--error", target->error);
+        print_option("--error", target->error);
     if (target->measure != AUR_ERROR_MEASURE_RELATIVE)
         aur_print(stderr, " --error-measure %s", aur_error_measure_name(target->measure));
     if (report->bias_room > 0.0)
-        say_number("--bias", report->bias_room);
-    if (target->rays > 0) /* the trials may have taken them all */
+        print_option("--bias", report->bias_room);
+    if (target->rays > 0) /* the candidates may have used all */
         aur_print(stderr, " --rays %" PRIu64,
                   target->rays > report->candidate_rays ? target->rays - report->candidate_rays : 1);
     if (target->seconds > 0.0 || target->rounds > 0)
@@ -100,7 +100,8 @@ static void say_again(const aur_adaptive *adaptive, const cli_target *target,
     aur_print(stderr, "\n");
 }
 
-static void say(const aur_adaptive *adaptive, const cli_target *target, const char *output, bool verbose) {
+static void print_result(const aur_adaptive *adaptive, const cli_target *target, const char *output,
+                         bool verbose) {
     aur_adaptive_report report = {.size = sizeof report};
     aur_adaptive_get_report(adaptive, &report, NULL);
     const aur_render_statistics *const spent = &report.statistics;
@@ -108,14 +109,14 @@ static void say(const aur_adaptive *adaptive, const cli_target *target, const ch
         aur_print(stderr, "aureole: %s is black: no light of the scene reaches the camera\n", output);
         return;
     }
-    say_again(adaptive, target, &report);
+    print_command(adaptive, target, &report);
     char bias[64] = "";
     if (report.bias_high > 0.0)
         snprintf(bias, sizeof bias, ", of which at most %.3g %% are bias", 100.0 * report.bias_high);
     aur_print(stderr,
               "aureole: %s has an error of %.3g %% %s, between %.3g and %.3g (95 %%)%s, after %.4g "
               "samples per pixel, %.3g rays, %.1f s by %s\n",
-              output, 100.0 * report.error, measure_words[target->measure], 100.0 * report.error_low,
+              output, 100.0 * report.error, measure_texts[target->measure], 100.0 * report.error_low,
               100.0 * report.error_high, bias, report.samples_per_pixel, (double)spent->rays,
               spent->prepare_seconds + spent->render_seconds, aur_adaptive_integrator(adaptive));
     for (size_t i = 0; i < report.race_count && verbose; ++i) {
@@ -126,15 +127,15 @@ static void say(const aur_adaptive *adaptive, const cli_target *target, const ch
     }
     for (unsigned m = 0; m < AUR_ERROR_MEASURE_COUNT && verbose; ++m)
         aur_print(stderr, "aureole: its error is %.3g %% %s, between %.3g and %.3g (95 %%)\n",
-                  100.0 * report.errors[m].error, measure_words[m], 100.0 * report.errors[m].low,
+                  100.0 * report.errors[m].error, measure_texts[m], 100.0 * report.errors[m].low,
                   100.0 * report.errors[m].high);
 }
 
-void cli_say_denoised(const aur_error_figures *figures, aur_error_measure measure) {
+void cli_report_denoised(const aur_error_figures *figures, aur_error_measure measure) {
     aur_print(stderr,
               "aureole: the error above is that of the noisy image; denoised half of the samples: %.3g %% "
               "%s, at most %.3g (95 %%)\n",
-              100.0 * figures->error, measure_words[measure], 100.0 * figures->high);
+              100.0 * figures->error, measure_texts[measure], 100.0 * figures->high);
 }
 
 static aur_result print_json(const aur_adaptive *adaptive, const char *output, const aur_image *image,
@@ -158,37 +159,37 @@ static aur_result print_json(const aur_adaptive *adaptive, const char *output, c
 }
 
 aur_result cli_render_target(aur_renderer *renderer, const aur_render_options *options,
-                             const cli_target *target, const cli_surroundings *beside, aur_adaptive **made,
-                             aur_image **image, aur_error *error) {
-    aur_adaptive_options own = {.size = sizeof own};
-    aur_adaptive_options_init(&own, NULL);
-    own.error = target->error;
-    own.bias = target->bias;
-    own.seconds = target->seconds;
-    own.rays = target->rays;
-    own.rounds = target->rounds;
-    own.measure = target->measure;
+                             const cli_target *target, const cli_render_services *services,
+                             aur_adaptive **created, aur_image **image, aur_error *error) {
+    aur_adaptive_options adaptive_options = {.size = sizeof adaptive_options};
+    aur_adaptive_options_init(&adaptive_options, NULL);
+    adaptive_options.error = target->error;
+    adaptive_options.bias = target->bias;
+    adaptive_options.seconds = target->seconds;
+    adaptive_options.rays = target->rays;
+    adaptive_options.rounds = target->rounds;
+    adaptive_options.measure = target->measure;
     aur_adaptive *adaptive = NULL;
-    aur_result result = aur_adaptive_create(renderer, options, &own, &adaptive, error);
-    *made = adaptive;
+    aur_result result = aur_adaptive_create(renderer, options, &adaptive_options, &adaptive, error);
+    *created = adaptive;
     if (result == AUR_OK)
-        result = cli_checkpoint_begin(beside->checkpoint, NULL, adaptive, beside->quiet, error);
-    const bool begun = result == AUR_OK;
-    if (begun) {
-        cli_watch_show(beside->watch, NULL, adaptive);
+        result = cli_checkpoint_begin(services->checkpoint, NULL, adaptive, services->quiet, error);
+    const bool started = result == AUR_OK;
+    if (started) {
+        cli_watch_show(services->watch, NULL, adaptive);
         result = aur_adaptive_run(adaptive, error);
-        cli_watch_hide(beside->watch);
+        cli_watch_hide(services->watch);
     }
     cli_progress_clear();
-    if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
-        cli_checkpoint_end(beside->checkpoint, false);
+    if (started && result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        cli_checkpoint_end(services->checkpoint, false);
     if (result == AUR_OK)
         result = aur_adaptive_develop(adaptive, target->error_map, image, error);
     else if (result == AUR_ERROR_CANCELLED && adaptive != NULL) /* there may be no image yet */
         aur_adaptive_develop(adaptive, target->error_map, image, NULL);
-    if (result == AUR_OK && !beside->quiet)
-        say(adaptive, target, beside->output, beside->verbose);
-    if (result == AUR_OK && beside->json && aur_ranks_rank() == 0)
-        result = print_json(adaptive, beside->output, *image, error);
+    if (result == AUR_OK && !services->quiet)
+        print_result(adaptive, target, services->output, services->verbose);
+    if (result == AUR_OK && services->json && aur_ranks_rank() == 0)
+        result = print_json(adaptive, services->output, *image, error);
     return result;
 }

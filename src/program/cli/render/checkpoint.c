@@ -37,7 +37,7 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Rank 0 writes, whichever thread comes here. A failure is warned of once: a full disk stays full. */
+/* Rank 0 writes, on any thread. Only the first failure is reported, because a full disk stays full. */
 static void save(cli_checkpoint *checkpoint) {
     if (!checkpoint->writes)
         return;

@@ -1,4 +1,4 @@
-/* aureole compare: figures of the difference between a reference and images. */
+/* aureole compare: difference metrics between a reference and images. */
 #include <aureole-render/image.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@ typedef struct compare_options {
     cli_list metrics;
     double tolerance;
     double scale;
-    cli_picture picture;
+    cli_image_input input;
     const char *outfile;
     const char *html;
     cli_common common;
@@ -38,7 +38,7 @@ static aur_image_metric metric_at(const compare_options *options, size_t index) 
     return metric;
 }
 
-/* Says which image an error without a file is about. */
+/* Adds the image's name to an error without a file name. */
 static int fail_about(const char *path, aur_error *error) {
     snprintf(error->file, sizeof error->file, "%s", path);
     return cli_fail(error);
@@ -86,7 +86,7 @@ static report_table *create_table(const compare_options *options) {
     return table;
 }
 
-/* Absolute differences of luminances with a scale in cd/m2. */
+/* Absolute differences of luminances with a color scale in cd/m2. */
 static int draw_luminances(const aur_image *reference, const aur_image *image,
                            const compare_options *options) {
     aur_image *map = NULL;
@@ -101,10 +101,10 @@ static int draw_luminances(const aur_image *reference, const aur_image *image,
     return cli_status(result, &error);
 }
 
-/* Of FLIP its map, of every other metric the absolute difference. */
+/* The error map: of FLIP its map, of all other metrics the absolute difference. */
 static int write_difference(const aur_image *reference, const aur_image *image,
                             const compare_options *options) {
-    if (options->picture.luminance != CLI_LUMINANCE_NONE)
+    if (options->input.luminance != CLI_LUMINANCE_NONE)
         return draw_luminances(reference, image, options);
     aur_error error;
     aur_image *map = NULL, *colored = NULL;
@@ -129,12 +129,12 @@ static int run(const cli_call *call) {
     if (options->outfile != NULL && call->operand_count > 2)
         return cli_bad_usage("compare: --output takes one image (found %zu)", call->operand_count - 1);
     aur_image *reference = NULL;
-    int status = cli_read_picture(call->operands[0], &options->picture, &reference);
+    int status = cli_read_image(call->operands[0], &options->input, &reference);
     report_table *const table = create_table(options);
     bool within = true;
     for (size_t i = 1; i < call->operand_count && status == CLI_SUCCESS; ++i) {
         aur_image *image = NULL;
-        status = cli_read_picture(call->operands[i], &options->picture, &image);
+        status = cli_read_image(call->operands[i], &options->input, &image);
         if (status == CLI_SUCCESS)
             status = add_row(call->operands[i], reference, image, options, table, &within);
         if (status == CLI_SUCCESS && options->outfile != NULL)
@@ -147,8 +147,8 @@ static int run(const cli_call *call) {
         report_destroy(table);
     aur_image_destroy(reference);
     if (status == CLI_SUCCESS && options->html != NULL)
-        status = cli_write_viewer(options->html, call->operand_count, call->operands, &options->picture, 0.0,
-                                  true);
+        status =
+            cli_write_viewer(options->html, call->operand_count, call->operands, &options->input, 0.0, true);
     return status == CLI_SUCCESS && !within ? CLI_DIFFERENCE : status;
 }
 
@@ -164,7 +164,7 @@ const cli_command cli_command_compare = {
     .operands = {{"REFERENCE", "the reference image", .content = "file"},
                  {"IMAGE", "images of the same size", .repeated = true, .content = "file"}},
     .groups = {{rows, 0},
-               {cli_picture_options, offsetof(compare_options, picture)},
+               {cli_image_input_options, offsetof(compare_options, input)},
                {cli_format_option, offsetof(compare_options, common)}},
     .size = sizeof(compare_options),
     .run = run,

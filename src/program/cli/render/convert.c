@@ -1,13 +1,13 @@
-/* aureole convert: from one image format to another. */
+/* aureole convert: converts between image formats. */
 #include <string.h>
 
 #include "program/cli/render/picture.h"
 
 typedef struct convert_options {
     aur_image_write_options write;
-    double falsecolor; /* the end of the scale */
+    double falsecolor; /* the upper end of the scale */
     bool contours;
-    cli_picture picture;
+    cli_image_input input;
 } convert_options;
 
 static const cli_option options[] = {
@@ -19,7 +19,7 @@ static const cli_option options[] = {
     {CLI_FLAG(convert_options, write.half, "half", "write 16-bit floats instead of 32-bit ones (EXR)")},
     {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
               "output format, if the extension of OUT does not select it"),
-     .name = cli_picture_format},
+     .name = cli_image_input_format},
     {CLI_REAL(
         convert_options, falsecolor, "falsecolor", "MAX", 0, 1e30, NULL,
         "draw a map of --luminance in false colours with a scale up to MAX cd/m2 (0: the largest): PNG, SVG, "
@@ -28,7 +28,7 @@ static const cli_option options[] = {
               "draw contours at round values on the map of --falsecolor")},
     {.key = {0}}};
 
-/* Options that would have no effect are mistakes. */
+/* Rejects options that would have no effect. */
 static bool options_fit(const cli_call *call, const aur_row *format) {
     static const char *const some[] = {"exposure", "tone", "half"};
     for (size_t i = 0; i < sizeof some / sizeof some[0]; ++i)
@@ -49,14 +49,14 @@ static void warn_of_values(const char *path, const aur_image *image, const char 
         cli_warn_of_values(path, image, false, "they are written as they are");
 }
 
-/* Another format than an image's may stand there: a figure's. */
+/* With --luminance a figure format is possible. */
 static int draw_map(const cli_call *call, const char *output) {
     convert_options *const given = call->options;
     aur_image *image = NULL;
     aur_error error;
-    if (given->picture.luminance == CLI_LUMINANCE_NONE)
+    if (given->input.luminance == CLI_LUMINANCE_NONE)
         return cli_bad_usage("convert: --falsecolor is of --luminance WEIGHTS");
-    int status = cli_read_picture(call->operands[0], &given->picture, &image);
+    int status = cli_read_image(call->operands[0], &given->input, &image);
     if (status == CLI_SUCCESS) {
         status = cli_status(cli_image_map(output, image, given->falsecolor, given->contours, &error), &error);
     }
@@ -77,7 +77,7 @@ static int run(const cli_call *call) {
     if (status != CLI_SUCCESS || !options_fit(call, format))
         return CLI_BAD_INPUT;
     aur_image *image = NULL;
-    status = cli_read_picture(call->operands[0], &given->picture, &image);
+    status = cli_read_image(call->operands[0], &given->input, &image);
     if (status == CLI_SUCCESS) {
         warn_of_values(call->operands[0], image, format->name);
         given->write.size = sizeof given->write;
@@ -96,7 +96,7 @@ const cli_command cli_command_convert = {
     .too_many = "expected one input and one output",
     .operands = {{"IN", "input image", .content = "file"},
                  {"OUT", "output image", .content = "file", .writes = true}},
-    .groups = {{options, 0}, {cli_picture_options, offsetof(convert_options, picture)}},
+    .groups = {{options, 0}, {cli_image_input_options, offsetof(convert_options, input)}},
     .size = sizeof(convert_options),
     .run = run,
 };

@@ -5,13 +5,13 @@
 #include <string.h>
 
 const cli_option cli_denoise_options[] = {
-    {CLI_FLAG(cli_denoise, wanted, "denoise",
+    {CLI_FLAG(cli_denoise, enabled, "denoise",
               "denoise with Open Image Denoise (library from AUREOLE_OIDN or the system); the noisy image is "
               "written to the channels noisy.R, noisy.G, noisy.B")},
     {.key = {0}}};
 
 aur_result cli_denoise_begin(cli_denoise *denoise, aur_error *error) {
-    return denoise->wanted ? cli_oidn_open(&denoise->library, error) : AUR_OK;
+    return denoise->enabled ? cli_oidn_open(&denoise->library, error) : AUR_OK;
 }
 
 void cli_denoise_end(cli_denoise *denoise) {
@@ -19,21 +19,20 @@ void cli_denoise_end(cli_denoise *denoise) {
     denoise->library = NULL;
 }
 
-/* What the first surfaces are like, beside the light that is seen directly: a few samples have little noise.
- */
+/* Renders albedo, normals and directly visible light: a few samples give little noise. */
 static aur_result render_features(aur_renderer *renderer, const aur_render_options *options,
                                   aur_image **features, aur_error *error) {
     enum { SAMPLES = 16 };
-    aur_render_options own = *options;
-    own.integrator = "aov:aovs=(albedo:albedo,normal:sh_normal),integrator=(path:max_depth=1)";
-    own.sampler = "sobol";
-    own.samples_per_pixel = SAMPLES;
-    own.resumable = false;
-    own.warnings = (aur_warnings){0};
-    return aur_renderer_render(renderer, &own, features, NULL, error);
+    aur_render_options aov_options = *options;
+    aov_options.integrator = "aov:aovs=(albedo:albedo,normal:sh_normal),integrator=(path:max_depth=1)";
+    aov_options.sampler = "sobol";
+    aov_options.samples_per_pixel = SAMPLES;
+    aov_options.resumable = false;
+    aov_options.warnings = (aur_warnings){0};
+    return aur_renderer_render(renderer, &aov_options, features, NULL, error);
 }
 
-/* One channel after the other into an image that has room for them, each under a name that it has not. */
+/* Copies channels to the next free channels of an image, with a prefix that makes the names unique. */
 static aur_result add_channels(aur_image *to, size_t *count, const aur_image *from, size_t first, size_t end,
                                const char *prefix, aur_error *error) {
     const size_t pixels = aur_image_width(to) * aur_image_height(to);
@@ -50,17 +49,17 @@ static aur_result add_channels(aur_image *to, size_t *count, const aur_image *fr
     return result;
 }
 
-/* The image's own channels, then those beside. */
+/* The channels of the image, then the additional ones. */
 static aur_result put_together(const aur_image *image, const aur_image *features, aur_image **whole,
                                aur_error *error) {
-    const size_t own = aur_image_channel_count(image), all = aur_image_channel_count(features);
+    const size_t image_channels = aur_image_channel_count(image), all = aur_image_channel_count(features);
     const bool has_features = aur_image_find_channel(image, "albedo.R") != SIZE_MAX ||
                               aur_image_find_channel(image, "normal.X") != SIZE_MAX;
     size_t count = 0;
     aur_result result = aur_image_create(aur_image_width(image), aur_image_height(image),
-                                         own + 3 + (has_features ? 0 : all - 3), whole, error);
+                                         image_channels + 3 + (has_features ? 0 : all - 3), whole, error);
     if (result == AUR_OK)
-        result = add_channels(*whole, &count, image, 0, own, "", error);
+        result = add_channels(*whole, &count, image, 0, image_channels, "", error);
     if (result == AUR_OK)
         result = add_channels(*whole, &count, image, 0, 3, "noisy.", error);
     if (result == AUR_OK && !has_features)
@@ -68,55 +67,55 @@ static aur_result put_together(const aur_image *image, const aur_image *features
     return result;
 }
 
-/* Into the first channels of `out`. */
+/* Writes to the first channels of `out`. */
 static aur_result denoise(const cli_denoise *denoise, const aur_image *image, aur_image *features,
                           aur_image *out, aur_error *error) {
     aur_image *rest = NULL;
-    aur_result result = cli_known_take(image, features, &rest, error);
+    aur_result result = cli_direct_light_subtract(image, features, &rest, error);
     if (result == AUR_OK)
         result = cli_oidn_run(denoise->library, rest, features, out, error);
     if (result == AUR_OK)
-        result = cli_known_restore(image, features, out, error);
+        result = cli_direct_light_restore(image, features, out, error);
     aur_image_destroy(rest);
     return result;
 }
 
-/* The error of what the denoiser makes of half of the samples. */
-static aur_result denoise_halves(const cli_denoise *wanted, const aur_adaptive *adaptive, aur_image *features,
-                                 aur_error_figures *figures, aur_error *error) {
-    aur_image *made[2] = {NULL, NULL};
+/* The error of the denoised halves of the samples. */
+static aur_result denoise_halves(const cli_denoise *denoiser, const aur_adaptive *adaptive,
+                                 aur_image *features, aur_error_figures *figures, aur_error *error) {
+    aur_image *denoised[2] = {NULL, NULL};
     aur_result result = AUR_OK;
     for (size_t h = 0; h < 2 && result == AUR_OK; ++h) {
         aur_image *half = NULL;
         result = aur_adaptive_develop_half(adaptive, h, &half, error);
         if (result == AUR_OK)
-            result = aur_image_create(aur_image_width(half), aur_image_height(half), 3, &made[h], error);
+            result = aur_image_create(aur_image_width(half), aur_image_height(half), 3, &denoised[h], error);
         if (result == AUR_OK)
-            result = denoise(wanted, half, features, made[h], error);
+            result = denoise(denoiser, half, features, denoised[h], error);
         aur_image_destroy(half);
     }
     if (result == AUR_OK)
-        result = aur_adaptive_compare_halves(adaptive, (const aur_image *const[2]){made[0], made[1]}, figures,
-                                             error);
-    aur_image_destroy(made[0]);
-    aur_image_destroy(made[1]);
+        result = aur_adaptive_compare_halves(adaptive, (const aur_image *const[2]){denoised[0], denoised[1]},
+                                             figures, error);
+    aur_image_destroy(denoised[0]);
+    aur_image_destroy(denoised[1]);
     return result;
 }
 
-aur_result cli_denoise_picture(const cli_denoise *wanted, aur_renderer *renderer,
-                               const aur_render_options *options, const aur_adaptive *adaptive,
-                               aur_image **image, aur_error_figures *figures, aur_error *error) {
+aur_result cli_denoise_image(const cli_denoise *denoiser, aur_renderer *renderer,
+                             const aur_render_options *options, const aur_adaptive *adaptive,
+                             aur_image **image, aur_error_figures *figures, aur_error *error) {
     *figures = (aur_error_figures){.error = 0.0};
-    if (!wanted->wanted)
+    if (!denoiser->enabled)
         return AUR_OK;
     aur_image *features = NULL, *whole = NULL;
     aur_result result = render_features(renderer, options, &features, error);
     if (result == AUR_OK)
         result = put_together(*image, features, &whole, error);
     if (result == AUR_OK)
-        result = denoise(wanted, *image, features, whole, error);
+        result = denoise(denoiser, *image, features, whole, error);
     if (result == AUR_OK && adaptive != NULL)
-        result = denoise_halves(wanted, adaptive, features, figures, error);
+        result = denoise_halves(denoiser, adaptive, features, figures, error);
     aur_image_destroy(features);
     if (result != AUR_OK) {
         aur_image_destroy(whole);
@@ -127,10 +126,10 @@ aur_result cli_denoise_picture(const cli_denoise *wanted, aur_renderer *renderer
     return AUR_OK;
 }
 
-aur_result cli_denoise_keep(const cli_denoise *denoise, const char *output, const aur_image *image,
-                            aur_error *error) {
+aur_result cli_denoise_write_noisy(const cli_denoise *denoise, const char *output, const aur_image *image,
+                                   aur_error *error) {
     const aur_row *format = NULL;
-    if (!denoise->wanted || aur_image_find_writer(output, NULL, &format, error) != AUR_OK ||
+    if (!denoise->enabled || aur_image_find_writer(output, NULL, &format, error) != AUR_OK ||
         strcmp(format->name, "exr") == 0)
         return AUR_OK;
     char path[PATH_MAX];

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Light is bright from so many times the image's mean on. Chosen: reflected light is rarely brighter, and
- * what is less bright denoisers keep well. */
+/* Light counts as bright from this multiple of the image's mean. Empirical: reflected light is rarely
+ * brighter, and denoisers preserve darker features well. */
 static const double BRIGHT = 4.0;
 static const double STANDARD_ERRORS = 2.0;
 
@@ -38,14 +38,14 @@ static float largest_around(const aur_image *image, size_t pixel) {
     return most;
 }
 
-/* The few samples of `lights` may have missed a lamp that fills a small part of the pixel. */
+/* The few samples of `lights` may have missed a light source that covers a small part of the pixel. */
 static bool sees_bright_light(const aur_image *image, const aur_image *lights, size_t pixel, float bright) {
     return largest(pixel_of(lights, pixel)) > bright ||
            (largest(pixel_of(image, pixel)) > bright && largest_around(lights, pixel) > bright);
 }
 
-aur_result cli_known_take(const aur_image *image, const aur_image *lights, aur_image **rest,
-                          aur_error *error) {
+aur_result cli_direct_light_subtract(const aur_image *image, const aur_image *lights, aur_image **rest,
+                                     aur_error *error) {
     const aur_result result =
         aur_image_create(aur_image_width(image), aur_image_height(image), 3, rest, error);
     if (result != AUR_OK)
@@ -60,7 +60,7 @@ aur_result cli_known_take(const aur_image *image, const aur_image *lights, aur_i
     return AUR_OK;
 }
 
-/* The sum of `values` over the pixels at most REACH away. */
+/* The sum of `values` over the pixels within REACH. */
 static double sum_around(const double *values, size_t width, size_t height, size_t pixel) {
     enum { REACH = 2 };
     const size_t x = pixel % width, y = pixel / width;
@@ -71,8 +71,7 @@ static double sum_around(const double *values, size_t width, size_t height, size
     return sum;
 }
 
-/* Squares of the changes that the denoiser made, and of the standard errors; both zero where light is seen.
- */
+/* Squares of the denoiser's changes and of the standard errors; both zero where light is directly visible. */
 static void measure_changes(const aur_image *image, const aur_image *out, const bool *sees, double *changes,
                             double *errors) {
     const size_t first = aur_image_find_channel(image, "error.R");
@@ -87,8 +86,8 @@ static void measure_changes(const aur_image *image, const aur_image *out, const 
     }
 }
 
-aur_result cli_known_restore(const aur_image *image, const aur_image *lights, aur_image *out,
-                             aur_error *error) {
+aur_result cli_direct_light_restore(const aur_image *image, const aur_image *lights, aur_image *out,
+                                    aur_error *error) {
     const size_t width = aur_image_width(image), height = aur_image_height(image), count = width * height;
     const float bright = bright_from(image);
     double *const changes = malloc(2 * count * sizeof *changes), *const errors = changes + count;

@@ -1,4 +1,4 @@
-/* The brightness of an image as a density, for `aureole points --warp`. */
+/* The brightness of an image as a density for `aureole points --warp`. */
 #include <aureole-render/image.h>
 #include <stdlib.h>
 

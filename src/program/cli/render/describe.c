@@ -1,4 +1,4 @@
-/* What is in a scene or an image, for `aureole info`. */
+/* Describes a scene or an image for `aureole info`. */
 #include <aureole-render/image.h>
 #include <aureole-render/render.h>
 #include <aureole-render/scene.h>
@@ -78,7 +78,7 @@ static int describe_picture(const cli_info_input *input, const char *format,
     return cli_finish(table, options->common.format);
 }
 
-/* XML begins with '<', after a byte order mark and white space. */
+/* XML begins with '<', possibly after a byte order mark and white space. */
 static bool is_xml(size_t size, const char *text) {
     size_t i = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     while (i < size && isspace((unsigned char)text[i]))

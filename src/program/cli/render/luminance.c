@@ -1,4 +1,4 @@
-/* Luminances of images in cd/m2, and maps of them in false colours with a scale. */
+/* Luminances of images in cd/m2, and false-color maps of them with a scale. */
 #include "program/cli/render/luminance.h"
 
 #include <math.h>
@@ -20,31 +20,31 @@ aur_result cli_image_luminance(cli_luminance weights, aur_image **image, aur_err
     const size_t width = aur_image_width(from), height = aur_image_height(from),
                  count = aur_image_channel_count(from);
     size_t channels[3];
-    aur_image *made = NULL;
+    aur_image *luminances = NULL;
     aur_result result = aur_image_color_channels(from, channels)
                             ? AUR_OK
                             : aur_fail(error, AUR_ERROR_FORMAT, "--luminance: the image has no R, G and B");
     if (result == AUR_OK)
-        result = aur_image_create(width, height, 1, &made, error);
+        result = aur_image_create(width, height, 1, &luminances, error);
     if (result == AUR_OK)
-        result = aur_image_name_channel(made, 0, "Y", error);
+        result = aur_image_name_channel(luminances, 0, "Y", error);
     const float *const values = aur_image_data(from);
     for (size_t i = 0; i < width * height && result == AUR_OK; ++i) {
         double sum = 0.0;
         for (size_t c = 0; c < 3; ++c)
             sum += rows[weights].weights[c] * (double)values[count * i + channels[c]];
-        aur_image_data(made)[i] = (float)(rows[weights].efficacy * sum);
+        aur_image_data(luminances)[i] = (float)(rows[weights].efficacy * sum);
     }
     if (result != AUR_OK) {
-        aur_image_destroy(made);
+        aur_image_destroy(luminances);
         return result;
     }
     aur_image_destroy(*image);
-    *image = made;
+    *image = luminances;
     return AUR_OK;
 }
 
-/* The means of blocks of so many pixels that the map has LONGEST cells at most along each side. */
+/* Averages blocks of pixels, so that the map has at most LONGEST cells along each side. */
 static size_t take_cells(const aur_image *image, size_t block, report_point *cells, double *most) {
     const size_t width = aur_image_width(image), height = aur_image_height(image);
     const float *const values = aur_image_data(image);

@@ -1,4 +1,4 @@
-/* aureole merge: the parts of an image, rendered one by one, to the image. */
+/* aureole merge: merges the separately rendered parts of an image. */
 #include <aureole-render/render.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What oidn.h of versions 1.4 and 2 declares, as far as it is used: devices and filters are handles. */
+/* The declarations of oidn.h, versions 1.4 and 2, that are used: devices and filters are handles. */
 enum { OIDN_DEVICE_CPU = 1, OIDN_FORMAT_FLOAT3 = 3 };
 
 typedef struct oidn_device oidn_device;
@@ -28,7 +28,7 @@ struct cli_oidn {
     void (*release_filter)(oidn_filter *filter);
 };
 
-/* A function of the library by one of its names; `function` is the place of a pointer to it. */
+/* Resolves a function by one of its names; `function` points to a function pointer. */
 static bool find(void *library, const char *name, const char *other_name, void *function) {
     void *found = dlsym(library, name);
     if (found == NULL && other_name != NULL)
@@ -55,8 +55,8 @@ static const char *const files[] = {"libOpenImageDenoise.so.2", "libOpenImageDen
                                     "libOpenImageDenoise.so"};
 enum { FILE_COUNT = sizeof files / sizeof files[0] };
 
-/* The library of an oidnDenoise in PATH: unpacked archives have it in ../lib. */
-static void *open_beside_program(void) {
+/* Loads the library next to an oidnDenoise in PATH: release archives have it in ../lib. */
+static void *open_next_to_program(void) {
     const char *const path = getenv("PATH");
     for (const char *at = path != NULL ? path : ""; *at != '\0';) {
         const size_t length = strcspn(at, ":");
@@ -82,27 +82,27 @@ static void *open_library(const char *named) {
         if (library != NULL)
             return library;
     }
-    return open_beside_program();
+    return open_next_to_program();
 }
 
-aur_result cli_oidn_open(cli_oidn **made, aur_error *error) {
+aur_result cli_oidn_open(cli_oidn **created, aur_error *error) {
     const char *const named = getenv("AUREOLE_OIDN");
-    cli_oidn own = {.library = open_library(named)};
-    if (own.library == NULL && named != NULL && named[0] != '\0')
+    cli_oidn loaded = {.library = open_library(named)};
+    if (loaded.library == NULL && named != NULL && named[0] != '\0')
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "--denoise: the library that AUREOLE_OIDN names: %s",
                         dlerror());
-    if (own.library == NULL)
+    if (loaded.library == NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "--denoise: no Open Image Denoise is found: install libopenimagedenoise, or name its "
                         "library in AUREOLE_OIDN, such as .../pyoidn/lib/libOpenImageDenoise.so.2");
-    cli_oidn *const oidn = find_all(&own) ? malloc(sizeof *oidn) : NULL;
+    cli_oidn *const oidn = find_all(&loaded) ? malloc(sizeof *oidn) : NULL;
     if (oidn == NULL) {
-        dlclose(own.library);
+        dlclose(loaded.library);
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "--denoise: the library is not Open Image Denoise 1.4 or 2");
     }
-    *oidn = own;
-    *made = oidn;
+    *oidn = loaded;
+    *created = oidn;
     return AUR_OK;
 }
 

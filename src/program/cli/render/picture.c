@@ -7,18 +7,18 @@
 
 #include "program/cli/listing.h"
 
-const cli_option cli_picture_options[] = {
-    {CLI_TEXT(cli_picture, channels, "channels", "NAME", NULL, "channels to use, in this order"),
+const cli_option cli_image_input_options[] = {
+    {CLI_TEXT(cli_image_input, channels, "channels", "NAME", NULL, "channels to use, in this order"),
      .list = true},
-    {CLI_INTEGER(cli_picture, downsample, "downsample", "N", 1, INFINITY, "1",
+    {CLI_INTEGER(cli_image_input, downsample, "downsample", "N", 1, INFINITY, "1",
                  "average blocks of N x N pixels")},
-    {CLI_CHOICE(cli_picture, luminance, "luminance", "WEIGHTS", "none",
+    {CLI_CHOICE(cli_image_input, luminance, "luminance", "WEIGHTS", "none",
                 "luminance in cd/m2 instead of colours: 179 lm/W and Radiance's weights of r, g, b; 179 lm/W "
                 "and those of Rec. 709; or these and 683 lm/W (photopic)"),
      .key.words = (const char *const[]){"none", "radiance", "rec709", "photopic", NULL}},
     {.key = {0}}};
 
-const char *cli_picture_format(unsigned index) {
+const char *cli_image_input_format(unsigned index) {
     const aur_table *const formats = cli_find_table("image");
     const aur_row *row;
     for (size_t i = 0; i < formats->count; ++i)
@@ -61,7 +61,7 @@ void cli_warn_of_values(const char *path, const aur_image *image, bool negative,
              fate);
 }
 
-int cli_read_picture(const char *path, const cli_picture *options, aur_image **image) {
+int cli_read_image(const char *path, const cli_image_input *options, aur_image **image) {
     aur_error error;
     aur_result result = aur_image_read(path, image, &error);
     if (result == AUR_OK && aur_image_notes(*image)[0] != '\0')

@@ -1,4 +1,4 @@
-/* aureole render: a scene to an image. */
+/* aureole render: renders a scene to an image. */
 #include <aureole-render/render.h>
 #include <aureole/ranks.h>
 #include <aureole/text.h>
@@ -132,7 +132,7 @@ static const cli_option options[] = {
               "print ray counts, timings and the error as JSON on standard output")},
     {.key = {0}}};
 
-/* SCENE.exr in the current folder, from the scene's file name; SCENE.i-of-n.part for a part. */
+/* SCENE.exr in the current folder, from the scene's file name; SCENE.i-of-n.part for a shard. */
 static void default_output(const char *scene, const aur_render_options *part, size_t capacity, char *output) {
     const char *const slash = strrchr(scene, '/');
     const char *const name = slash != NULL ? slash + 1 : scene;
@@ -144,22 +144,22 @@ static void default_output(const char *scene, const aur_render_options *part, si
         snprintf(output, capacity, "%.*s.exr", (int)length, name);
 }
 
-/* The samples of the next step: all that remain, or where somebody looks on, until every pixel has 1, 2, 4,
- * ... Elsewhere two halves, where that changes no bit: their difference says how good the image is. */
-static size_t next_step(const aur_render *render, bool looked_at) {
+/* The samples of the next step: all remaining ones, or with progress display until every pixel has 1, 2, 4,
+ * ... samples. Otherwise two halves, if the result is bit-identical: their difference estimates the error. */
+static size_t next_step(const aur_render *render, bool displayed) {
     const size_t done = aur_render_samples(render);
-    if (looked_at)
+    if (displayed)
         return done > 0 ? done : 1;
     return done == 0 && aur_render_steps_agree(render) ? aur_render_samples_wanted(render) / 2 : 0;
 }
 
 static aur_result render_steps(aur_render *render, render_command *command, cli_errors *errors,
                                aur_error *error) {
-    const bool looked_at =
-        errors != NULL || (cli_watch_is_asked(&command->watch) && aur_render_steps_agree(render));
+    const bool displayed =
+        errors != NULL || (cli_watch_is_requested(&command->watch) && aur_render_steps_agree(render));
     aur_result result = AUR_OK;
     while (result == AUR_OK && aur_render_samples(render) < aur_render_samples_wanted(render)) {
-        result = cli_watch_step(&command->watch, render, next_step(render, looked_at), error);
+        result = cli_watch_step(&command->watch, render, next_step(render, displayed), error);
         if (result == AUR_OK && errors != NULL)
             result = cli_errors_note(errors, render, error);
     }
@@ -187,23 +187,23 @@ static aur_result print_json(const aur_render *render, const render_command *com
     return cli_print_json(&summary, error);
 }
 
-/* All samples; *image is what there is in the end. *made is to be destroyed in every case. */
+/* Renders all samples; *image is the result, partial if cancelled. The caller always destroys *render. */
 static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
-                                 aur_render **made, aur_image **image, aur_error *error) {
-    aur_result result = aur_render_create(renderer, &command->options, made, error);
-    aur_render *const render = *made;
+                                 aur_render **created, aur_image **image, aur_error *error) {
+    aur_result result = aur_render_create(renderer, &command->options, created, error);
+    aur_render *const render = *created;
     if (result == AUR_OK)
         result = cli_checkpoint_begin(&command->checkpoint, render, NULL, command->common.quiet, error);
-    const bool begun = result == AUR_OK;
-    if (begun) {
+    const bool started = result == AUR_OK;
+    if (started) {
         cli_watch_show(&command->watch, render, NULL);
         result = render_steps(render, command, errors, error);
         cli_watch_hide(&command->watch);
     }
     cli_progress_clear();
-    if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
+    if (started && result != AUR_OK && result != AUR_ERROR_CANCELLED)
         cli_checkpoint_end(&command->checkpoint, false);
-    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+    if (started && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
         const aur_result developed = aur_film_develop(aur_render_film(render), image, error);
         result = developed != AUR_OK ? developed : result;
     }
@@ -217,7 +217,7 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
     return result;
 }
 
-/* In the time of a photon or particle: a sample of a pixel takes that of three. */
+/* In units of a photon's or particle's time: a sample of a pixel takes three. */
 static void plan(const render_command *command) {
     static cli_phase phases[] = {{"photons", 5e5}, {"rendering", 0.0}};
     aur_scene_description scene = {.size = sizeof scene};
@@ -236,33 +236,33 @@ static void plan(const render_command *command) {
     cli_progress_plan(sizeof phases / sizeof phases[0], phases);
 }
 
-/* What can be known to fail is said before an hour is spent. */
+/* Detects errors in the output before a long render. */
 static bool check_output(const char *path) {
     aur_error error;
     const aur_row *format;
-    const bool known = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
-    if (!known)
+    const bool writable = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
+    if (!writable)
         cli_bad_usage("-o: %s", error.message);
-    return known;
+    return writable;
 }
 
-static void say_clamped(const aur_image *image) {
+static void print_clamped(const aur_image *image) {
     const double clamped = cli_clamped_part(image);
     if (clamped > 0.0)
         aur_print(stderr, "aureole: --clamp removed %.2g %% of the light (an estimate of the bias)\n",
                   100.0 * clamped);
 }
 
-static void say_end(render_command *command, const aur_image *image) {
-    if (command->denoise.wanted)
-        command->end.error = 0.0; /* it is that of the noisy image */
+static void print_end(render_command *command, const aur_image *image) {
+    if (command->denoise.enabled)
+        command->end.error = 0.0; /* the estimate applies to the noisy image */
     if (command->options.shard_count > 0)
         aur_print(stderr, "aureole: wrote the part %s; 'aureole merge' merges all parts\n", command->output);
     else
-        cli_say_picture(command->output, image, &command->end);
+        cli_report_image(command->output, image, &command->end);
 }
 
-/* Opens what a render writes to before anything is computed, so that a mistake is told at once. */
+/* Opens the outputs before the computation, so that errors are reported immediately. */
 static aur_result begin(render_command *command, aur_error *error) {
     aur_result result = command->checkpoint.path != NULL
                             ? aur_render_check_checkpoint(command->checkpoint.path, error)
@@ -278,7 +278,7 @@ static aur_result begin(render_command *command, aur_error *error) {
         cli_watch_allow_turns(&command->watch);
     command->options.progress = cli_checkpoint_progress(
         &command->checkpoint,
-        cli_watch_progress(&command->watch, cli_progress_of_kept(command->common.quiet)));
+        cli_watch_progress(&command->watch, cli_progress_of_resumable(command->common.quiet)));
     return result;
 }
 
@@ -286,9 +286,9 @@ static aur_result denoise(const render_command *command, aur_renderer *renderer,
                           aur_image **image, aur_error *error) {
     aur_error_figures halves;
     const aur_result result =
-        cli_denoise_picture(&command->denoise, renderer, &command->options, adaptive, image, &halves, error);
+        cli_denoise_image(&command->denoise, renderer, &command->options, adaptive, image, &halves, error);
     if (result == AUR_OK && !command->common.quiet && halves.high > 0.0)
-        cli_say_denoised(&halves, command->target.measure);
+        cli_report_denoised(&halves, command->target.measure);
     return result;
 }
 
@@ -308,7 +308,7 @@ static aur_scene_options loading(const render_command *command) {
                                .warnings = command->options.warnings};
 }
 
-/* What a render has made, to be destroyed in the order of the fields. */
+/* Objects of a render, in the order of their destruction. */
 typedef struct rendered {
     aur_image *image;
     aur_adaptive *adaptive;
@@ -316,25 +316,25 @@ typedef struct rendered {
     aur_renderer *renderer;
 } rendered;
 
-static void release(rendered *made) {
-    aur_image_destroy(made->image);
-    aur_adaptive_destroy(made->adaptive);
-    aur_render_destroy(made->work);
-    aur_renderer_destroy(made->renderer);
-    *made = (rendered){NULL};
+static void release(rendered *created) {
+    aur_image_destroy(created->image);
+    aur_adaptive_destroy(created->adaptive);
+    aur_render_destroy(created->work);
+    aur_renderer_destroy(created->renderer);
+    *created = (rendered){NULL};
 }
 
-static aur_result render_once(aur_scene *scene, render_command *command, cli_errors *errors, rendered *made,
-                              aur_error *error) {
-    const cli_surroundings beside = {&command->checkpoint,  &command->watch, command->output,
-                                     command->common.quiet, command->json,   command->statistics};
-    const aur_result result = aur_renderer_create(scene, &made->renderer, error);
+static aur_result render_once(aur_scene *scene, render_command *command, cli_errors *errors,
+                              rendered *created, aur_error *error) {
+    const cli_render_services services = {&command->checkpoint,  &command->watch, command->output,
+                                          command->common.quiet, command->json,   command->statistics};
+    const aur_result result = aur_renderer_create(scene, &created->renderer, error);
     if (result != AUR_OK)
         return result;
     return cli_is_target(&command->target)
-               ? cli_render_target(made->renderer, &command->options, &command->target, &beside,
-                                   &made->adaptive, &made->image, error)
-               : render_samples(made->renderer, command, errors, &made->work, &made->image, error);
+               ? cli_render_target(created->renderer, &command->options, &command->target, &services,
+                                   &created->adaptive, &created->image, error)
+               : render_samples(created->renderer, command, errors, &created->work, &created->image, error);
 }
 
 static int render(const char *path, render_command *command, cli_errors *errors) {
@@ -344,48 +344,48 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         return cli_fail(&error);
     const aur_scene_options scene_options = loading(command);
     aur_scene *scene = NULL;
-    rendered made = {NULL};
+    rendered created = {NULL};
     result = aur_scene_load(path, &scene_options, &scene, &error);
     command->scene = scene;
-    if (result == AUR_OK && !cli_is_target(&command->target)) /* whose progress is one phase */
+    if (result == AUR_OK && !cli_is_target(&command->target)) /* progress with a single phase */
         plan(command);
     while (result == AUR_OK) {
-        result = render_once(scene, command, errors, &made, &error);
-        if (!cli_watch_turn(&command->watch, result, scene, made.image))
+        result = render_once(scene, command, errors, &created, &error);
+        if (!cli_watch_turn(&command->watch, result, scene, created.image))
             break;
-        release(&made);
-        command->options.use_cache = false; /* which may have been made for the camera before */
+        release(&created);
+        command->options.use_cache = false; /* the cache may hold results for the previous camera */
         result = AUR_OK;
     }
     if (result == AUR_OK)
-        result = denoise(command, made.renderer, made.adaptive, &made.image, &error);
+        result = denoise(command, created.renderer, created.adaptive, &created.image, &error);
     cli_progress_clear();
-    if (result == AUR_ERROR_CANCELLED && made.image != NULL)
-        cli_write_partial(command->output, made.image);
+    if (result == AUR_ERROR_CANCELLED && created.image != NULL)
+        cli_write_partial(command->output, created.image);
     if (result == AUR_OK && command->options.shard_count == 0)
-        result = cli_display_write(&command->display, path, command->output, made.image,
+        result = cli_display_write(&command->display, path, command->output, created.image,
                                    &command->options.warnings, &error);
     cli_checkpoint_end(&command->checkpoint,
-                       true); /* the made.image is safe now, or only this is left of it */
+                       true); /* the image is written, or the checkpoint is its only copy */
     if (result == AUR_OK)
-        result = cli_denoise_keep(&command->denoise, command->output, made.image, &error);
+        result = cli_denoise_write_noisy(&command->denoise, command->output, created.image, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
-    if (result == AUR_OK && !command->common.quiet && made.image != NULL)
-        say_clamped(made.image);
+    if (result == AUR_OK && !command->common.quiet && created.image != NULL)
+        print_clamped(created.image);
     if (result == AUR_OK && !command->common.quiet &&
-        !cli_is_target(&command->target)) /* which says it itself */
-        say_end(command, made.image);
-    if (result == AUR_OK && !command->common.quiet && made.image != NULL)
-        cli_explain_black(scene, made.image);
-    cli_watch_end(&command->watch, made.image, result, &error);
+        !cli_is_target(&command->target)) /* printed by cli_render_target */
+        print_end(command, created.image);
+    if (result == AUR_OK && !command->common.quiet && created.image != NULL)
+        cli_explain_black(scene, created.image);
+    cli_watch_end(&command->watch, created.image, result, &error);
     cli_denoise_end(&command->denoise);
-    release(&made);
+    release(&created);
     aur_scene_destroy(scene);
     return cli_status(result, &error);
 }
 
-/* NULL, or why options do not go together. */
+/* Returns NULL, or a message if options conflict. */
 static const char *conflict(const cli_call *call, const render_command *command) {
     if ((command->reference == NULL) != (command->errors == NULL))
         return "render: '--reference' and '--errors' must be given together";
@@ -394,7 +394,7 @@ static const char *conflict(const cli_call *call, const render_command *command)
     if (command->options.shard_count > 0 && (cli_is_target(&command->target) || command->reference != NULL))
         return "render: '--shard' cannot be used with '--error', '--time', '--rays', '--rounds' or "
                "'--errors', which need the full image";
-    if (command->options.shard_count > 0 && command->denoise.wanted)
+    if (command->options.shard_count > 0 && command->denoise.enabled)
         return "render: '--denoise' cannot be used with '--shard': it needs the full image";
     if (command->json && command->output != NULL && strcmp(command->output, "-") == 0)
         return "render: '--json' and the image cannot both be written to standard output";
@@ -414,7 +414,7 @@ static const char *conflict(const cli_call *call, const render_command *command)
     return NULL;
 }
 
-/* Where the image goes is checked before anything is computed. */
+/* Checks the image's output before the computation. */
 static int announce(const cli_call *call, render_command *command, char output[PATH_MAX]) {
     default_output(call->operands[0], &command->options, PATH_MAX, output);
     if (command->output == NULL) {
@@ -425,22 +425,22 @@ static int announce(const cli_call *call, render_command *command, char output[P
     }
     if (command->options.shard_count == 0 && !check_output(command->output))
         return CLI_BAD_INPUT;
-    const char *const unfit = cli_display_conflict(&command->display, command->output);
-    return unfit != NULL ? cli_bad_usage("%s", unfit) : CLI_SUCCESS;
+    const char *const conflicting = cli_display_conflict(&command->display, command->output);
+    return conflicting != NULL ? cli_bad_usage("%s", conflicting) : CLI_SUCCESS;
 }
 
 static int run(const cli_call *call) {
     render_command *const command = call->options;
     const char *const scene = call->operands[0];
     char output[PATH_MAX];
-    const char *const wrong = conflict(call, command);
+    const char *const conflicting = conflict(call, command);
     aur_error bad = {0};
-    if (wrong != NULL)
-        return cli_bad_usage("%s", wrong);
+    if (conflicting != NULL)
+        return cli_bad_usage("%s", conflicting);
     command->file_count = call->operand_count;
     if (cli_stage_read_files(&command->stage, call, &bad) != AUR_OK)
         return cli_fail(&bad);
-    if (command->denoise.wanted) /* which may change no pixel by much more than its error */
+    if (command->denoise.enabled) /* denoising is limited by each pixel's standard error */
         command->target.error_map = true;
     const int status = announce(call, command, output);
     if (status != CLI_SUCCESS)

@@ -11,7 +11,7 @@
 
 #include "program/cli/cli.h"
 
-/* What each of several processes did: all of them come here. */
+/* Prints statistics per process. A collective operation of all ranks. */
 static void print_ranks(void) {
     const size_t count = aur_ranks_count();
     aur_rank_description *const ranks = count > 1 ? calloc(count, sizeof *ranks) : NULL;
@@ -56,7 +56,7 @@ static void print_figures(report_table *table, const char *measure, const aur_er
     }
 }
 
-/* "NAME: RAYS rays, needs NEED, REASON; ..."; empty where there was no race. */
+/* "NAME: RAYS rays, needs NEED, REASON; ..."; empty without a race. */
 static void print_race(report_table *table, const aur_adaptive *adaptive) {
     char text[1024] = "";
     aur_adaptive_report report = {.size = sizeof report};
@@ -101,8 +101,8 @@ aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
     return result;
 }
 
-void cli_write_partial(const char *wanted, const aur_image *image) {
-    const char *const output = strcmp(wanted, "-") == 0 ? "render.exr" : wanted;
+void cli_write_partial(const char *final_path, const aur_image *image) {
+    const char *const output = strcmp(final_path, "-") == 0 ? "render.exr" : final_path;
     char path[PATH_MAX];
     aur_error error = {0};
     const char *const slash = strrchr(output, '/'), *const dot = strrchr(slash != NULL ? slash : output, '.');
@@ -117,25 +117,25 @@ void cli_write_partial(const char *wanted, const aur_image *image) {
 double cli_relative_error(const aur_film *film) {
     double rmse[4], mean[4] = {0};
     aur_image *image = NULL;
-    const bool seen = aur_film_error(film, rmse, NULL, NULL) == AUR_OK &&
-                      aur_film_develop(film, &image, NULL) == AUR_OK &&
-                      aur_image_mean(image, mean, NULL) == AUR_OK;
+    const bool measured = aur_film_error(film, rmse, NULL, NULL) == AUR_OK &&
+                          aur_film_develop(film, &image, NULL) == AUR_OK &&
+                          aur_image_mean(image, mean, NULL) == AUR_OK;
     aur_image_destroy(image);
-    return seen && mean[3] > 0.0 ? rmse[3] / mean[3] : 0.0;
+    return measured && mean[3] > 0.0 ? rmse[3] / mean[3] : 0.0;
 }
 
 double cli_clamped_part(const aur_image *image) {
     static const char *const names[] = {"R", "G", "B", "clamped.R", "clamped.G", "clamped.B"};
-    double kept = 0.0, taken = 0.0;
+    double remaining = 0.0, removed = 0.0;
     const size_t channels = aur_image_channel_count(image);
     for (size_t c = 0; c < 6; ++c) {
         const size_t channel = aur_image_find_channel(image, names[c]);
         if (channel >= channels)
             return 0.0;
         for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image); ++i)
-            *(c < 3 ? &kept : &taken) += (double)aur_image_data(image)[i * channels + channel];
+            *(c < 3 ? &remaining : &removed) += (double)aur_image_data(image)[i * channels + channel];
     }
-    return taken > 0.0 ? taken / (kept + taken) : 0.0;
+    return removed > 0.0 ? removed / (remaining + removed) : 0.0;
 }
 
 static bool is_black(const aur_image *image) {
@@ -162,7 +162,7 @@ void cli_explain_black(const aur_scene *scene, const aur_image *image) {
                   clips.too_near, clips.rays, clips.near_clip);
 }
 
-void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end) {
+void cli_report_image(const char *output, const aur_image *image, const cli_render_end *end) {
     if (strcmp(output, "-") == 0)
         output = "the image";
     if (is_black(image))

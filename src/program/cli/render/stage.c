@@ -1,4 +1,4 @@
-/* How `aureole render` sees and lights scenes and models, and how images are displayed. */
+/* Camera, lighting and models of `aureole render`, and the display of images. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 
 #include "program/cli/render/stage.h"
 
-/* "R,G,B", or "#rrggbb" as on web pages. */
+/* "R,G,B", or "#rrggbb" as in HTML. */
 static aur_result parse_background(const char *text, void *field, aur_error *error) {
     aur_scene_stage *const stage = field;
     double numbers[3];
@@ -63,7 +63,7 @@ const cli_option cli_stage_options[] = {
      .key.words = (const char *const[]){"auto", "y", "z", NULL}},
     {.key = {0}}};
 
-/* Without opening it: to open a pipe would wait for its writer, or take what it holds from the reader. */
+/* Does not open it: opening a pipe would block or consume its data. */
 static bool exists(const char *path) {
     struct stat status;
     return stat(path, &status) == 0;
@@ -117,7 +117,7 @@ const cli_option cli_display_options[] = {
      .key.words = (const char *const[]){"srgb", "filmic", NULL}},
     {.key = {0}}};
 
-/* In stops; 0 for images without light. */
+/* Automatic exposure in stops; 0 for images without light. */
 static double automatic_exposure(const aur_image *image) {
     size_t channels[3], count = 0;
     double sum = 0.0;
@@ -149,7 +149,7 @@ const char *cli_display_conflict(const cli_display *display, const char *output)
            "files";
 }
 
-/* With more stops than these away from it most pixels of an image without exposure are white, or black. */
+/* At more stops from the automatic exposure, most pixels without exposure are white or black. */
 static const double TOO_FAR = 4.0;
 
 aur_result cli_display_write(const cli_display *display, const char *scene, const char *output,

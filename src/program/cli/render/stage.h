@@ -1,4 +1,4 @@
-/* How `aureole render` sees and lights scenes and models, and how images are displayed. */
+/* Camera, lighting and models of `aureole render`, and the display of images. */
 #pragma once
 
 #include <aureole-render/image.h>
@@ -16,8 +16,7 @@ typedef struct cli_stage {
 
 extern const cli_option cli_stage_options[]; /* cli_stage */
 
-/* Reads the operands FILE[@X,Y,Z[,TURN[,SCALE]]], which lose what stands behind the file. Errors: ARGUMENT.
- */
+/* Parses the operands FILE[@X,Y,Z[,TURN[,SCALE]]] and truncates them to the file. Errors: ARGUMENT. */
 aur_result cli_stage_read_files(cli_stage *given, const cli_call *call, aur_error *error);
 
 typedef struct cli_display {
@@ -28,9 +27,9 @@ typedef struct cli_display {
 
 extern const cli_option cli_display_options[]; /* cli_display */
 
-/* What is wrong with the options for this output, or NULL. */
+/* A message if the options do not apply to this output, or NULL. */
 const char *cli_display_conflict(const cli_display *display, const char *output);
-/* `scene`: the file of the image's scene. Models and Radiance's files have lights of any units: where these
- * leave most of an image white or black, and no exposure is given, it is automatic, with a warning. */
+/* `scene`: the image's scene file. Models and Radiance files have light sources in arbitrary units: if most
+ * of an image without exposure would be white or black, the exposure is automatic, with a warning. */
 aur_result cli_display_write(const cli_display *display, const char *scene, const char *output,
                              const aur_image *image, const aur_warnings *warnings, aur_error *error);

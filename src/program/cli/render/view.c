@@ -1,4 +1,4 @@
-/* aureole view: images in a page that a browser opens. */
+/* aureole view: shows images in a page in the browser. */
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -11,7 +11,7 @@
 typedef struct view_options {
     const char *output;
     double exposure;
-    cli_picture picture;
+    cli_image_input input;
 } view_options;
 
 static const cli_option options[] = {
@@ -27,7 +27,8 @@ static bool is_set(const char *variable) {
     return value != NULL && value[0] != '\0';
 }
 
-/* On a desktop, at a terminal, the browser opens the page; where that cannot be, its path has been said. */
+/* Opens the page in the browser, on a desktop and with a terminal. On failure the user has the printed path.
+ */
 static void open_page(char *path) {
     if (!isatty(STDOUT_FILENO) || (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")))
         return;
@@ -41,7 +42,7 @@ static void open_page(char *path) {
         posix_spawn_file_actions_destroy(&actions);
         return;
     }
-    /* In a group of its own it goes on where the terminal closes right after us. */
+    /* A separate process group survives if the terminal closes immediately. */
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
         posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
@@ -68,9 +69,9 @@ static int run(const cli_call *call) {
         memcpy(path + strlen(path), "/index.html", sizeof "/index.html");
     }
     const int status =
-        cli_write_viewer(path, call->operand_count, call->operands, &given->picture, given->exposure, false);
+        cli_write_viewer(path, call->operand_count, call->operands, &given->input, given->exposure, false);
     if (status != CLI_SUCCESS && folder[0] != '\0')
-        rmdir(folder); /* which is empty */
+        rmdir(folder); /* it is empty */
     if (status == CLI_SUCCESS && strcmp(path, "-") != 0)
         printf("%s\n", path);
     if (status == CLI_SUCCESS && given->output == NULL)
@@ -85,7 +86,7 @@ const cli_command cli_command_view = {
              "The path of the page is printed; without -o, in a desktop terminal, the browser opens it.",
     .too_few = "no image given",
     .operands = {{"IMAGE", "images of the same size", .repeated = true, .content = "file"}},
-    .groups = {{options, 0}, {cli_picture_options, offsetof(view_options, picture)}},
+    .groups = {{options, 0}, {cli_image_input_options, offsetof(view_options, input)}},
     .size = sizeof(view_options),
     .run = run,
 };

@@ -39,7 +39,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
 }
 
 aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *error) {
-    if (!cli_watch_is_asked(watch) || aur_ranks_rank() != 0)
+    if (!cli_watch_is_requested(watch) || aur_ranks_rank() != 0)
         return AUR_OK;
     const watch_options options = {.serve = watch->serve, .display = watch->display, .title = output};
     const aur_result result = watch_create(&options, &watch->watch, error);
@@ -72,11 +72,11 @@ static aur_result develop_render(const void *user, aur_image **image, aur_error 
     return aur_film_develop(aur_render_film(user), image, error);
 }
 
-static aur_result develop_ask(const void *user, aur_image **image, aur_error *error) {
+static aur_result develop_adaptive(const void *user, aur_image **image, aur_error *error) {
     return aur_adaptive_develop(user, true, image, error);
 }
 
-static void describe_ask(const void *user, size_t capacity, char *text) {
+static void describe_adaptive(const void *user, size_t capacity, char *text) {
     aur_adaptive_report report = {.size = sizeof report};
     if (aur_adaptive_get_report(user, &report, NULL) != AUR_OK || !isfinite(report.error_high))
         return;
@@ -95,8 +95,8 @@ void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_adapti
     if (watch->watch == NULL)
         return;
     const watch_source source = {.user = render != NULL ? (const void *)render : adaptive,
-                                 .develop = render != NULL ? develop_render : develop_ask,
-                                 .describe = render != NULL ? NULL : describe_ask};
+                                 .develop = render != NULL ? develop_render : develop_adaptive,
+                                 .describe = render != NULL ? NULL : describe_adaptive};
     watch_set_source(watch->watch, &source);
 }
 
@@ -105,24 +105,24 @@ void cli_watch_hide(cli_watch *watch) {
         watch_set_source(watch->watch, &(watch_source){0});
 }
 
-static void tell(cli_watch *watch, const aur_render *render) {
+static void report_samples(cli_watch *watch, const aur_render *render) {
     char text[160], error[80] = "";
     const double relative = cli_relative_error(aur_render_film(render));
     if (relative > 0.0)
         aur_format(error, sizeof error, "; the error is at most about %.2g %% of the mean", 100.0 * relative);
     aur_format(text, sizeof text, "%zu of %zu samples per pixel%s", aur_render_samples(render),
                aur_render_samples_wanted(render), error);
-    watch_tell(watch->watch, text);
+    watch_describe(watch->watch, text);
 }
 
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error) {
-    const double wanted = (double)aur_render_samples_wanted(render);
-    watch->from = (double)aur_render_samples(render) / wanted;
-    watch->to = count > 0 ? fmin(watch->from + (double)count / wanted, 1.0) : 1.0;
+    const double total_samples = (double)aur_render_samples_wanted(render);
+    watch->from = (double)aur_render_samples(render) / total_samples;
+    watch->to = count > 0 ? fmin(watch->from + (double)count / total_samples, 1.0) : 1.0;
     const aur_result result = aur_render_step(render, count, error);
     watch->from = watch->to = 0.0;
     if (result == AUR_OK && watch->watch != NULL)
-        tell(watch, render);
+        report_samples(watch, render);
     return result;
 }
 

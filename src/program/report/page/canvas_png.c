@@ -1,8 +1,7 @@
-/* PNG: pixels are covered by lines, areas and letters in parts, counted in the numbers that a screen is
- * given. */
+/* PNG with antialiasing by coverage, blended in sRGB values. */
 #include <aureole-render/image.h>
 #include <math.h>
-#include <stb_easy_font.h> /* letters of rectangles, one pixel wide */
+#include <stb_easy_font.h> /* letters made of rectangles, one pixel wide */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,7 +22,7 @@ static void cover(report_canvas *c, size_t x, size_t y, uint32_t rgb, double par
     }
 }
 
-/* The pixels that a box touches: from[2] to to[2], without these. */
+/* The pixels of a box: from[2] to to[2], exclusive. */
 static void clip(const report_canvas *c, const double low[2], const double high[2], size_t from[2],
                  size_t to[2]) {
     const double size[2] = {c->width, c->height};
@@ -33,7 +32,7 @@ static void clip(const report_canvas *c, const double low[2], const double high[
     }
 }
 
-/* How far a point is from a piece of a line. */
+/* The distance of a point from a line segment. */
 static double distance(const double a[2], const double b[2], double x, double y) {
     const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     const double t = square > 0.0 ? fmin(fmax(((x - a[0]) * dx + (y - a[1]) * dy) / square, 0.0), 1.0) : 0.0;
@@ -54,7 +53,7 @@ static void stroke(report_canvas *c, const report_pen *pen, const double a[2], c
         }
 }
 
-/* Five pixels of eight; `phase` is what lies before it. */
+/* Dashes of five in eight pixels; `phase` is the length before the segment. */
 static void dash(report_canvas *c, const report_pen *pen, const double a[2], const double b[2],
                  double *phase) {
     const double length = hypot(b[0] - a[0], b[1] - a[1]);
@@ -68,7 +67,7 @@ static void dash(report_canvas *c, const report_pen *pen, const double a[2], con
     *phase += length;
 }
 
-/* Whether a polygon is about a point. */
+/* Whether a polygon contains a point. */
 static bool inside(size_t count, const double *xy, double x, double y) {
     bool in = false;
     for (size_t i = 0, k = count - 1; i < count; k = i++)
@@ -159,7 +158,7 @@ static void text(report_canvas *c, double x, double y, double anchor, bool turne
 
 static void end(report_canvas *c) {
     for (size_t i = 0; i < 3 * (size_t)c->width * (size_t)c->height && c->pixels != NULL; ++i) {
-        const double v = (double)c->pixels[i]; /* linear light, as images have it */
+        const double v = (double)c->pixels[i]; /* linear light, as images store */
         c->pixels[i] = (float)(v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4));
     }
 }

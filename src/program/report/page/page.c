@@ -11,7 +11,7 @@ static bool ends_with(const char *text, const char *end) {
     return length >= end_length && strcmp(text + length - end_length, end) == 0;
 }
 
-/* Every asset of a kind, in the order of their names. */
+/* Writes every asset of a kind, sorted by name. */
 static void put_assets(FILE *page, const char *extension) {
     for (const report_asset *asset = report_assets; asset->name != NULL; ++asset)
         if (ends_with(asset->name, extension))

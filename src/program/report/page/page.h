@@ -1,4 +1,4 @@
-/* Pages that need nothing beside them: the styles and scripts of src/program/report/page/ stand in each. */
+/* Self-contained pages: the styles and scripts of src/program/report/page/ are embedded. */
 #pragma once
 
 #include <aureole-render/image.h>
@@ -6,7 +6,7 @@
 #include "program/report/canvas.h"
 #include "program/report/report.h"
 
-/* A file of src/program/report/page/, as it was when the program was built. */
+/* A file of src/program/report/page/, embedded at build time. */
 typedef struct report_asset {
     const char *name; /* "page.css" */
     size_t size;
@@ -15,30 +15,31 @@ typedef struct report_asset {
 
 extern const report_asset report_assets[]; /* ends without a name */
 
-/* From here on the stream is a page with this title, which the last function ends. */
+/* Begins a page with this title on the stream; report_page_end ends it. */
 void report_page_begin(FILE *page, const char *title);
 /* Errors: MEMORY. */
 aur_result report_page_end(FILE *page, aur_error *error);
 
-/* A table whose columns sort, and below it the CSV file `name` to be saved. Of a table with more than `most`
- * rows the first ones are shown, and where the others are. Errors: MEMORY. */
+/* A table with sortable columns, and a download of the CSV file `name`. Of more than `most` rows only the
+ * first ones are shown, with a note. Errors: MEMORY. */
 aur_result report_page_table(FILE *page, const report_table *table, const char *name, size_t most,
                              aur_error *error);
 
 /* An image of a viewer. */
-typedef struct report_picture {
+typedef struct report_image {
     const char *name;
-    const aur_image *image; /* all of one viewer have one size */
+    const aur_image *image; /* all images of a viewer have one size */
     bool reference;
-    unsigned dropped_bits; /* of the ten of a half float: 1 leaves .1 %, 4 leaves .8 %, 0 is exact */
-    bool quick;            /* soon written, in more space */
-} report_picture;
+    unsigned dropped_bits; /* rounded mantissa bits of the half floats' ten: 1 gives an error of .1 %, 4 of .8
+                              %, 0 is exact */
+    bool quick;            /* fast compression, with a larger result */
+} report_image;
 
-/* Writes an image as JSON that `unpack` of pictures.js takes. Errors: ARGUMENT without colour, MEMORY. */
-aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error);
+/* Writes an image as JSON for `unpack` of pictures.js. Errors: ARGUMENT without color, MEMORY. */
+aur_result report_put_image(FILE *page, const report_image *viewed, aur_error *error);
 
-/* A viewer of images of one scene. `exposure` (stops) is what they are seen with first. With a `unit` (else
- * NULL) their values are seen first, in false colours. Errors: ARGUMENT for sizes that differ or an image
- * without colour, MEMORY. */
+/* A viewer of images of one scene. `exposure` (stops) is the initial exposure. With a `unit` (else NULL) the
+ * initial view shows their values, in false colors. Errors: ARGUMENT for sizes that differ or an image
+ * without color, MEMORY. */
 aur_result report_page_viewer(FILE *page, const char *title, double exposure, const char *unit, size_t count,
-                              const report_picture *pictures, aur_error *error);
+                              const report_image *images, aur_error *error);

@@ -1,4 +1,4 @@
-/* Images in a page: half floats, deflated, as text. */
+/* Images in a page: half floats, deflated, in base64. */
 #include <aureole/text.h>
 #include <math.h>
 #include <stdlib.h>
@@ -22,8 +22,7 @@ static unsigned half_of(float value) {
     return sign | (unsigned)(((exponent + 15) << 10) + (lrint(ldexp(size, 10 - exponent)) - 1024));
 }
 
-/* With its last bits rounded off, ties to even: digits that no eye sees and that no compression makes small.
- */
+/* Rounds off the last bits, ties to even: they are invisible and do not compress. */
 static unsigned rounded(unsigned half, unsigned bits) {
     const unsigned unit = 1U << bits;
     if (bits == 0 || (half & 0x7fff) >= 0x7c00 - unit)
@@ -44,15 +43,15 @@ static void put_base64(FILE *page, size_t size, const unsigned char *data) {
     }
 }
 
-/* For each channel the upper bytes, then the lower ones, each as its difference to the byte before. */
-static void lay_out(const report_picture *picture, const size_t *channels, size_t channel_count,
+/* For each channel the high bytes, then the low bytes, each as the difference from the previous byte. */
+static void lay_out(const report_image *viewed, const size_t *channels, size_t channel_count,
                     unsigned char *bytes) {
-    const size_t pixels = aur_image_width(picture->image) * aur_image_height(picture->image);
-    const size_t stride = aur_image_channel_count(picture->image);
-    const float *const data = aur_image_data(picture->image);
+    const size_t pixels = aur_image_width(viewed->image) * aur_image_height(viewed->image);
+    const size_t stride = aur_image_channel_count(viewed->image);
+    const float *const data = aur_image_data(viewed->image);
     for (size_t c = 0; c < channel_count; ++c)
         for (size_t i = 0; i < pixels; ++i) {
-            const unsigned half = rounded(half_of(data[i * stride + channels[c]]), picture->dropped_bits);
+            const unsigned half = rounded(half_of(data[i * stride + channels[c]]), viewed->dropped_bits);
             bytes[2 * c * pixels + i] = (unsigned char)(half >> 8);
             bytes[(2 * c + 1) * pixels + i] = (unsigned char)half;
         }
@@ -60,7 +59,7 @@ static void lay_out(const report_picture *picture, const size_t *channels, size_
         bytes[i] = (unsigned char)(bytes[i] - bytes[i - 1]);
 }
 
-/* An image whose three channels are equal is kept as one. */
+/* Whether the three channels are equal, so that one is stored. */
 static bool is_grey(const aur_image *image, const size_t channels[3]) {
     const size_t pixels = aur_image_width(image) * aur_image_height(image);
     const size_t stride = aur_image_channel_count(image);
@@ -72,20 +71,20 @@ static bool is_grey(const aur_image *image, const size_t channels[3]) {
     return true;
 }
 
-aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error) {
-    const size_t width = aur_image_width(picture->image), height = aur_image_height(picture->image);
+aur_result report_put_image(FILE *page, const report_image *viewed, aur_error *error) {
+    const size_t width = aur_image_width(viewed->image), height = aur_image_height(viewed->image);
     size_t channels[3];
-    if (!aur_image_color_channels(picture->image, channels))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: an image without colour", picture->name);
-    const size_t channel_count = is_grey(picture->image, channels) ? 1 : 3;
+    if (!aur_image_color_channels(viewed->image, channels))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: an image without colour", viewed->name);
+    const size_t channel_count = is_grey(viewed->image, channels) ? 1 : 3;
     const size_t size = 2 * channel_count * width * height;
     uLongf packed_size = compressBound(size);
     unsigned char *const bytes = malloc(size), *const packed = malloc(packed_size);
-    const bool room = bytes != NULL && packed != NULL;
-    if (room)
-        lay_out(picture, channels, channel_count, bytes);
-    const int level = picture->quick ? Z_BEST_SPEED : Z_BEST_COMPRESSION;
-    const bool well = room && compress2(packed, &packed_size, bytes, size, level) == Z_OK;
+    const bool allocated = bytes != NULL && packed != NULL;
+    if (allocated)
+        lay_out(viewed, channels, channel_count, bytes);
+    const int level = viewed->quick ? Z_BEST_SPEED : Z_BEST_COMPRESSION;
+    const bool well = allocated && compress2(packed, &packed_size, bytes, size, level) == Z_OK;
     if (well) {
         aur_json json = {.stream = page};
         aur_json_open(&json, '{', false);
@@ -96,9 +95,9 @@ aur_result report_put_picture(FILE *page, const report_picture *picture, aur_err
         aur_json_name(&json, "channels");
         aur_json_integer(&json, channel_count);
         aur_json_name(&json, "reference");
-        aur_json_boolean(&json, picture->reference);
+        aur_json_boolean(&json, viewed->reference);
         fputs(", \"name\": \"", page);
-        for (const char *c = picture->name; *c != '\0'; ++c)
+        for (const char *c = viewed->name; *c != '\0'; ++c)
             fprintf(page, *c == '"' || *c == '\\' || *c == '<' || (unsigned char)*c < ' ' ? "\\u%04x" : "%c",
                     (unsigned)(unsigned char)*c);
         fputs("\", \"data\": \"", page);
@@ -111,15 +110,15 @@ aur_result report_put_picture(FILE *page, const report_picture *picture, aur_err
 }
 
 aur_result report_page_viewer(FILE *page, const char *title, double exposure, const char *unit, size_t count,
-                              const report_picture *pictures, aur_error *error) {
-    const aur_image *const first = pictures[0].image;
+                              const report_image *images, aur_error *error) {
+    const aur_image *const first = images[0].image;
     for (size_t i = 1; i < count; ++i)
-        if (aur_image_width(pictures[i].image) != aur_image_width(first) ||
-            aur_image_height(pictures[i].image) != aur_image_height(first))
+        if (aur_image_width(images[i].image) != aur_image_width(first) ||
+            aur_image_height(images[i].image) != aur_image_height(first))
             return aur_fail(error, AUR_ERROR_ARGUMENT,
                             "%s has %zu x %zu pixels, and %s %zu x %zu: a viewer shows images of one size",
-                            pictures[i].name, aur_image_width(pictures[i].image),
-                            aur_image_height(pictures[i].image), pictures[0].name, aur_image_width(first),
+                            images[i].name, aur_image_width(images[i].image),
+                            aur_image_height(images[i].image), images[0].name, aur_image_width(first),
                             aur_image_height(first));
     aur_print(page, "<figure class=\"viewer\" data-exposure=\"%g\"", exposure);
     if (unit != NULL)
@@ -130,7 +129,7 @@ aur_result report_page_viewer(FILE *page, const char *title, double exposure, co
     aur_result result = AUR_OK;
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         fputs(i > 0 ? ",\n" : "", page);
-        result = report_put_picture(page, &pictures[i], error);
+        result = report_put_image(page, &images[i], error);
     }
     fputs("]</script></figure>\n", page);
     return result;
