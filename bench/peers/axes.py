@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Axes that repel each other: energy and time beside MRtrix's dirgen and dipy's disperse_charges.
+"""Axes that repel each other: energy and time, compared with MRtrix's dirgen and dipy's disperse_charges.
 
     pip install dipy; apt install mrtrix3
     python3 bench/peers/axes.py [--program build/release/aureole] [--sizes 6,30,60,256]
 
-Prints a Markdown table: the energy (the sum over pairs of 1/|x - y| + 1/|x + y|) over that of ours, the smallest angle in
-degrees, and the CPU seconds. Each program runs as it is by default, on one thread; what is not installed is left out.
+Prints a Markdown table: the energy (the sum over pairs of 1/|x - y| + 1/|x + y|) relative to Aureole's, the smallest angle in
+degrees, and CPU seconds. Each program runs with its defaults on one thread; missing programs are skipped.
 """
 import argparse
 import importlib.util

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes tests/render/material/mitsuba_values.h: what Mitsuba 3's own materials evaluate to at pairs of directions, for the
-test that compares ours with them (needs `pip install mitsuba`).
+"""Writes tests/render/material/mitsuba_values.h: values of Mitsuba 3's BSDFs for pairs of directions, with which a test compares
+Aureole's (needs `pip install mitsuba`).
 
     bsdf_values.py > tests/render/material/mitsuba_values.h
 """
@@ -11,7 +11,7 @@ import mitsuba as mi
 
 mi.set_variant("scalar_rgb")
 
-# Materials as the program's PLUGIN:key=value,...; what is nested stands behind ">", a second one behind "|".
+# Materials in the program's syntax PLUGIN:key=value,...; ">" precedes a nested BSDF, "|" a second one.
 MATERIALS = (
     "principled:base_color=0.6 0.3 0.1",
     "principled:base_color=0.6 0.3 0.1,roughness=0.9,specular=0.2",
@@ -46,7 +46,7 @@ def load(text):
         made[f"nested_{i}"] = load(inner)
     for item in rest.split(","):
         key, _, value = item.partition("=")
-        if key == "as_mitsuba":  # ours
+        if key == "as_mitsuba":  # a key of Aureole only
             continue
         numbers = [float(x) for x in value.split()] if value[0].isdigit() else []
         plain = value == "true" if value in ("true", "false") else value
@@ -75,7 +75,7 @@ def main():
         for i in range(PAIRS):
             at = mi.SurfaceInteraction3f()
             at.wi, light = direction(draw), direction(draw)
-            if i % 3 == 0:  # near the mirror direction, where lobes are
+            if i % 3 == 0:  # near the mirror direction, inside the lobes
                 light = mi.Vector3f(-at.wi.x, -at.wi.y, at.wi.z) + 0.2 * light
                 light = light / sum(float(c) ** 2 for c in light) ** 0.5
             elif i % 3 == 1:

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""The analytical lighting cases by Radiance, Mitsuba 3 and Cycles beside ours: errors against the references, CPU seconds.
+"""The analytical lighting cases with Radiance, Mitsuba 3, Cycles and Aureole: errors against the references, and CPU seconds.
 
-    python3 -m venv /tmp/radiance && /tmp/radiance/bin/pip install pyradiance      # and so for mitsuba and bpy
+    python3 -m venv /tmp/radiance && /tmp/radiance/bin/pip install pyradiance      # likewise for mitsuba and bpy
     python3 bench/peers/cases.py build/release/aureole --radiance /tmp/radiance/bin/python --mitsuba /tmp/mitsuba/bin/python \\
         --cycles /tmp/bpy/bin/python [--quick]
 
-`aureole lab run analytical-cases` writes each case's scene and points; this script writes the same scene for each tool and asks
-it for the irradiances: Radiance by rtrace -I, Mitsuba by path-traced pictures of a white patch of a millimetre at each point,
-Cycles by baking light into the corners of such patches. Errors are parts of the case's largest value. A tool that is not named
-is left out, and a case that a tool has no words for is a dash.
+`aureole lab run analytical-cases` writes the scene and points of each case. This script writes the same scene for each tool and
+computes the irradiances: Radiance with rtrace -I, Mitsuba with path-traced images of a white patch of a millimeter at each point,
+Cycles by baking light into the corners of such patches. Errors are relative to the case's largest value. Tools without an option
+are skipped; a dash marks a case that a tool cannot represent.
 """
 import argparse
 import csv
@@ -23,7 +23,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
-HALF = 5e-4  # of a patch
+HALF = 5e-4  # half the side of a patch
 # Table 1 of ISO 15469, type by type: a, b, c, d, e.
 CIE = [(4, -.7, 0, -1, 0), (4, -.7, 2, -1.5, .15), (1.1, -.8, 0, -1, 0), (1.1, -.8, 2, -1.5, .15), (0, -1, 0, -1, 0),
        (0, -1, 2, -1.5, .15), (0, -1, 5, -2.5, .3), (0, -1, 10, -3, .45), (-1, -.55, 2, -1.5, .15), (-1, -.55, 5, -2.5, .3),
@@ -79,7 +79,7 @@ def read_points(path):
 
 
 def polygons(corners):
-    """Convex parts. The one polygon with a hole has its seam written out: the outer corners, then the inner ones."""
+    """Splits into convex parts. The polygon with a hole has an explicit seam: the outer corners, then the inner ones."""
     if len(corners) == 4:
         return [corners]
     outer, inner = corners[:4], corners[5:9]
@@ -144,7 +144,7 @@ def radiance(shapes, emitters, points, samples, folder):
     for i, shape in enumerate(shapes):
         r = shape["reflectance"]
         if shape["radiance"] > 0 and r > 0 and shape["kind"] in ("sphere", "cube"):
-            return None  # its lights do not reflect
+            return None  # its light sources do not reflect
         if shape["glass"]:
             text += f"void glass m{i} 0 0 4 {shape['glass'][0]} {shape['glass'][0]} {shape['glass'][0]} {shape['glass'][1]}\n"
         elif shape["radiance"] > 0:
@@ -163,7 +163,7 @@ def radiance(shapes, emitters, points, samples, folder):
         else:
             return None
     for kind, node in emitters:
-        if kind == "point":  # it has none: a small sphere
+        if kind == "point":  # not supported: a small sphere
             p, r = value(node, "position", [0.0, 0.0, 0.0]), 1e-3
             text += f"void light lamp 0 0 3" + f" {float(value(node, 'intensity')) / (math.pi * r * r):.9g}" * 3 + "\n"
             text += f"lamp sphere bulb 0 0 4 {p[0]} {p[1]} {p[2]} {r}\n"
@@ -245,7 +245,7 @@ def mitsuba(shapes, emitters, points, samples, folder):
         elif kind == "directional":
             scene[f"e{i}"] = {"type": "directional", "direction": value(node, "direction"),
                               "irradiance": gray(float(value(node, "irradiance")))}
-        elif kind == "sun":  # a far disk about the point that all receivers of these cases share
+        elif kind == "sun":  # a distant disk, centered on the point common to all receivers of these cases
             half, way, far = math.radians(float(value(node, "half_angle"))), value(node, "sun_direction"), 1000.0
             at = [points[0][axis] for axis in "xyz"]
             center = [a + far * w for a, w in zip(at, way)]
@@ -254,7 +254,7 @@ def mitsuba(shapes, emitters, points, samples, folder):
         else:
             import numpy as np
             picture = np.repeat(sky_picture(node)[:, ::-1, None], 3, axis=2)
-            # Its columns run the other way about the pole, from the side of its -z.
+            # Its columns run in the opposite direction around the pole, starting at -z.
             scene[f"e{i}"] = {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(picture)),
                               "to_world": T().rotate([0, 0, 1], -90) @ T().rotate([1, 0, 0], 90)}
     white = {"type": "diffuse", "reflectance": gray(0.5)}
@@ -282,7 +282,7 @@ def cycles(shapes, emitters, points, samples, folder):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
-    scene.cycles.samples = samples // 4  # of each corner
+    scene.cycles.samples = samples // 4  # per corner
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.use_denoising = False
     for name in ("max_bounces", "diffuse_bounces", "transmission_bounces", "transparent_max_bounces"):
@@ -296,7 +296,7 @@ def cycles(shapes, emitters, points, samples, folder):
         tree.nodes.clear()
         out, shader = tree.nodes.new("ShaderNodeOutputMaterial"), tree.nodes.new("ShaderNodeBsdfDiffuse")
         shader.inputs["Color"].default_value = (reflectance,) * 3 + (1,)
-        if emission > 0:  # from the front alone, as the others
+        if emission > 0:  # from the front only, like the other tools
             light, add = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeAddShader")
             side, mix = tree.nodes.new("ShaderNodeNewGeometry"), tree.nodes.new("ShaderNodeMixShader")
             light.inputs["Strength"].default_value = emission
@@ -318,14 +318,14 @@ def cycles(shapes, emitters, points, samples, folder):
 
     for shape in shapes:
         if shape["glass"]:
-            return None  # its glass panes are no thin ones
+            return None  # it has no thin glass panes
         made = material(shape["reflectance"], shape["radiance"])
         c, r = shape["center"], shape["radius"]
         if shape["kind"] == "polygon":
             for corners in polygons(shape["corners"]):
                 mesh("polygon", corners, [(0, 1, 2, 3)], made)
         elif shape["kind"] == "disk":
-            n = 512  # of the disk's area
+            n = 512  # samples of the disk
             wide = r * math.sqrt(2 * math.pi / n / math.sin(2 * math.pi / n))
             rim = [(c[0] + wide * math.cos(2 * math.pi * k / n), c[1] + wide * math.sin(2 * math.pi * k / n), c[2]) for k in range(n)]
             mesh("disk", rim, [tuple(range(n))[::-1] if shape["turned"] else tuple(range(n))], made)
@@ -392,9 +392,9 @@ TOOLS = {"radiance": radiance, "mitsuba": mitsuba, "cycles": cycles}
 
 
 def child(tool, folder, samples, only):
-    """Under the tool's interpreter: a line of JSON a case."""
+    """Runs in the tool's interpreter: prints a line of JSON per case."""
     out = os.dup(1)
-    os.dup2(2, 1)  # what the tools print
+    os.dup2(2, 1)  # output of the tools
     for path in sorted(glob.glob(os.path.join(folder, "analytical-cases-*.xml"))):
         name = os.path.basename(path)[len("analytical-cases-"):-len(".xml")]
         if not fnmatch.fnmatch(name, only):
@@ -405,7 +405,7 @@ def child(tool, folder, samples, only):
             os.chdir(scratch)
             begin = used()
             found, waiting = [None] * len(points), list(range(len(points)))
-            while waiting:  # patches at one place would hide each other
+            while waiting:  # patches at one position would occlude each other
                 batch = []
                 for i in waiting:
                     if all(math.dist(*([points[k][axis] for axis in "xyz"] for k in (i, j))) > 8 * HALF for j in batch):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes a city of blocks on a square grid as an OBJ: towers of 3 x 3 cells, streets of 2 cells, heights by chance.
+"""Writes a city of blocks on a square grid as an OBJ: towers of 3 x 3 cells, streets of 2 cells, random heights.
 
     python3 bench/peers/city.py CITY.obj [--facets 22000] [--seed 1]
 
-Cells are 5 m wide, walls are cut into squares of 5 m, and squares are two triangles each. There are at least as many facets
-as asked for; towers are groups (g tower-X-Y), and so is the ground.
+Cells are 5 m wide, walls are divided into squares of 5 m, and squares into two triangles. There are at least as many facets
+as requested. Towers (g tower-X-Y) and the ground are groups.
 """
 import argparse
 import random
@@ -29,7 +29,7 @@ def make(towers, seed):
             h = height[x][y]
             mine = quads.setdefault(group[x][y], [])
             mine.append(((x, y, h), (x + 1, y, h), (x + 1, y + 1, h), (x, y + 1, h)))
-            # Each side of the cell: its two corners, so that the wall looks away from the cell.
+            # Each side of the cell: its two corners, so that the wall faces away from the cell.
             sides = (((x + 1, y), (x + 1, y + 1), (1, 0)), ((x, y + 1), (x, y), (-1, 0)),
                      ((x + 1, y + 1), (x, y + 1), (0, 1)), ((x, y), (x + 1, y), (0, -1)))
             for a, b, (dx, dy) in sides:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Relative RMSE of integrals over the square and the cube by our sets: the tables of docs/choosing.md.
+"""Relative RMSE of integrals over the square and the cube with Aureole's sets: the tables of docs/choosing.md.
 
     PYTHONPATH=build/release/python python3 bench/peers/cube.py
 
-Each figure is over 16 randomisations. `periodic` is a product of 1 + (exp(sin 2 pi x) - I0(1)) / k, `exp` is exp of the mean coordinate, `Gauss` a
-product of exp(-4 (x - .5)^2), `kink` a product of (|4 x - 2| + k) / (1 + k), `step` the half below the mean coordinate .45.
+Each value is over 16 randomizations. `periodic` is a product of 1 + (exp(sin 2 pi x) - I0(1)) / k, `exp` is exp of the mean coordinate, `Gauss` a
+product of exp(-4 (x - .5)^2), `kink` a product of (|4 x - 2| + k) / (1 + k), `step` the half space with mean coordinate below .45.
 """
 import math
 

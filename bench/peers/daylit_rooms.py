@@ -6,9 +6,9 @@
 
 Rooms are generated from seeds: 3 to 12 m wide, windows in one or two walls or the roof, with and without glass, tables, a house opposite.
 --public names a folder with clones of ladybug-tools/honeybee-radiance, ladybug-tools/honeybee-radiance-folder and LBNL-ETA/frads, as
-OWNER+NAME: their models as they are. The sky is overcast. Each room has 16 sensors .8 m above the floor, or those of its model.
+OWNER+NAME: their models, unchanged. The sky is overcast. Each room has 16 sensors .8 m above the floor, or those of its model.
 
-Results have no bias, so that the standard deviation of a sensor between runs with other seeds is its error. The table has the median and
+Results are unbiased: a sensor's error is its standard deviation over runs with different seeds. The table has the median and
 the 90th percentile over the sensors of a room, relative to the sensor's mean, the median of the errors that the program reports, and CPU
 seconds of one run.
 """
@@ -35,7 +35,7 @@ def holed(name, material, hole, glass, place):
 
 
 def room(seed):
-    """Its text, and positions of sensors."""
+    """The scene text, and positions of sensors."""
     dice = random.Random(seed)
     width, depth, height = dice.uniform(3, 8), dice.uniform(4, 12), dice.uniform(2.5, 4)
     text = "void glass pane 0 0 3 {0:.3f} {0:.3f} {0:.3f}\n".format(dice.uniform(0.6, 0.95))

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Errors and CPU seconds of Mitsuba 3's images after Open Image Denoise, for `aureole-bench adaptive-speed`.
 
-    denoised.py NAME WIDTHxHEIGHT TRUTH_A.pfm TRUTH_B.pfm ERROR SECONDS
+    denoised.py NAME WIDTHxHEIGHT REFERENCE_A.pfm REFERENCE_B.pfm ERROR SECONDS
 
-Needs what time_to_quality.py does, and PyPI's pyoidn. The scene of that name (see there) is rendered by llvm_ad_rgb with multi-jittered
-samples, with albedo and normals beside, by 4, 16, 64, ... samples a pixel, and denoised, until the error is below ERROR or the next
-picture would take more than SECONDS. A line each: samples, CPU seconds of rendering and denoising (kernels compiled before), and
-the error: the root of the mean of (x - a)(x - b) over the mean of the truth, whose two pictures a and b have errors of their own that do not agree.
+Requires the packages of time_to_quality.py, and PyPI's pyoidn. Renders the scene with that name (see there) with llvm_ad_rgb, multi-jittered
+samples, and albedo and normals, with 4, 16, 64, ... samples per pixel, and denoises, until the error is below ERROR or the next
+image would take more than SECONDS. Prints a line per image: samples, CPU seconds of rendering and denoising (without kernel compilation), and
+the error: the root of the mean of (x - a)(x - b), relative to the mean of the references a and b, whose errors are independent.
 """
 import math
 import os
@@ -50,7 +50,7 @@ def main():
     dr.set_thread_count(1)
     samples, spent = 4, 0.0
     while 4.0 * spent < limit:
-        np.array(mi.render(scene, spp=samples, seed=999))  # which compiles
+        np.array(mi.render(scene, spp=samples, seed=999))  # compiles the kernels
         start = peers.cpu_seconds()
         picture = np.array(mi.render(scene, spp=samples, seed=1), dtype=np.float32)
         parts = [np.ascontiguousarray(picture[:, :, first:first + 3]) for first in (0, 3, 6)]

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What the same CPU seconds buy: the measured Cornell box by final gathering, by our path tracer and by Mitsuba 3, each at full size
-beside a reference, with its RMSE. Writes the pictures to docs/gallery and the section of docs/gallery.md that shows them.
+"""Image quality at equal CPU time: the measured Cornell box with final gathering, Aureole's path tracer and Mitsuba 3, each at full size
+next to a reference, with its RMSE. Writes the images to docs/gallery and the section of docs/gallery.md that shows them.
 
-    /tmp/peers/bin/python bench/peers/equal_time.py build/release/aureole [--seconds T] [--folder KEPT]
+    /tmp/peers/bin/python bench/peers/equal_time.py build/release/aureole [--seconds T] [--folder FOLDER]
 
-needs Mitsuba 3 and NumPy, as time_to_quality.py does, whose scene, clock and warming it shares: of Mitsuba only the call that renders is
-counted, of ours the whole process with loading and photon map. One thread each. Samples a pixel are those that a first picture's
-time says fit into the seconds. The reference is two path-traced pictures, kept in KEPT for another run; the squared error that they have
-themselves, a quarter of their mean squared difference, is subtracted.
+Requires Mitsuba 3 and NumPy, like time_to_quality.py, whose scene, timing and warm-up it uses. Mitsuba's time is that of the render
+call, Aureole's that of the whole process with loading and photon map. Each runs on one thread. Samples per pixel are extrapolated from
+the time of a first image. The reference is the mean of two path-traced images, which FOLDER stores for later runs; its squared error,
+a quarter of their mean squared difference, is subtracted.
 """
 import argparse
 import math
@@ -46,7 +46,7 @@ def reference(aureole, scene, folder, samples):
 
 
 def samples_for(render, seconds, first, allowed):
-    """The largest number of samples whose image, by the times of one and of two more, takes at most so many seconds."""
+    """The largest number of samples for the time, interpolated from measured times."""
     few, many = render(first, 1)[1], render(4 * first, 1)[1]
     each = max(many - few, 1e-3) / (3 * first)
     return max(allowed(math.floor((seconds - few) / each + first)), 1)
@@ -75,7 +75,7 @@ def main():
         def square(count):
             return math.isqrt(max(count, 1)) ** 2
 
-        def peer(samples, seed):  # a kernel is compiled for each number of samples; pictures are read and written by a second thread
+        def peer(samples, seed):  # each number of samples needs a kernel; a second thread reads and writes images
             time_to_quality.SAMPLES["cornell-box"] = (samples,)
             done = time_to_quality.mitsuba("llvm_ad_rgb", "multijitter", scene, 1)(samples, seed)
             dr.set_thread_count(2)

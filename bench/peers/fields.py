@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Integrals over directions as four fields have them, by our points and weights and by those of other packages.
+"""Integrals over directions from four fields, with Aureole's points and weights and those of other packages.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install scipy healpy soprano
     /tmp/peers/bin/python bench/peers/fields.py [--program build/release/aureole]   # writes the table of bench/peers/fields.md
-    /tmp/peers/bin/python bench/peers/fields.py --check                             # compares it; what is not installed is left out
+    /tmp/peers/bin/python bench/peers/fields.py --check                             # compares it, without missing packages
 
 - powder: the free induction decay of a powder (magnetic resonance) after a time at which the anisotropy has turned the phase by
   12 radians, with the asymmetry .5: the mean of cos(12 (3 z^2 - 1 + .5 (x^2 - y^2)) / 2).
-- cylinder: the form factor of a rod of length 400 and radius 20 angstroms at q = .1 (small-angle scattering), for which the
-  directions are those of its axis.
+- cylinder: the form factor of a rod of length 400 and radius 20 angstroms at q = .1 (small-angle scattering), averaged over the
+  directions of its axis.
 - window: the solid angle of a square of side 1 seen from a height of 1/2 above its middle, a sixth of the sphere (transport from
   a point through a window): 1 inside, 0 outside.
 - ambisonics: the channels to degree 5 of a source as wide as exp(8 (cos - 1)): the length of the error of all 36 channels over
@@ -35,7 +35,7 @@ ROTATIONS = 64
 
 
 def bessel_j1_over(x):
-    """2 J1(x) / x, by the mean of its integral form over equal angles, which is exact to rounding below x = 100."""
+    """2 J1(x) / x, by its integral form with equally spaced angles: exact up to rounding below x = 100."""
     t = (np.arange(256) + 0.5) * np.pi / 256
     return 2 * np.mean(np.sin(t) ** 2 * np.cos(np.multiply.outer(x, np.cos(t))), axis=-1)
 
@@ -55,7 +55,7 @@ def window(x):
 
 
 def product_rule(degree):
-    """Gauss's heights times equal azimuths, exact to the degree."""
+    """Gauss-Legendre heights times equally spaced azimuths, exact to the degree."""
     heights, weights = np.polynomial.legendre.leggauss(degree // 2 + 1)
     phi = 2 * np.pi * np.arange(degree + 1) / (degree + 1)
     z, radius = np.repeat(heights, len(phi)), np.repeat(np.sqrt(1 - heights**2), len(phi))
@@ -64,7 +64,7 @@ def product_rule(degree):
 
 
 def harmonics(x, degree):
-    """Real spherical harmonics of mean square 1, a column each, from Legendre functions by recurrence."""
+    """Real spherical harmonics of mean square 1, one per column, from Legendre functions by recurrence."""
     z, columns = x[:, 2], []
     across = x[:, 0] + 1j * x[:, 1]
     for m in range(degree + 1):
@@ -96,7 +96,7 @@ def rotations():
 
 
 def errors(x, weights, exact):
-    """Of the four fields."""
+    """Errors in the four fields."""
     squares = np.zeros(4)
     for turn in rotations():
         y = x @ turn
@@ -106,7 +106,7 @@ def errors(x, weights, exact):
 
 
 def from_points(name):
-    """A row of makers.MAKERS with its own weights, else equal ones."""
+    """A row of makers.MAKERS with its weights, or equal weights."""
     maker = next(m for m in makers.MAKERS if m.domain == "sphere" and m.name == name)
 
     def make(n):
@@ -146,7 +146,7 @@ RULES = {
 
 
 def lines(sizes, only_ours=False):
-    """Of the table, and the names of rules that are not installed."""
+    """Lines of the table, and the names of missing packages."""
     exact, missing = references(), []
     table = ["| points and weights | N | powder | cylinder | window | ambisonics |", "|---|---|---|---|---|---|"]
     for n in sizes:
@@ -162,7 +162,7 @@ def lines(sizes, only_ours=False):
 
 
 def agree(known, found):
-    """Whether two lines have errors alike but for rounding: within 2 % or below 1e-12."""
+    """Whether the errors of two lines are equal up to rounding: within 2 % or below 1e-12."""
     a, b = ([cell.strip("< ") for cell in line.split("|")[1:-1]] for line in (known, found))
     return a[:2] == b[:2] and all(
         abs(float(p) - float(q)) <= 0.02 * float(q) or max(float(p), float(q)) < 1e-12 for p, q in zip(a[2:], b[2:]))

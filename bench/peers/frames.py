@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Positions, texture coordinates, normals and tangents of every shape under every kind of transform, beside Mitsuba 3
+"""Positions, texture coordinates, normals and tangents of every shape with every kind of transform, compared with Mitsuba 3
 (needs `pip install mitsuba`).
 
     frames.py PROGRAM [--only TEXT] [--all]
 
-Each case is a shape, a `to_world` and `flip_normals`, standing alone or in a turned instance. The program renders one sample
-per pixel of it from several sides, with the channels `position`, `uv`, `geo_normal` and `sh_normal`. Mitsuba follows the rays
-to the same positions. Tangents are seen through a material each: `roughconductor` with two roughnesses (the direction of the
-first tangent) and `bumpmap` (the lengths and the angle of both), lit by one directional light: the radiance is compared with
-Mitsuba's value of the BSDF. The table has the largest differences of a case: of distances, relative to the size of the shape;
-of texture coordinates; of the normals (but for their sign where something is mirrored, since Mitsuba turns such shapes inside out); of the radiance, relative to the largest. Cases without a difference above 5e-3 (a
-slope jumps between texels) are counted only (--all prints them). Left out is the radiance of curves with tangents that Mitsuba
-has not: none on `linearcurve`, and on `bsplinecurve` one that the curve does not have by finite differences.
+Each case is a shape with `to_world` and `flip_normals`, by itself or in a rotated instance. The program renders it with one sample
+per pixel from several sides, with the channels `position`, `uv`, `geo_normal` and `sh_normal`. Mitsuba traces rays
+to the same positions. Tangents are tested through materials under one directional light: `roughconductor` with two roughnesses (the
+direction of the first tangent) and `bumpmap` (the lengths and the angle of both). The radiance is compared with
+Mitsuba's BSDF value. The table has the largest differences of a case: of distances, relative to the size of the shape; of texture
+coordinates; of normals (except for the sign if something is mirrored, since Mitsuba turns such shapes inside out); of the radiance,
+relative to the largest. Cases without a difference above 5e-3 (a slope jumps between texels) are only counted (--all prints them).
+The radiance of curves is excluded where Mitsuba has no tangent (`linearcurve`) or one that contradicts finite differences
+(`bsplinecurve`).
 """
 import argparse
 import itertools
@@ -41,7 +42,7 @@ SHAPES = {
     "obj of faces": f'<string name="filename" value="{HERE}/wave.obj"/><boolean name="face_normals" value="true"/>',
 }
 TUBE = "-.9 -.8 .3 .3\n-.3 -.3 -.2 .25\n.2 .1 .1 .2\n.5 .5 .4 .25\n.7 .9 -.3 .3\n"
-# Normals that are not the triangles', and texture coordinates that are sheared.
+# Shading normals that differ from the triangles' normals, and sheared texture coordinates.
 FAN = ("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n"
        "property float ny\nproperty float nz\nproperty float u\nproperty float v\nelement face 4\n"
        "property list uchar int vertex_index\nend_header\n-1 -1 0 -.3 -.3 .9 0 .1\n1 -1 0 .3 -.3 .9 1 .3\n1 1 .2 .3 .3 .9 .8 1\n"
@@ -86,7 +87,7 @@ def scene_text(shape, transform, flip, instance, material, view):
 
 
 def compare(options, case, folder, view):
-    """The largest differences, or what one of both says instead."""
+    """The largest differences, or the error message of either program."""
     text, light = scene_text(*case, view)
     with open(path := os.path.join(folder, "frames.xml"), "w", encoding="utf-8") as file:
         file.write(text)
@@ -118,7 +119,7 @@ def compare(options, case, folder, view):
         normal, smooth = np.array(hit.n), np.array(hit.sh_frame.n)
         value = hit.bsdf().eval(mi.BSDFContext(), hit, hit.to_local(light))[0]
         sides = [(normal @ way) * (smooth @ way), (normal @ np.array(light)) * (smooth @ np.array(light))]
-        # In shadow, or where the triangle and its normals see the light or the view on different sides.
+        # In shadow, or the light or the camera is on different sides of geometric and shading normal.
         if min(sides) <= 0 or scene.ray_test(hit.spawn_ray(light)):
             value = radiance[0]
         if "mirrored" in case[1] or case[3]:  # Mitsuba turns some mirrored shapes inside out

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes a living room of many shapes as a scene that Mitsuba 3 reads as we do: textures, plastics, glass, metal and masks.
+"""Writes a living room of many shapes as a scene for Mitsuba 3 and Aureole: textures, plastics, glass, metal and masks.
 
     python3 bench/peers/interior.py FOLDER [--shelves 3] [--seed 1]
 
-FOLDER/interior.xml has about 40 shapes a shelf and 50 more: books are boxes, vases and balls are meshes with normals at their
-vertices, leaves are rectangles cut out by a mask. Three rectangles under the ceiling and the ball of a lamp give light.
+FOLDER/interior.xml has about 40 shapes per shelf and 50 more: books are boxes, vases and balls are meshes with vertex
+normals, leaves are rectangles with a mask. Light sources are three rectangles below the ceiling and a sphere.
 """
 import argparse
 import math
@@ -15,7 +15,7 @@ import zlib
 
 
 def write_png(path, width, height, texel):
-    """8 bits a channel; texel(x, y) gives red, green and blue."""
+    """8 bits per channel; texel(x, y) returns red, green and blue."""
     rows = b"".join(b"\0" + bytes(max(0, min(255, int(c))) for x in range(width) for c in texel(x, y)) for y in range(height))
 
     def chunk(kind, data):
@@ -110,7 +110,7 @@ def wall(size, turn, place, material, extra=""):
 
 
 def materials(dice):
-    """Of things that stand about: each is made with a colour."""
+    """Functions that create objects of a color."""
     def color():
         return [dice.uniform(.15, .85) for _ in range(3)]
     return [

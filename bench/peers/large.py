@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Time to the first pixel and peak memory of large scenes, beside Mitsuba 3 and Embree alone
-(needs `pip install mitsuba`; Embree by its shared library).
+"""Time to the first pixel and peak memory of large scenes, compared with Mitsuba 3 and Embree alone
+(needs `pip install mitsuba`; Embree from its shared library).
 
     large.py PROGRAM [CASE...] [--triangles 30e6] [--folder FOLDER] [--variants llvm_ad_rgb,scalar_rgb] [--limit 600]
 
-Cases: triangles, instances, textures, lights, materials; all if none is given. Each program renders one sample of 64 x 48 pixels by one
-thread, in a process of its own; a row has its CPU seconds (user and system) and the peak of its resident memory. Embree alone
-builds the same triangles or instances from arrays that are in memory. FOLDER keeps the scenes.
+Cases: triangles, instances, textures, lights, materials; by default all. Each program renders one sample of 64 x 48 pixels on one
+thread in a separate process; a row has its CPU seconds (user and system) and peak resident memory. Embree alone
+builds the same triangles or instances from arrays in memory. FOLDER stores the scenes.
 """
 import argparse
 import ctypes
@@ -28,7 +28,7 @@ SKY = '<emitter type="constant"/>\n'
 
 
 def grid(count, phase=0.0):
-    """A wavy square of at least `count` triangles: corners and triples."""
+    """A wavy square of at least `count` triangles: vertices and indices."""
     n = int(np.ceil(np.sqrt(count / 2)))
     x, y = np.meshgrid(np.linspace(-1, 1, n + 1, dtype=np.float32), np.linspace(-1, 1, n + 1, dtype=np.float32))
     z = (0.1 * np.sin(9 * x + phase) * np.cos(7 * y)).astype(np.float32)
@@ -127,7 +127,7 @@ mi.util.write_bitmap(sys.argv[3], mi.render(scene, spp=1), write_async=False)
 
 
 class Embree:
-    """As much of Embree's interface as builds triangles and instances of them."""
+    """The part of Embree's interface for triangles and instances."""
 
     def __init__(self):
         for name in ("libembree4.so.4", "libembree3.so.3"):

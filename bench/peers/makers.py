@@ -1,9 +1,9 @@
-"""The points that sets.py and fields.py compare: ours, and those of other packages.
+"""The points that sets.py and fields.py compare: from Aureole and from other packages.
 
-MAKERS has a row a set: its domain, the package (a module to import, a program to find, or None for ours), a name, a
-function of the number of points and the seed that returns an array with a row a point (a fourth column of directions is the
-weight), whether the seed changes it, and of ours the arguments of `aureole points` and the sizes that there are, where not all
-are. Sets of other sizes make the nearest one.
+MAKERS has a row per set: its domain, the package (a module to import, a program to find, or None for Aureole), a name, a
+function of the number of points and the seed that returns an array with a row per point (a fourth column of directions is the
+weight), whether the seed changes it, and for Aureole the arguments of `aureole points` and the available sizes, if limited.
+Other sets generate the nearest available size.
 """
 import collections
 import importlib
@@ -51,14 +51,14 @@ def is_installed(maker):
 
 
 def version(package):
-    """The version of a module's distribution; of a program what it says itself."""
+    """The version of a module's distribution, or the one that a program prints."""
     for distribution in importlib.metadata.packages_distributions().get(package, []):
         return f"{distribution} {importlib.metadata.version(distribution)}"
     return subprocess.run([package, "-version"], capture_output=True, text=True).stdout.splitlines()[0].strip("= ")
 
 
 def to_sphere(u):
-    """Lambert's map, which keeps areas."""
+    """Lambert's map, which preserves areas."""
     z = 1 - 2 * u[:, 0]
     radius, phi = np.sqrt(np.maximum(0, 1 - z * z)), 2 * np.pi * u[:, 1]
     return np.column_stack([radius * np.cos(phi), radius * np.sin(phi), z])

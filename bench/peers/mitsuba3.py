@@ -4,11 +4,11 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*'
     /tmp/peers/bin/python bench/peers/mitsuba3.py build/release/aureole [--only TEXT] [SCENE.xml...] >docs/mitsuba.md
 
-SCENE.xml are further scenes, rendered by `path` from independent samples in both, at most SIZE pixels wide; one that
-Mitsuba cannot load is reported so. Each scene is rendered by both with SEEDS seeds. Means over BLOCKS x BLOCKS blocks and
-three channels give a Welch t each; the largest |t| is judged by a Sidak correction over all blocks at a chance of 0.1 % a
-scene (Student's t of the seeds' degrees of freedom). The table also has the difference of the means of the whole pictures,
-with its 95 % interval. The exit status is 1 when a scene differs that is not known to.
+SCENE.xml are further scenes, which both render with `path` and independent samples, at most SIZE pixels wide; one that
+Mitsuba cannot load is reported. Each scene is rendered by both with SEEDS seeds. Means over BLOCKS x BLOCKS blocks and
+three channels give a Welch t each; the largest |t| is judged by a Sidak correction over all blocks at a significance level of 0.1 % per
+scene (Student's t of the seeds' degrees of freedom). The table also has the difference of the means of the whole images,
+with its 95 % interval. The exit status is 1 if a scene differs unexpectedly.
 """
 import math
 import os
@@ -99,7 +99,7 @@ def scene(materials=MATERIALS["diffuse"], lights=AREA, shapes=BODY, sensor='<sen
 
 
 def as_mitsuba(text):
-    """The text for us, with rough plastics by Mitsuba's sums (see EXPLANATION)."""
+    """The text for Aureole, with Mitsuba's formula for rough plastics (see EXPLANATION)."""
     return re.sub(r'<bsdf type="roughplastic"[^>]*>', r'\g<0><boolean name="as_mitsuba" value="true"/>', text)
 
 
@@ -113,7 +113,7 @@ to single precision. The rows that say "as_mitsuba", and the bundled scenes, are
 
 
 def all_scenes():
-    """Names with the text for Mitsuba and the text for us."""
+    """Names with the texts for Mitsuba and for Aureole."""
     constant = '<emitter type="constant"><rgb name="radiance" value="0.4, 0.5, 0.6"/></emitter>'
     for name, text in MATERIALS.items():
         theirs = scene(materials=text, lights=AREA + constant)
@@ -128,7 +128,7 @@ def all_scenes():
         yield name, text, text
 
 
-# Bundled scenes in the form with rough materials, 64 samples per pixel; their meshes are made by scripts/scenes.sh.
+# Bundled scenes in their variant with rough materials, 64 samples per pixel; scripts/scenes.sh generates their meshes.
 BUNDLED = ("plates/plates", "sphere/sphere", "statue/statue", "room/room", "parade/parade", "occlusion/occlusion",
            "cornell-box/figure")
 SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes")
@@ -137,7 +137,7 @@ SETTINGS = {"materials": "rough", "integrator": "path", "spp": "64", "resx": str
 
 
 def bundled_pair(folder, scene_path):
-    """Copies of a scene, the first for Mitsuba; in the second rough plastics are Mitsuba's."""
+    """Copies of a scene, the first for Mitsuba; the second uses Mitsuba's formula for rough plastics."""
     name, files = os.path.split(scene_path)[0], []
     for side in ("theirs", "ours"):
         copy = os.path.join(folder, side, name)
@@ -177,7 +177,7 @@ def compare_bundled(aureole, folder, scene_path):
 
 
 def public_scene(path):
-    """The scene with path, independent samples, a box filter and a small film, its assets by their full names."""
+    """The scene with path, independent samples, a box filter, a small film, and absolute file names."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="independent"', text)
@@ -203,7 +203,7 @@ def blocks(picture):
 
 
 def student_quantile(chance, freedom):
-    """The t that |t| exceeds with this chance, by bisection of the tail integral."""
+    """The t that |t| exceeds with this probability, by bisection of the tail integral."""
     constant = math.gamma((freedom + 1) / 2) / (math.sqrt(freedom * math.pi) * math.gamma(freedom / 2))
     x = np.linspace(0, 1, 20001)[:-1] + 0.5 / 20000
 
@@ -250,7 +250,7 @@ def judge(name, ours, theirs):
     difference = a.mean(axis=0) - b.mean(axis=0)
     seen = error > 1e-7 * np.abs(b.mean(axis=0)) + 1e-9
     t = np.abs(difference[seen] / error[seen]).max() if seen.any() else 0.0
-    flat = np.abs(difference[~seen]).max() if (~seen).any() else 0.0  # blocks without noise must agree by themselves
+    flat = np.abs(difference[~seen]).max() if (~seen).any() else 0.0  # blocks without noise must agree
     limit = student_quantile(1 - (1 - CHANCE) ** (1 / max(seen.sum(), 1)), 2 * SEEDS - 2)
     ma, mb = a.mean(axis=1), b.mean(axis=1)
     half = student_quantile(0.05, 2 * SEEDS - 2) * math.sqrt((ma.var(ddof=1) + mb.var(ddof=1)) / SEEDS)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What patches of the sky leave of a clear day: hours by daylight coefficients beside the same hours traced by themselves.
+"""Error of daylight coefficients due to sky patches: hours of a clear day, compared with each hour traced directly.
 
     python3 bench/peers/patches.py build/release/aureole [-n 262144]
 
-The scene is a wall on a floor, both reflecting; three sensors look up, at the wall and away from it. The weather is that of
-scripts/weather.sh, and the hours are those of 10 June, which is clear. What is traced by itself has Perez's sky as its formula has
-it, and the sun as a disk. Printed are the root mean square difference over hours and sensors in % of the mean illuminance, that of
+The scene is a wall on a floor, both reflecting; three sensors face up, to the wall and away from it. The weather file is that of
+scripts/weather.sh, with the hours of 10 June, which is clear. Direct tracing uses Perez's sky without patches and the sun as a disk.
+Prints the root mean square difference over hours and sensors in % of the mean illuminance, that of
 the standard errors of both, and CPU seconds for the year.
 """
 import argparse

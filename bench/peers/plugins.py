@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
-"""Mitsuba 3's own test of images on a folder of scenes: does each of our pixels lie within the noise of Mitsuba's?
-(needs `pip install mitsuba`)
+"""Mitsuba 3's image test on a folder of scenes: tests whether each pixel is within the noise of Mitsuba's
+(needs `pip install mitsuba`).
 
     plugins.py PROGRAM [FOLDER] [--references FOLDER] [--only NAME]
 
-FOLDER (bench/peers/plugins beside this file, if none is given) has scenes NAME.xml; those without a <sensor> of their own
-or in what they include are parts of others. Both render a scene as it is, but for the samples a pixel; where there is a
-NAME.ours.xml beside it, that is what we render. References, NAME.exr, and the variances of a sample, NAME_var.exr (both XYZ),
-are looked for in the folder of references and made there by PyPI's Mitsuba where they are missing; without it they are made
-each time. A pixel's channel is t = (ours - reference) / sqrt(s^2 / n + variance / m) off, for n pictures of ours with their
-own variance s^2 and m samples of the reference. The test is two-sided, in XYZ, by Sidak's correction at 1 % over all channels
-of a picture, as in Mitsuba's regression tests; by Student's t, since our variance is an estimate of its own.
+FOLDER (by default bench/peers/plugins next to this file) has scenes NAME.xml; those without a <sensor>, including included files,
+are parts of others. Both programs render a scene with only the samples per pixel changed; Aureole renders NAME.ours.xml
+if it exists. References NAME.exr, and variances of a sample NAME_var.exr (both XYZ), are read from the folder
+of references and rendered with PyPI's Mitsuba if missing; without that option they are rendered every time.
+The statistic of a channel of a pixel is t = (ours - reference) / sqrt(s^2 / n + variance / m), for n images of Aureole with variance s^2
+and m samples of the reference. The test is two-sided, in XYZ, with Sidak's correction at 1 % over all channels
+of an image, as in Mitsuba's regression tests, but with Student's t, since s^2 is estimated.
 
-The variance of a sample is that of Mitsuba's `moment` where pixels are plain means of independent samples of their own. Else
-(other samplers, filters wider than a pixel, other integrators) it is that of n pictures of m / n samples. The channels of an
-`aov` integrator are compared too. Mitsuba renders spectra that it has in its spectral mode alone there, `directionalarea`
-by `ptracer`, and filters wider than a pixel by `llvm_ad_rgb` (with an LLVM newer than 16 in DRJIT_LIBLLVM_PATH).
+The variance of a sample is that of Mitsuba's `moment` if pixels are plain means of independent samples. Otherwise
+(other samplers, filters wider than a pixel, other integrators) it comes from n images of m / n samples. The channels of an
+`aov` integrator are compared too. Mitsuba renders spectra that only its spectral mode supports in that mode, `directionalarea`
+with `ptracer`, and filters wider than a pixel with `llvm_ad_rgb` (with an LLVM newer than 16 in DRJIT_LIBLLVM_PATH).
 """
 import argparse
 import os
@@ -26,16 +26,16 @@ import tempfile
 import mitsuba as mi
 import numpy as np
 
-from mitsuba3 import student_quantile  # which chooses scalar_rgb
+from mitsuba3 import student_quantile  # selects scalar_rgb
 
 RUNS, SAMPLES, THEIRS, SIGNIFICANCE = 16, 256, 4096, 0.01
 TO_XYZ = np.array([[0.412453, 0.357580, 0.180423], [0.212671, 0.715160, 0.072169], [0.019334, 0.119193, 0.950227]])
 
 
 OURS = ".ours"
-PARTS = ("place", "stage")  # which other scenes include
+PARTS = ("place", "stage")  # included by other scenes
 PARTICLES = 'type="directionalarea"'
-# Mitsuba's spectral mode divides by 106.75026, its RGB mode and ours by the sum over the curve of Y, 106.85703.
+# Mitsuba's spectral mode divides by 106.75026; its RGB mode and Aureole divide by the sum over the curve of Y, 106.85703.
 SPECTRAL_EXCESS = 106.85703 / 106.75026
 SPECTRAL = ('type="regular"', 'type="irregular"', 'type="blackbody"')
 
@@ -51,7 +51,7 @@ def has_sensor(path):
 
 
 def to_xyz(picture):
-    """Colours to XYZ; further channels stay."""
+    """Converts colors to XYZ; other channels are unchanged."""
     return np.concatenate([picture[..., :3] @ TO_XYZ.T, picture[..., 3:]], axis=-1)
 
 
@@ -60,7 +60,7 @@ def has_box(scene):
 
 
 def has_moments(scene):
-    """Mitsuba's `moment` leaves out the weight of an irradiance meter's rays."""
+    """Mitsuba's `moment` omits the weight of an irradiance meter's rays."""
     return (has_box(scene) and scene.sensors()[0].class_name() != "IrradianceMeter" and scene.sensors()[0].sampler().class_name() == "IndependentSampler" and
             scene.integrator().class_name() in ("PathIntegrator", "VolumetricPathIntegrator",
                                                "VolpathMisIntegratorImpl"))
@@ -70,7 +70,7 @@ def make_reference(path):
     """The names of an image's channels, colours first, as XYZ, their means and the variances of a sample."""
     mi.set_variant("scalar_spectral" if any(words in text_of(path) for words in SPECTRAL) else "scalar_rgb")
     scene = mi.load_file(path, **({"integrator": "ptracer"} if PARTICLES in text_of(path) else {}))
-    if not has_box(scene):  # which the scalar modes look up among 31 values, up to 3 % too wide
+    if not has_box(scene):  # the scalar modes tabulate filters with 31 values, up to 3 % too wide
         mi.set_variant("llvm_ad_rgb")
         scene = mi.load_file(path)
     if has_moments(scene):
@@ -79,10 +79,10 @@ def make_reference(path):
         mean, square = channels[:, :, -6:-3], channels[:, :, -3:]
         return ["R", "G", "B"], mean, np.maximum(square - mean * mean, 0)
     pictures = np.array([mi.render(scene, spp=THEIRS // RUNS, seed=seed + 7) for seed in range(RUNS)], dtype=np.float64)
-    # Those of `moment` are none of ours.
+    # Aureole has no channels of `moment`.
     further = pictures.shape[-1] - 3 if scene.integrator().class_name() == "AOVIntegrator" else 0
     names = scene.integrator().aov_names()[-further:] if further > 0 else []
-    order = sorted(range(further), key=lambda k: names[k].rsplit(".", 1)[0])  # as in files: a name's channels stay in order
+    order = sorted(range(further), key=lambda k: names[k].rsplit(".", 1)[0])  # as in files: channels of a name keep their order
     pictures /= SPECTRAL_EXCESS if mi.variant() == "scalar_spectral" else 1
     pictures = to_xyz(pictures[..., [0, 1, 2] + [3 + k for k in order]])
     variance = pictures.var(axis=0, ddof=1) * (THEIRS // RUNS)
@@ -110,10 +110,10 @@ def judge(name, pictures, mean, variance):
     pictures = to_xyz(np.array(pictures))
     ours = pictures.mean(axis=0)
     variance_of_ours = pictures.var(axis=0, ddof=1) / RUNS
-    # Where nothing varies, what is seen by one sample in more than there are may have been missed: a filter's tail.
+    # Without variance, rare contributions such as a filter's tail may have been missed.
     missed = np.abs(mean).max(axis=(0, 1)) / (RUNS * SAMPLES)
     deviation = np.sqrt(np.where(variance_of_ours > 0, variance_of_ours, missed ** 2) + variance / THEIRS)
-    # What has no noise must agree by itself, to the rounding of single-precision sums.
+    # Values without noise must agree up to the rounding of single-precision sums.
     t = np.abs(ours - mean) / np.maximum(deviation, 1e-4 * np.abs(mean) + 1e-6)
     limit = student_quantile(1 - (1 - SIGNIFICANCE) ** (1 / t.size), RUNS - 1)
     good = t.max() <= limit
@@ -123,7 +123,7 @@ def judge(name, pictures, mean, variance):
 
 
 def render(options, path, seed, out):
-    """What the program says of a scene it refuses, or None; its image is in `out`."""
+    """The program's error message for a scene that it rejects, or None with the image in `out`."""
     run = subprocess.run([options.program, "render", path, "-q", "--seed", str(seed), "--spp", str(SAMPLES), "-o", out],
                          capture_output=True, text=True, check=False)
     return None if run.returncode == 0 else run.stderr.strip().splitlines()[0]

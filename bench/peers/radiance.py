@@ -4,8 +4,8 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pyradiance
     /tmp/peers/bin/python bench/peers/radiance.py build/release/aureole
 
-Both read the same .rad file. The reference is a run of ours with 250,000 directions a sensor and another seed; it has no
-bias, and its own standard error is printed. Errors are of r, relative to the mean over all sensors.
+Both read the same .rad file. The reference is a run of Aureole with 250,000 directions per sensor and another seed; it is
+unbiased, and its standard error is printed. Errors are those of the red channel, relative to the mean over all sensors.
 """
 import os
 import resource
@@ -52,7 +52,7 @@ MOST_SECONDS = 120
 
 
 def run(command, text=None):
-    """What it says, and its CPU seconds; after MOST_SECONDS of them it is ended."""
+    """Its output and CPU seconds; it is terminated after MOST_SECONDS of them."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     out = subprocess.run(command, input=text, capture_output=True, text=True, check=True,
                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 1))).stdout
