@@ -113,7 +113,7 @@ def relative(sky, direction):
         1 + c * (math.exp(d * angle) - math.exp(d * math.pi / 2)) + e * cosine * cosine)
 
 
-def sky_picture(node, width=2048):
+def sky_image(node, width=2048):
     """Rows from the zenith to the nadir, columns by azimuth from +x towards +y: NumPy, float32. Black below the horizon."""
     import numpy as np
     height = width // 2
@@ -253,9 +253,9 @@ def mitsuba(shapes, emitters, points, samples, folder):
                               "light": {"type": "area", "radiance": gray(float(value(node, "irradiance")) / (math.pi * math.sin(half) ** 2))}}
         else:
             import numpy as np
-            picture = np.repeat(sky_picture(node)[:, ::-1, None], 3, axis=2)
+            pixels_rgb = np.repeat(sky_image(node)[:, ::-1, None], 3, axis=2)
             # Its columns run in the opposite direction around the pole, starting at -z.
-            scene[f"e{i}"] = {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(picture)),
+            scene[f"e{i}"] = {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(pixels_rgb)),
                               "to_world": T().rotate([0, 0, 1], -90) @ T().rotate([1, 0, 0], 90)}
     white = {"type": "diffuse", "reflectance": gray(0.5)}
     for i, point in enumerate(points):
@@ -348,12 +348,12 @@ def cycles(shapes, emitters, points, samples, folder):
     back.inputs["Strength"].default_value = 0
     for kind, node in emitters:
         if kind == "sky":
-            picture = np.ones((1024, 2048, 4), np.float32)
+            pixels_rgb = np.ones((1024, 2048, 4), np.float32)
             # Rows from below; azimuth 0 (+x) is in the middle, and grows to the left.
-            picture[:, :, :3] = np.roll(sky_picture(node)[::-1, ::-1], 1024, axis=1)[:, :, None]
+            pixels_rgb[:, :, :3] = np.roll(sky_image(node)[::-1, ::-1], 1024, axis=1)[:, :, None]
             image = bpy.data.images.new("sky", 2048, 1024, float_buffer=True)
             image.colorspace_settings.name = "Non-Color"
-            image.pixels.foreach_set(picture.ravel())
+            image.pixels.foreach_set(pixels_rgb.ravel())
             image.update()
             texture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
             texture.image = image

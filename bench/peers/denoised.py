@@ -41,7 +41,7 @@ def main():
     import numpy as np
     import pyoidn
     name, size, a, b = sys.argv[1:5]
-    wanted, limit = (float(word) for word in sys.argv[5:7])
+    target, limit = (float(word) for word in sys.argv[5:7])
     width, height = (int(side) for side in size.split("x"))
     a, b = read_pfm(a), read_pfm(b)
     mi.set_variant("llvm_ad_rgb")
@@ -52,13 +52,13 @@ def main():
     while 4.0 * spent < limit:
         np.array(mi.render(scene, spp=samples, seed=999))  # compiles the kernels
         start = peers.cpu_seconds()
-        picture = np.array(mi.render(scene, spp=samples, seed=1), dtype=np.float32)
-        parts = [np.ascontiguousarray(picture[:, :, first:first + 3]) for first in (0, 3, 6)]
+        image = np.array(mi.render(scene, spp=samples, seed=1), dtype=np.float32)
+        parts = [np.ascontiguousarray(image[:, :, first:first + 3]) for first in (0, 3, 6)]
         clean = pyoidn.denoise(*parts, hdr=True).astype(np.float64)
         spent = peers.cpu_seconds() - start
         error = math.sqrt(max(((clean - a) * (clean - b)).mean(), 0.0)) / ((a.mean() + b.mean()) / 2)
         print(samples, spent, error, flush=True)
-        if error <= wanted:
+        if error <= target:
             break
         samples *= 4
 

@@ -66,8 +66,8 @@ def main():
         with open(scene, "w", encoding="utf-8") as file:
             file.write(time_to_quality.scene_text(os.path.join(ROOT, SCENE), SIDE, SIDE, {}))
         mi.set_variant("llvm_ad_rgb")
-        truth, own_error = reference(aureole, scene, folder, given.samples)
-        rows = [("reference", "reference", "", "", truth, math.sqrt(own_error) / truth.mean())]
+        reference_image, reference_error = reference(aureole, scene, folder, given.samples)
+        rows = [("reference", "reference", "", "", reference_image, math.sqrt(reference_error) / reference_image.mean())]
 
         def whole(count):
             return count
@@ -86,13 +86,13 @@ def main():
                 ("path", "our path tracer", PATH, 1, whole, time_to_quality.ours(aureole, PATH, scene, 1)),
                 ("mitsuba", f"Mitsuba {mi.__version__}", "path, multijitter, llvm_ad_rgb", 4, square, peer)):
             count = samples_for(render, given.seconds, first, allowed)
-            picture, seconds = render(count, 1)
-            error = math.sqrt(max(((picture - truth) ** 2).mean() - own_error, 0)) / truth.mean()
-            print(f"{name}: {count} samples a pixel, {seconds:.2f} s, {100 * error:.2f} %, mean {picture.mean() / truth.mean():.4f}", flush=True)
-            rows.append((name, title, command, f"{count} samples a pixel, {seconds:.2f} s", picture, error))
-        for name, _, _, _, picture, _ in rows:
+            image, seconds = render(count, 1)
+            error = math.sqrt(max(((image - reference_image) ** 2).mean() - reference_error, 0)) / reference_image.mean()
+            print(f"{name}: {count} samples a pixel, {seconds:.2f} s, {100 * error:.2f} %, mean {image.mean() / reference_image.mean():.4f}", flush=True)
+            rows.append((name, title, command, f"{count} samples a pixel, {seconds:.2f} s", image, error))
+        for name, _, _, _, image, _ in rows:
             exr = os.path.join(folder, "picture.exr")
-            mi.Bitmap(picture.astype(np.float32)).write(exr)
+            mi.Bitmap(image.astype(np.float32)).write(exr)
             subprocess.run([aureole, "convert", exr, os.path.join(ROOT, f"docs/gallery/equal-{name}.png"), "--exposure", "0.5"], check=True)
     text = [f"## {SECTION}", "",
             f"The measured Cornell box at {SIDE} x {SIDE} in about {given.seconds:g} CPU second{'s' * (given.seconds != 1)} of one thread each, by",

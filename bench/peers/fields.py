@@ -161,9 +161,9 @@ def lines(sizes, only_ours=False):
     return table, missing
 
 
-def agree(known, found):
+def agree(expected, found):
     """Whether the errors of two lines are equal up to rounding: within 2 % or below 1e-12."""
-    a, b = ([cell.strip("< ") for cell in line.split("|")[1:-1]] for line in (known, found))
+    a, b = ([cell.strip("< ") for cell in line.split("|")[1:-1]] for line in (expected, found))
     return a[:2] == b[:2] and all(
         abs(float(p) - float(q)) <= 0.02 * float(q) or max(float(p), float(q)) < 1e-12 for p, q in zip(a[2:], b[2:]))
 
@@ -187,11 +187,11 @@ def main():
         with open(arguments.page, "w") as file:
             file.write(text.split(begin)[0] + begin + "\n\n" + "\n".join(table) + "\n\n" + end + text.split(end)[1])
         return 0
-    known = [line for line in text.split(begin)[1].split(end)[0].splitlines() if line.startswith("|")]
+    expected = [line for line in text.split(begin)[1].split(end)[0].splitlines() if line.startswith("|")]
     status = 0
     for line in table[2:]:
         name = line.split("|")[1:3]
-        same = [other for other in known if other.split("|")[1:3] == name]
+        same = [other for other in expected if other.split("|")[1:3] == name]
         if not same or not agree(same[0], line):
             print(f"{arguments.page} has {same}, found {line}")
             status = 1

@@ -98,7 +98,7 @@ def compare(options, case, folder, view):
     bitmap = mi.Bitmap(out)
     names = [bitmap.struct_()[i].name for i in range(bitmap.channel_count())]
     pixels = np.array(bitmap, dtype=np.float64).reshape(-1, bitmap.channel_count())
-    take = lambda *wanted: pixels[:, [names.index(name) for name in wanted]]
+    take = lambda *requested: pixels[:, [names.index(name) for name in requested]]
     try:
         scene = mi.load_file(path)
     except RuntimeError as error:
@@ -158,14 +158,14 @@ def main():
             if options.only not in name or (case[2] and "curve" in case[0]):
                 continue
             results = [compare(options, case, folder, view) for view in VIEWS]
-            said = [result for result in results if isinstance(result, str)]
+            messages = [result for result in results if isinstance(result, str)]
             worst = np.max([result for result in results if not isinstance(result, str)] or [[0]], axis=0)
-            kind = "differ" if worst.max() > LIMIT else "refused" if said else "alike"
+            kind = "differ" if worst.max() > LIMIT else "refused" if messages else "alike"
             counts[kind] += 1
             if kind == "differ" or options.all:
-                print(f"| {name} | " + " | ".join(f"{value:.1e}" for value in worst) + f" | {said[0] if said else ''}", flush=True)
+                print(f"| {name} | " + " | ".join(f"{value:.1e}" for value in worst) + f" | {messages[0] if messages else ''}", flush=True)
             elif kind == "refused":
-                print(f"| {name} | {said[0]} |", flush=True)
+                print(f"| {name} | {messages[0]} |", flush=True)
     print(", ".join(f"{count} {kind}" for kind, count in counts.items()))
     sys.exit(0 if counts["differ"] == 0 else 1)
 

@@ -81,7 +81,7 @@ def rgb(name, color):
     return f'<rgb name="{name}" value="{color[0]:.3f}, {color[1]:.3f}, {color[2]:.3f}"/>'
 
 
-def picture(name, file, scale=1):
+def bitmap_texture(name, file, scale=1):
     return (f'<texture type="bitmap" name="{name}"><string name="filename" value="{file}"/><transform name="to_uv">'
             f'<scale x="{scale}" y="{scale}"/></transform></texture>')
 
@@ -115,9 +115,9 @@ def materials(dice):
         return [dice.uniform(.15, .85) for _ in range(3)]
     return [
         lambda: two_sided(f'<bsdf type="diffuse">{rgb("reflectance", color())}</bsdf>'),
-        lambda: two_sided(f'<bsdf type="diffuse">{picture("reflectance", "cover.png")}</bsdf>'),
+        lambda: two_sided(f'<bsdf type="diffuse">{bitmap_texture("reflectance", "cover.png")}</bsdf>'),
         lambda: two_sided(f'<bsdf type="plastic">{rgb("diffuse_reflectance", color())}</bsdf>'),
-        lambda: two_sided(f'<bsdf type="plastic">{picture("diffuse_reflectance", "cover.png")}</bsdf>'),
+        lambda: two_sided(f'<bsdf type="plastic">{bitmap_texture("diffuse_reflectance", "cover.png")}</bsdf>'),
         lambda: two_sided(f'<bsdf type="roughplastic"><float name="alpha" value=".15"/>{rgb("diffuse_reflectance", color())}</bsdf>'),
         lambda: two_sided('<bsdf type="roughconductor"><string name="material" value="Cu"/><float name="alpha" value=".2"/></bsdf>'),
         lambda: '<bsdf type="dielectric"/>',
@@ -126,9 +126,9 @@ def materials(dice):
 
 def interior(shelves, dice):
     diffuse = two_sided('<bsdf type="diffuse"><rgb name="reflectance" value=".7, .68, .64"/></bsdf>')
-    paper = two_sided(f'<bsdf type="diffuse">{picture("reflectance", "paper.png", 4)}</bsdf>')
-    wood = two_sided(f'<bsdf type="roughplastic"><float name="alpha" value=".2"/>{picture("diffuse_reflectance", "wood.png", 3)}</bsdf>')
-    board = two_sided(f'<bsdf type="diffuse">{picture("reflectance", "wood.png")}</bsdf>')
+    paper = two_sided(f'<bsdf type="diffuse">{bitmap_texture("reflectance", "paper.png", 4)}</bsdf>')
+    wood = two_sided(f'<bsdf type="roughplastic"><float name="alpha" value=".2"/>{bitmap_texture("diffuse_reflectance", "wood.png", 3)}</bsdf>')
+    board = two_sided(f'<bsdf type="diffuse">{bitmap_texture("reflectance", "wood.png")}</bsdf>')
     text = wall((6, 5), '<rotate x="1" angle="-90"/>', (0, 0, 0), wood) + wall((6, 5), '<rotate x="1" angle="90"/>', (0, 3, 0), diffuse)
     text += wall((6, 3), "", (0, 1.5, -2.5), paper) + wall((6, 3), '<rotate y="1" angle="180"/>', (0, 1.5, 2.5), paper)
     text += wall((5, 3), '<rotate y="1" angle="90"/>', (-3, 1.5, 0), diffuse) + wall((5, 3), '<rotate y="1" angle="-90"/>', (3, 1.5, 0), paper)
@@ -155,7 +155,7 @@ def interior(shelves, dice):
         angle = 2 * math.pi * i / 12
         text += mesh(dice.choice(("vase", "ball", "bowl")), .09, (.2 + .6 * math.cos(angle), .746, -.2 + .32 * math.sin(angle)),
                      dice.choice(kinds)())
-    leaf = (f'<bsdf type="mask">{picture("opacity", "leaf.png")}' +
+    leaf = (f'<bsdf type="mask">{bitmap_texture("opacity", "leaf.png")}' +
             two_sided('<bsdf type="diffuse"><rgb name="reflectance" value=".15, .5, .1"/></bsdf>') + "</bsdf>")
     text += mesh("vase", .35, (-2.1, .01, -1.2), kinds[4]())
     for i in range(24):

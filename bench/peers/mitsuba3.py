@@ -196,13 +196,13 @@ def read(path):
     return np.array(mi.Bitmap(path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32), dtype=np.float64)
 
 
-def blocks(picture):
-    height, width, _ = picture.shape
-    part = picture[:height - height % BLOCKS, :width - width % BLOCKS]
+def blocks(image):
+    height, width, _ = image.shape
+    part = image[:height - height % BLOCKS, :width - width % BLOCKS]
     return part.reshape(BLOCKS, part.shape[0] // BLOCKS, BLOCKS, part.shape[1] // BLOCKS, 3).mean(axis=(1, 3)).ravel()
 
 
-def student_quantile(chance, freedom):
+def student_quantile(probability, freedom):
     """The t that |t| exceeds with this probability, by bisection of the tail integral."""
     constant = math.gamma((freedom + 1) / 2) / (math.sqrt(freedom * math.pi) * math.gamma(freedom / 2))
     x = np.linspace(0, 1, 20001)[:-1] + 0.5 / 20000
@@ -214,7 +214,7 @@ def student_quantile(chance, freedom):
     low, high = 0.0, 1e4
     for _ in range(80):
         middle = (low + high) / 2
-        low, high = (middle, high) if tail(middle) > chance else (low, middle)
+        low, high = (middle, high) if tail(middle) > probability else (low, middle)
     return high
 
 
@@ -256,11 +256,11 @@ def judge(name, ours, theirs):
     half = student_quantile(0.05, 2 * SEEDS - 2) * math.sqrt((ma.var(ddof=1) + mb.var(ddof=1)) / SEEDS)
     relative = (ma.mean() - mb.mean()) / mb.mean()
     good = t <= limit and flat <= 1e-4
-    known = name.startswith("material roughplastic") and "as_mitsuba" not in name
-    verdict = "agrees" if good else "differs, see below" if known else "DIFFERS"
+    expected = name.startswith("material roughplastic") and "as_mitsuba" not in name
+    verdict = "agrees" if good else "differs, see below" if expected else "DIFFERS"
     print(f"| {name} | {mb.mean():.5f} | {100 * relative:+.3f} % | {100 * half / mb.mean():.3f} % | {t:.2f} | {limit:.2f} | "
           f"{verdict} |", flush=True)
-    return good or known
+    return good or expected
 
 
 def main():

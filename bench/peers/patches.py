@@ -46,7 +46,7 @@ def main():
             out.write("0 0 .5 0 0 1\n1 .8 .7 0 1 0\n-2 1 1 0 -1 0\n")
         with open("scene.xml", "w") as out:
             out.write(f'<scene version="3.0.0">{ROOM}</scene>')
-        truth, own = {}, 0.0
+        reference, reference_noise = {}, 0.0
         for hour, (direct, diffuse) in day.items():
             keys = f"""<string name="date" value="2001-06-10"/><string name="time" value="{hour - 1:02d}:30"/>
 <float name="latitude" value="48"/><float name="longitude" value="11"/><float name="timezone" value="1"/><vector name="up" value="0 0 1"/>"""
@@ -57,22 +57,22 @@ def main():
             run(program, "irradiance", "-q", "hour.xml", "--sensors", "points.pts", "-n", count, "--illuminance", "rec709", "-o", "hour.csv")
             with open("hour.csv") as rows:
                 for sensor, row in enumerate(csv.DictReader(rows)):
-                    truth[sensor, hour] = float(row["lux"])
-                    own += float(row["lux_error"]) ** 2
-        mean = sum(truth.values()) / len(truth)
+                    reference[sensor, hour] = float(row["lux"])
+                    reference_noise += float(row["lux_error"]) ** 2
+        mean = sum(reference.values()) / len(reference)
         print("| patches | | difference | standard errors | CPU s for the year |\n|---|---|---|---|---|")
         for patches, number in (("tregenza", 145), ("reinhart:2", 577), ("reinhart:4", 2305)):
             cpu = run(program, "irradiance", "-q", "scene.xml", "--sensors", "points.pts", "--weather", "year.epw", "-n", count, "--efficacy", 179,
                       "--ground-albedo", 0, "--up", "0,0,1", "--patches", patches, "--series", "series.csv", "-o", "year.csv")
-            off = noise = 0.0
+            square_sum = noise = 0.0
             with open("series.csv") as lines:
                 for line in list(lines)[1:]:
                     sensor, month, date, hour, lux, error = line.split(",")[:6]
-                    if (month, date) == ("6", "10") and (int(sensor), int(hour)) in truth:
-                        off += (float(lux) - truth[int(sensor), int(hour)]) ** 2
+                    if (month, date) == ("6", "10") and (int(sensor), int(hour)) in reference:
+                        square_sum += (float(lux) - reference[int(sensor), int(hour)]) ** 2
                         noise += float(error) ** 2
-            print(f"| {patches} | {number} | {100 * math.sqrt(off / len(truth)) / mean:.2f} % | "
-                  f"{100 * math.sqrt((noise + own) / len(truth)) / mean:.2f} % | {cpu:.1f} |", flush=True)
+            print(f"| {patches} | {number} | {100 * math.sqrt(square_sum / len(reference)) / mean:.2f} % | "
+                  f"{100 * math.sqrt((noise + reference_noise) / len(reference)) / mean:.2f} % | {cpu:.1f} |", flush=True)
 
 
 if __name__ == "__main__":

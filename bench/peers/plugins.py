@@ -50,9 +50,9 @@ def has_sensor(path):
     return "<sensor" in text or "<include" in text
 
 
-def to_xyz(picture):
+def to_xyz(image):
     """Converts colors to XYZ; other channels are unchanged."""
-    return np.concatenate([picture[..., :3] @ TO_XYZ.T, picture[..., 3:]], axis=-1)
+    return np.concatenate([image[..., :3] @ TO_XYZ.T, image[..., 3:]], axis=-1)
 
 
 def has_box(scene):
@@ -78,15 +78,15 @@ def make_reference(path):
         channels = np.array(mi.render(scene, integrator=moments, spp=THEIRS, seed=7), dtype=np.float64)
         mean, square = channels[:, :, -6:-3], channels[:, :, -3:]
         return ["R", "G", "B"], mean, np.maximum(square - mean * mean, 0)
-    pictures = np.array([mi.render(scene, spp=THEIRS // RUNS, seed=seed + 7) for seed in range(RUNS)], dtype=np.float64)
+    images = np.array([mi.render(scene, spp=THEIRS // RUNS, seed=seed + 7) for seed in range(RUNS)], dtype=np.float64)
     # Aureole has no channels of `moment`.
-    further = pictures.shape[-1] - 3 if scene.integrator().class_name() == "AOVIntegrator" else 0
+    further = images.shape[-1] - 3 if scene.integrator().class_name() == "AOVIntegrator" else 0
     names = scene.integrator().aov_names()[-further:] if further > 0 else []
     order = sorted(range(further), key=lambda k: names[k].rsplit(".", 1)[0])  # as in files: channels of a name keep their order
-    pictures /= SPECTRAL_EXCESS if mi.variant() == "scalar_spectral" else 1
-    pictures = to_xyz(pictures[..., [0, 1, 2] + [3 + k for k in order]])
-    variance = pictures.var(axis=0, ddof=1) * (THEIRS // RUNS)
-    return ["R", "G", "B"] + [names[k] for k in order], pictures.mean(axis=0), variance
+    images /= SPECTRAL_EXCESS if mi.variant() == "scalar_spectral" else 1
+    images = to_xyz(images[..., [0, 1, 2] + [3 + k for k in order]])
+    variance = images.var(axis=0, ddof=1) * (THEIRS // RUNS)
+    return ["R", "G", "B"] + [names[k] for k in order], images.mean(axis=0), variance
 
 
 def read(path):
@@ -100,16 +100,16 @@ def reference(path, folder):
     name = os.path.splitext(os.path.basename(path))[0]
     files = [os.path.join(folder, name + end) for end in (".exr", "_var.exr")]
     if not all(os.path.exists(file) for file in files):
-        names, *pictures = make_reference(path)
-        for file, picture in zip(files, pictures):
-            mi.Bitmap(picture.astype(np.float32), channel_names=names).write(file)
+        names, *images = make_reference(path)
+        for file, image in zip(files, images):
+            mi.Bitmap(image.astype(np.float32), channel_names=names).write(file)
     return [read(file) for file in files]
 
 
-def judge(name, pictures, mean, variance):
-    pictures = to_xyz(np.array(pictures))
-    ours = pictures.mean(axis=0)
-    variance_of_ours = pictures.var(axis=0, ddof=1) / RUNS
+def judge(name, images, mean, variance):
+    images = to_xyz(np.array(images))
+    ours = images.mean(axis=0)
+    variance_of_ours = images.var(axis=0, ddof=1) / RUNS
     # Without variance, rare contributions such as a filter's tail may have been missed.
     missed = np.abs(mean).max(axis=(0, 1)) / (RUNS * SAMPLES)
     deviation = np.sqrt(np.where(variance_of_ours > 0, variance_of_ours, missed ** 2) + variance / THEIRS)
@@ -149,13 +149,13 @@ def main():
             ours = os.path.join(options.folder, name + OURS + ".xml")
             mean, variance = reference(path, references)
             out = os.path.join(scratch, "out.exr")
-            pictures, refused = [], None
+            images, refused = [], None
             for seed in range(RUNS):
                 refused = refused or render(options, ours if os.path.exists(ours) else path, seed, out)
-                pictures += [] if refused else [read(out)]
+                images += [] if refused else [read(out)]
             if refused:
                 print(f"| {name} | | | | | refused: {refused} |", flush=True)
-            good = not refused and judge(name, pictures, mean, variance) and good
+            good = not refused and judge(name, images, mean, variance) and good
     sys.exit(0 if good else 1)
 
 

@@ -87,15 +87,15 @@ def main():
         out, seconds = run(command, points)
         return [float(line.split()[0]) for line in out.split("\n") if line], None, seconds
 
-    truth, errors, seconds = ours("-n 250000 --seed 12345")
-    mean = sum(truth) / len(truth)
-    own = (sum(e * e for e in errors) / len(errors)) ** .5 / mean
-    print(f"reference: mean {mean:.4f}, its standard error {100 * own:.3f} %, {seconds:.1f} CPU s\n")
-    print("| | RMS error | bias | worst | CPU s | told |\n|---|---|---|---|---|---|")
+    reference, errors, seconds = ours("-n 250000 --seed 12345")
+    mean = sum(reference) / len(reference)
+    standard_error = (sum(e * e for e in errors) / len(errors)) ** .5 / mean
+    print(f"reference: mean {mean:.4f}, its standard error {100 * standard_error:.3f} %, {seconds:.1f} CPU s\n")
+    print("| | RMS error | bias | worst | CPU s | reported |\n|---|---|---|---|---|---|")
     for table, solve in ((RADIANCE, radiance), (CONTRIBUTIONS, contributions), (OURS, ours)):
         for name, options in table.items():
             try:
-                values, told, seconds = solve(options)
+                values, reported, seconds = solve(options)
             except subprocess.CalledProcessError as failure:
                 if failure.returncode < 0 or "CPU limit" in failure.stderr:
                     done = failure.stdout.count("\n")
@@ -103,10 +103,10 @@ def main():
                 else:
                     print(f"| {name} | failed: {failure.stderr.strip()} |", flush=True)
                 continue
-            off = [(v - t) / mean for v, t in zip(values, truth)]
-            said = "nothing" if told is None else f"{100 * (sum(e * e for e in told) / len(told)) ** .5 / mean:.2f} %"
-            print(f"| {name} | {100 * (sum(o * o for o in off) / len(off)) ** .5:.2f} % | {100 * sum(off) / len(off):+.2f} % "
-                  f"| {100 * max(map(abs, off)):.2f} % | {seconds:.2f} | {said} |", flush=True)
+            differences = [(v - t) / mean for v, t in zip(values, reference)]
+            reported_text = "nothing" if reported is None else f"{100 * (sum(e * e for e in reported) / len(reported)) ** .5 / mean:.2f} %"
+            print(f"| {name} | {100 * (sum(o * o for o in differences) / len(differences)) ** .5:.2f} % | {100 * sum(differences) / len(differences):+.2f} % "
+                  f"| {100 * max(map(abs, differences)):.2f} % | {seconds:.2f} | {reported_text} |", flush=True)
 
 
 main()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Rooms that nobody tuned for, made by program from seeds, and how final gathering and --error do in them beside path tracing.
+"""Generated rooms that no setting was tuned for: final gathering and --error, compared with path tracing.
 
     python3 -m venv /tmp/rooms && /tmp/rooms/bin/pip install numpy
     /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole [--seeds 101-112] [--seconds 3] [--size 64x48] [--scene FILE.xml]
@@ -7,18 +7,18 @@
     /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole --ask .04 --size 320x240 [--seconds 60]
     /tmp/rooms/bin/python bench/peers/rooms.py --write FOLDER --seeds 7
 
-Each has tables and chairs on thin legs, a floor of glossy wood, a rug and a wall whose pictures are black at a corner, mirrors, vases
-and bowls of many materials. A third are courtyards under sun and sky, a third have sun and sky behind blinds and a lamp or two, a third
-up to sixteen lamps. Seeds 1 to 12 are for tuning, 101 to 112 for what is reported.
+Each room has tables and chairs with thin legs, a floor of glossy wood, a rug, a wall with textures that are black at one corner, mirrors, vases
+and bowls of many materials. A third are courtyards under sun and sky, a third have sun and sky behind blinds and one or two light sources, a third
+up to sixteen light sources. Seeds 1 to 12 are for tuning, 101 to 112 for reported results.
 
-`finalgather` as it is by default gets samples for so many CPU seconds of one thread (whole processes, Sobol points, box filter), and `path` for
-what that took; then `--error` is asked for the smaller of their errors. The truth is two path-traced pictures a and b of seeds of their own,
-with as many rays as `--rays` says, spent pixel by pixel; the mean square error of x is the mean of (x - a)(x - b), and half of its standard
-error over that is the relative one of the RMSE, which stands behind it. Ratios are of the times to the same error, which goes as
-seconds^-1/2. With --until both get more and more samples, fourfold at most, until the true error is there or the next picture would take
-more than --seconds; the time of `path` to that error is then the law's, and final gathering, whose bias knows no law, has no ratio where
-its error is not there. With --ask pictures are asked for an error, as --error does by default and by `path`, which ends before it where it has
-taken --seconds; errors are those that are said at the end, and there is no truth.
+By default `finalgather` with its default settings renders for a number of CPU seconds on one thread (whole processes, Sobol' points, box filter),
+`path` for the same time, and --error to the smaller of their errors. The reference is two path-traced images a and b with independent seeds
+and the number of rays of --rays, sampled adaptively. The mean square error of x is the mean of (x - a)(x - b). The relative standard error of
+the RMSE, half that of the mean square error, follows it in parentheses. Ratios are of times to the same error, extrapolated as seconds^-1/2.
+With --until both renderers increase the samples, at most fourfold per step, until the error is reached or the next image would take
+more than --seconds. The time of `path` is then extrapolated to that error; final gathering is biased and cannot be extrapolated, so it has no
+ratio if it does not reach the error. With --ask images are rendered to a target error with --error's automatic choice and with `path`, which
+is limited to --seconds; errors are those that the program reports, without a reference.
 """
 import argparse
 import math
@@ -40,12 +40,12 @@ MOST_SAMPLES = 16384
 
 
 def corner(x, y):
-    """Black at a corner, bright elsewhere."""
+    """A texture that is black at one corner and bright elsewhere."""
     return (0, 0, 0) if x + y < 96 else (200, 120 + x // 2, 110 + y // 2)
 
 
 def on_legs(size, place, thick, board, metal):
-    """A board on four thin legs; its upper side is at size[1]."""
+    """A board with four thin legs; its top is at height size[1]."""
     text = box((size[0], .04, size[2]), (place[0], size[1] - .02, place[1]), board)
     for x in (-1, 1):
         for z in (-1, 1):
@@ -97,7 +97,7 @@ def sun_and_sky(dice):
 
 
 def blinds(dice, depth, height, material):
-    """The wall on the right with an opening, and slats before it."""
+    """The right wall with an opening, and slats in front of it."""
     low, high, half = .8, height - .4, .3 * depth
     turn, x = '<rotate y="1" angle="-90"/>', dice.uniform(2, 3)
     text = wall((depth, low), turn, (x, low / 2, 0), material) + wall((depth, height - high), turn, (x, (height + high) / 2, 0), material)
@@ -163,81 +163,81 @@ def render(given, scene, *options, seed=1):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "picture.pfm")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        said = subprocess.run([given.aureole, "render", scene, "--width", width, "--height", height, "--filter", "box", "-t", "1", "--no-cache",
+        message = subprocess.run([given.aureole, "render", scene, "--width", width, "--height", height, "--filter", "box", "-t", "1", "--no-cache",
                                "--seed", str(seed), *(["-D", "integrator=path"] if given.scene else []), *options, "-o", out], check=True, stderr=subprocess.PIPE, text=True).stderr
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         with open(out, "rb") as file:
             for _ in range(3):
                 file.readline()
             values = np.frombuffer(file.read(), "<f4").astype(np.float64)
-    return values, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, said.splitlines()[-1]
+    return values, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, message.splitlines()[-1]
 
 
-def error_of(values, truth):
-    """RMSE over the mean, and its own relative standard error."""
-    product = (values - truth[0]) * (values - truth[1])
-    square, mean = float(product.mean()), float((truth[0] + truth[1]).mean() / 2)
+def error_of(values, references):
+    """Relative RMSE, and its relative standard error."""
+    product = (values - references[0]) * (values - references[1])
+    square, mean = float(product.mean()), float((references[0] + references[1]).mean() / 2)
     return math.sqrt(max(square, 0)) / mean, float(product.std()) / math.sqrt(len(product)) / max(abs(square), 1e-30) / 2
 
 
 def for_seconds(given, scene, integrator, seconds, samples):
-    """An image that takes half of that or more: samples go up fourfold, or by less where more is seen to be too much."""
+    """An image that takes at least half of the time: samples increase fourfold, or less near the limit."""
     while True:
-        values, taken, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
-        if taken >= .5 * seconds or samples >= MOST_SAMPLES:
-            return values, taken
-        samples = round(samples * min(4.0, seconds / taken))
+        values, spent, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
+        if spent >= .5 * seconds or samples >= MOST_SAMPLES:
+            return values, spent
+        samples = round(samples * min(4.0, seconds / spent))
 
 
 def compare(given, name, scene):
-    truth = [render(given, scene, "--integrator", "path", "--rays", given.rays, seed=seed)[0] for seed in (1001, 1002)]
+    references = [render(given, scene, "--integrator", "path", "--rays", given.rays, seed=seed)[0] for seed in (1001, 1002)]
     rows = {}
     values, seconds = for_seconds(given, scene, "finalgather", given.seconds, 4)
-    rows["finalgather"] = (*error_of(values, truth), seconds)
+    rows["finalgather"] = (*error_of(values, references), seconds)
     values, seconds = for_seconds(given, scene, "path", seconds, 16)
-    rows["path"] = (*error_of(values, truth), seconds)
-    asked = max(min(rows["path"][0], rows["finalgather"][0]), .003)
-    values, seconds, said = render(given, scene, "--error", f"{asked:.4f}", "--error-measure", "mean")
-    rows["asked"] = (*error_of(values, truth), seconds)
+    rows["path"] = (*error_of(values, references), seconds)
+    target = max(min(rows["path"][0], rows["finalgather"][0]), .003)
+    values, seconds, message = render(given, scene, "--error", f"{target:.4f}", "--error-measure", "mean")
+    rows["asked"] = (*error_of(values, references), seconds)
     cost = {key: error ** 2 * seconds for key, (error, _, seconds) in rows.items()}
     gather, auto = cost["path"] / cost["finalgather"], cost["path"] / cost["asked"]
-    chosen = re.search(r" by ([a-z]+)", said)
+    chosen = re.search(r" by ([a-z]+)", message)
     print(f"| {name} | " + " | ".join(f"{100 * e:.2f} % ({100 * s:.0f}) in {t:.2f} s" for e, s, t in rows.values()) +
           f" | {chosen[1] if chosen else '?'} | {gather:.2f} | {auto:.2f} |", flush=True)
     return gather, auto
 
 
-def until(given, scene, integrator, samples, truth):
-    """Error, its own relative standard error, CPU seconds and samples of the first image that has the error, or of the last one."""
+def until(given, scene, integrator, samples, references):
+    """Error, its relative standard error, CPU seconds and samples of the first image that reaches the error, or of the last one."""
     while True:
-        values, taken, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
-        error, uncertain = error_of(values, truth)
+        values, spent, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
+        error, standard_error = error_of(values, references)
         factor = min(4.0, max(1.2, 1.1 * (error / given.until) ** 2))
-        if error <= given.until or factor * taken > given.seconds or factor * samples > MOST_SAMPLES:
-            return error, uncertain, taken, samples
+        if error <= given.until or factor * spent > given.seconds or factor * samples > MOST_SAMPLES:
+            return error, standard_error, spent, samples
         samples = math.ceil(factor * samples)
 
 
 def compare_until(given, name, scene):
-    truth = [render(given, scene, "--integrator", "path", "--rays", given.rays, seed=seed)[0] for seed in (1001, 1002)]
-    rows = [until(given, scene, "finalgather", 4, truth), until(given, scene, "path", 16, truth)]
-    (own, _, seconds, _), (error, _, taken, _) = rows
-    path = taken * (error / given.until) ** 2
+    references = [render(given, scene, "--integrator", "path", "--rays", given.rays, seed=seed)[0] for seed in (1001, 1002)]
+    rows = [until(given, scene, "finalgather", 4, references), until(given, scene, "path", 16, references)]
+    (own, _, seconds, _), (error, _, spent, _) = rows
+    path = spent * (error / given.until) ** 2
     ratio = path / seconds if own <= given.until else None
     print(f"| {name} | " + " | ".join(f"{100 * e:.2f} % ({100 * u:.0f}) in {t:.3g} s, {n} samples" for e, u, t, n in rows) +
           f" | {path:.3g} s | {'not reached' if ratio is None else f'{ratio:.2f}'} |", flush=True)
     return (ratio,)
 
 
-def compare_asked(given, name, scene):
+def compare_target(given, name, scene):
     rows = []
     for options in ((), ("--integrator", "path", "--time", f"{given.seconds:g}s")):
-        _, seconds, said = render(given, scene, "--error", str(given.ask), "--error-measure", "mean", *options)
-        found = re.search(r"error of ([\d.]+) %.* by ([a-z]+)", said)
+        _, seconds, message = render(given, scene, "--error", str(given.ask), "--error-measure", "mean", *options)
+        found = re.search(r"error of ([\d.]+) %.* by ([a-z]+)", message)
         rows.append((float(found[1]), seconds, found[2]))
-    (own, seconds, chosen), (error, taken, _) = rows
-    ratio = error ** 2 * taken / (own ** 2 * seconds)
-    print(f"| {name} | {own:.2f} % in {seconds:.3g} s | {chosen} | {error:.2f} % in {taken:.3g} s | {ratio:.2f} |", flush=True)
+    (own, seconds, chosen), (error, spent, _) = rows
+    ratio = error ** 2 * spent / (own ** 2 * seconds)
+    print(f"| {name} | {own:.2f} % in {seconds:.3g} s | {chosen} | {error:.2f} % in {spent:.3g} s | {ratio:.2f} |", flush=True)
     return (ratio,)
 
 
@@ -249,7 +249,7 @@ def main():
     parser.add_argument("--until", type=float, metavar="ERROR", help="RMSE over the mean, such as .01")
     parser.add_argument("--ask", type=float, metavar="ERROR", help="as --error does, such as .04")
     parser.add_argument("--size", default="64x48")
-    parser.add_argument("--rays", default="1e7", help="of each of the two pictures that are the truth")
+    parser.add_argument("--rays", default="1e7", help="of each of the two reference images")
     parser.add_argument("--scene", help="this one in place of rooms, whose $integrator is path")
     parser.add_argument("--write", metavar="FOLDER", help="write the rooms only")
     given = parser.parse_args()
@@ -266,7 +266,7 @@ def main():
         print("| room | finalgather | path | path, to the error | finalgather / path |\n|---|---|---|---|---|")
     else:
         print("| room | finalgather: error (% of that) | path | --error | by | finalgather / path | --error / path |\n|---|---|---|---|---|---|---|")
-    measure = compare_asked if given.ask else compare_until if given.until else compare
+    measure = compare_target if given.ask else compare_until if given.until else compare
     if given.scene:
         measure(given, os.path.basename(os.path.dirname(os.path.abspath(given.scene))), given.scene)
         return

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Many sensors in a large scene: irradiance on the ground and the roofs of a generated city, beside bare rays.
+"""Many sensors in a large scene: irradiance on the ground and the roofs of a generated city, compared with ray tracing alone.
 
     python3 bench/peers/sensors.py AUREOLE [--facets 1000000] [--sensors 100000] [-n 64]
 
-The city is that of city.py, of diffuse facets under a uniform sky. Says CPU seconds of `aureole irradiance` with one edge (a
-ray and a shadow ray for each direction) and with four, less those of reading the scene, and whether one thread and three give
-the same bytes. Bare rays are those of `aureole render --integrator ao`, which shades nothing, in a picture of the city.
+The city is that of city.py, with diffuse facets under a uniform sky. Prints CPU seconds of `aureole irradiance` with one path edge (a
+ray and a shadow ray per direction) and with four, without the time for reading the scene, and whether one thread and three give
+identical bytes. The baseline is `aureole render --integrator ao` on the city, which does no shading.
 """
 import argparse
 import os
@@ -20,15 +20,15 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def run(arguments):
-    """CPU seconds, and what was said."""
+    """CPU seconds, and the messages."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    said = subprocess.run(arguments, check=True, stderr=subprocess.PIPE, text=True).stderr
+    messages = subprocess.run(arguments, check=True, stderr=subprocess.PIPE, text=True).stderr
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, said
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, messages
 
 
 def write_sensors(path, facets, count):
-    """On the upper of the city's facets, a centimetre above, by chance."""
+    """Random positions one centimeter above the horizontal facets of the city."""
     dice = random.Random(7)
     corners, level = [], []
     for line in open(facets):
@@ -75,8 +75,8 @@ def main():
         write_sensors("one.pts", "city.obj", 1)
         loading, _ = run([aureole, "irradiance", "-q", "city.xml", "--sensors", "one.pts", "-n", "16", "-o", "one.csv"])
         print(f"{triangles} triangles, {given.sensors} sensors, {given.n} directions each; read in {loading:.1f} CPU s")
-        _, said = run([aureole, "render", "-q", "--stats", "city.xml", "-o", "city.exr"])
-        rays, seconds = int(re.search(r"(\d+) rays", said)[1]), float(re.search(r"([\d.]+) CPU s", said)[1])
+        _, messages = run([aureole, "render", "-q", "--stats", "city.xml", "-o", "city.exr"])
+        rays, seconds = int(re.search(r"(\d+) rays", messages)[1]), float(re.search(r"([\d.]+) CPU s", messages)[1])
         bare = seconds / rays
         print(f"bare rays: {1e-6 / bare:.2f} million a CPU second")
         for edges in 1, 4:

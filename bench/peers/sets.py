@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Point sets beside those of other packages: how even they are, all by `aureole measure`, and how fast they are made.
+"""Point sets compared with those of other packages: uniformity, by `aureole measure`, and speed.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install scipy qmcpy healpy pylebedev qc-grid spaudiopy dipy orix quaternionic
     sudo apt install mrtrix3
     /tmp/peers/bin/python bench/peers/sets.py [--program build/release/aureole]          # writes the tables of bench/peers/sets.md
     python3 bench/peers/sets.py --check                                                  # compares all but the times
 
-Figures are scaled by powers of N so that sets of nearly equal sizes can be compared; those of random and scrambled sets are
-means over eight seeds. Speed is the median of several calls, in millions of points a CPU second, of at most 2^20 points and as many
-as a fifth of a second allows. One thread. --check leaves out what is not installed; what could not be measured goes to standard error.
+Values are scaled by powers of N so that sets of nearly equal sizes can be compared; those of random and scrambled sets are
+means over eight seeds. Speed is the median of several calls on one thread, in millions of points per CPU second, of at most 2^20 points and
+as many as take a fifth of a second. --check skips missing packages; failures are printed on standard error.
 """
 import argparse
 import csv
@@ -23,7 +23,7 @@ import time
 
 for _name in "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS":
     os.environ[_name] = "1"
-os.environ["AUREOLE_CACHE"] = ""  # blue noise is made, not read
+os.environ["AUREOLE_CACHE"] = ""  # blue noise is computed, not read
 
 import numpy as np
 
@@ -31,7 +31,7 @@ import makers
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SEEDS = 8
-# The metrics of a domain, each with the power of N that it is multiplied with, and what the column is called.
+# The size and the metrics of a domain: name, power of N that scales the value, and title of the column.
 DOMAINS = {
     "square": (1024, [("star", 1, "star discrepancy, N"), ("l2-star", 1, "L2 star, N"),
                       ("min-distance", 0.5, "smallest distance, N^1/2")]),
@@ -44,7 +44,7 @@ HEADERS = {"square": "x,y", "sphere": "x,y,z", "rotations": "w,x,y,z"}
 
 
 def measure(domain, sets):
-    """The metrics of some arrays of points, a row each."""
+    """The metrics of arrays of points, one row each."""
     names = [metric for metric, *_ in DOMAINS[domain][1]]
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.join(folder, f"{i}.csv") for i in range(len(sets))]
@@ -57,7 +57,7 @@ def measure(domain, sets):
 
 
 def figures(maker):
-    """The number of points, and the scaled figures."""
+    """The number of points, and the scaled values."""
     n, metrics = DOMAINS[maker.domain]
     sets = [maker.make(n, seed) for seed in range(1, 1 + (SEEDS if maker.random else 1))]
     values = measure(maker.domain, sets)
@@ -83,7 +83,7 @@ def build_clock(folder):
 
 
 def call_seconds(maker, n, clock):
-    """CPU seconds of one call, and how many points it made."""
+    """CPU seconds of one call, and the number of its points."""
     if maker.arguments:
         size = makers.nearest_size(maker.sizes, n)
         scramble = maker.arguments[2] if len(maker.arguments) > 2 else "none"
@@ -124,7 +124,7 @@ def title(maker):
 
 
 def rows(domain, only_ours, clock):
-    """Title and cells of each set that is here; texts of those that are not."""
+    """Title and cells of each available set; an error text for the others."""
     for maker in makers.MAKERS:
         if maker.domain != domain or (only_ours and maker.package is not None):
             continue
@@ -158,19 +158,19 @@ def write(page, begin, end):
 
 
 def check(page, begin, end, domains, only_ours):
-    """All cells but those of times, of all rows that can be made here."""
-    known, status = {}, 0
+    """All cells except times, for all available sets."""
+    stored, status = {}, 0
     table = open(page).read().split(begin)[1].split(end)[0]
     for chunk, domain in zip(table.split("| set |")[1:], DOMAINS):
         for line in chunk.splitlines():
             row = [cell.strip() for cell in line.strip("|").split("|")]
-            known[domain, row[0]] = row[1:-1]
+            stored[domain, row[0]] = row[1:-1]
     for domain in domains:
         for name, found in rows(domain, only_ours, None):
             if isinstance(found, str):
                 print(f"left out: {found}")
-            elif known.get((domain, name)) != found:
-                print(f"{domain}, {name}: {page} has {known.get((domain, name))}, found {found}")
+            elif stored.get((domain, name)) != found:
+                print(f"{domain}, {name}: {page} has {stored.get((domain, name))}, found {found}")
                 status = 1
     return status
 

@@ -4,11 +4,11 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy scipy
     /tmp/peers/bin/python bench/peers/target_error.py build/release/aureole SCENE.xml[:WIDTHxHEIGHT]... [--errors .05,.02] [--measure relative]
 
-Mitsuba is llvm_ad_rgb with multi-jittered samples and the scene's own filter, on one thread. Its samples grow fourfold from 16 until the
+Mitsuba is llvm_ad_rgb with multi-jittered samples and the scene's filter, on one thread. Its samples grow fourfold from 16 until the
 target is met or the next image would take more than --seconds; beyond, the power law between the last two errors gives the samples, and the line
 between their times the seconds. Its error is half the difference of two images with different seeds, by the measure of --measure as in
-docs/target-error.md, because path tracing has no bias. Only the call that renders counts, after a first one that compiles. Aureole's
-seconds are those of the whole process, until it states that the target is met: its stated error has an upper end, Mitsuba's has none.
+docs/target-error.md, because path tracing has no bias. Only the render call counts, after a first one that compiles. Aureole's
+seconds are those of the whole process, until it reports that the target is met, that is, its upper confidence bound; Mitsuba has no bound.
 A ratio above 1 means that Aureole is faster. The last line has the median of the ratios and the least."""
 import argparse
 import json
@@ -30,7 +30,7 @@ def cpu_seconds(who):
 
 
 def error_of(first, second, measure):
-    """The root mean square error of their mean's halves, each an image of its own."""
+    """The root mean square error of a single image, estimated from two independent ones."""
     import numpy as np
     from scipy.ndimage import uniform_filter
     weights = np.array([0.2126, 0.7152, 0.0722])
@@ -43,7 +43,7 @@ def error_of(first, second, measure):
 
 
 def mitsuba_child(path, width, height, errors, measure, most_seconds):
-    """Prints a JSON line: seconds to each error, and what was measured."""
+    """Prints a JSON line: seconds to each error, and the measurements."""
     import drjit as dr
     import mitsuba as mi
     import numpy as np
@@ -81,7 +81,7 @@ def mitsuba_child(path, width, height, errors, measure, most_seconds):
 
 
 def ours(aureole, path, width, height, error, measure, most_seconds):
-    """Seconds to the target, and what the program states; None where the time ends first."""
+    """Seconds to the target, and the program's report; None if the time limit is reached first."""
     with tempfile.TemporaryDirectory() as folder:
         before = cpu_seconds(resource.RUSAGE_CHILDREN)
         run = subprocess.run([aureole, "render", path, "--width", str(width), "--height", str(height), "-t", "1", "--error", repr(error),

@@ -1,26 +1,26 @@
 #!/usr/bin/env python3
-"""CPU seconds that Mitsuba 3, Blender's Cycles and our own path tracer take to a relative RMSE on the same scenes.
+"""CPU seconds that Mitsuba 3, Blender's Cycles and Aureole's path tracer take to a relative RMSE on the same scenes.
 
     python3.11 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy bpy==4.2.0
     /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT] [--equal-samples]
 
-The glossy box and the room are of meshes that scripts/scenes.sh makes. llvm_ad_rgb compiles by LLVM 19 (Debian's libllvm19,
-DRJIT_LIBLLVM_PATH=.../libLLVM.so.19.1): 14 is refused, and 15 and 16 stop at "Cannot select: fminimum".
+The glossy box and the room use meshes that scripts/scenes.sh generates. llvm_ad_rgb requires LLVM 19 (Debian's libllvm19,
+DRJIT_LIBLLVM_PATH=.../libLLVM.so.19.1): 14 is rejected, and 15 and 16 stop at "Cannot select: fminimum".
 
-A renderer that is not installed is left out and named. All of them are unbiased, so the RMSE of a picture is told by two
-pictures with different seeds: the root of half their mean squared difference, over the mean. It is measured at two numbers
-of samples a pixel; from there the error follows a power law and the time a line. The time is user + system seconds of all
-threads in the call that renders: imports, loading and the first compilation of kernels (llvm_ad_rgb) are not counted, which
-favours the peers; ours is that of whole processes. Cycles gets the scene's triangles, normals and texture from Mitsuba and
-materials of its own for rough plastic (a Principled BSDF of the same base, index and roughness), so its picture is alike,
-not equal.
+Renderers that are not installed are skipped with a message. All of them are unbiased, so the RMSE of an image is measured from two
+images with different seeds: the root of half their mean squared difference, relative to the mean. It is measured at two numbers
+of samples per pixel and extrapolated with a power law for the error and a line for the time. The time is user + system seconds of all
+threads in the render call: imports, loading and the first compilation of kernels (llvm_ad_rgb) are excluded, which
+favors the other renderers; Aureole's time is that of whole processes. Cycles gets the scene's triangles, normals and texture from Mitsuba and
+its Principled BSDF for rough plastic (with the same base color, index and roughness), so its image is similar,
+not identical.
 
---equal-samples compares `path` with Mitsuba's at equal samples instead, on more scenes, in pairs that alternate: the call that
-renders (the first, which compiles, is left out) over our rendering (the whole process less one of a single sample, by as much more), and a fresh
-process of Mitsuba without kept kernels, which loads, compiles and renders, over our whole process.
+--equal-samples compares `path` with Mitsuba's at equal samples instead, on more scenes, in alternating pairs: the render call
+(except for the first, which compiles) over Aureole's rendering (the whole process minus one with a single sample, rescaled), and a new
+process of Mitsuba without cached kernels, which loads, compiles and renders, over Aureole's whole process.
 
---peers NAME prints for `aureole-bench adaptive-speed` what Mitsuba takes on one scene. There its samples grow fourfold from 16 until it
-has the least error, or until the next picture would take 60 s or more than a kernel's memory; the law is of the last sixteenfold.
+--peers NAME prints Mitsuba's times on one scene for `aureole-bench adaptive-speed`. Its samples grow fourfold from 16 until it
+reaches the smallest error, or until the next image would take 60 s or exceed a kernel's memory; the power law is that of the last factor of 16.
 """
 import argparse
 import json
@@ -45,10 +45,10 @@ SCENES = {
 BUNDLED = {name: (os.path.join(ROOT, "scenes", name, name + ".xml"), 240, 160, {"materials": "rough"})
            for name in ("plates", "sphere", "statue", "parade", "occlusion")}
 ERRORS = (0.02, 0.005)
-# A pixel, squares for multi-jittered ones and powers of 2 for Sobol's, where error and time are measured.
+# Samples per pixel at which error and time are measured: squares for multi-jittered samples and powers of 2 for Sobol'.
 SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)} | {name: (16, 64) for name in BUNDLED}
 
-# Of --peers: more lanes than these, each with some hundred bytes of a path's state, are not asked of one kernel.
+# For --peers: a kernel runs at most this number of lanes, each with some hundred bytes of path state.
 FIRST, STEP, MOST_SECONDS, MOST_LANES = 16, 4, 60.0, 1 << 24
 
 
@@ -58,7 +58,7 @@ def cpu_seconds(who=resource.RUSAGE_SELF):
 
 
 def scene_text(path, width, height, definitions):
-    """The scene as both programs read it: a box filter, path tracing without end, full file names."""
+    """The scene for both programs: a box filter, path tracing without a depth limit, absolute file names."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     folder = os.path.dirname(os.path.abspath(path))
@@ -83,11 +83,11 @@ def scene_text(path, width, height, definitions):
 
 
 def name_of(path):
-    """The scene's, of its copy's path."""
+    """The name of the scene from the path of its copy."""
     return os.path.splitext(os.path.basename(path))[0]
 
 
-# --- renderers: each gives a function (samples, seed) -> (image, CPU seconds)
+# --- renderers: each returns a function (samples, seed) -> (image, CPU seconds)
 
 
 def mitsuba(variant, sampler, path, threads):
@@ -97,18 +97,18 @@ def mitsuba(variant, sampler, path, threads):
     with open(path, encoding="utf-8") as file:
         scene = mi.load_string(re.sub(r'<sampler\s+type="[^"]*"', f'<sampler type="{sampler}"', file.read()))
     if variant.startswith("llvm"):
-        import drjit as dr  # after loading: textures are read by its threads, and one alone waits for itself
+        import drjit as dr  # after loading: its threads read textures, and a single one would deadlock
         dr.set_thread_count(threads)
     else:
         mi.Thread.set_thread_count(threads) if hasattr(mi.Thread, "set_thread_count") else None
-    # kernels are compiled for each
+    # each number of samples compiles a kernel
     for samples in SAMPLES.get(name_of(path), ()) if variant.startswith("llvm") else (1,):
         np.array(mi.render(scene, spp=samples, seed=999))
 
     def render(samples, seed):
         start = cpu_seconds()
-        picture = np.array(mi.render(scene, spp=samples, seed=seed), dtype=np.float64)[:, :, :3]
-        return picture, cpu_seconds() - start
+        image = np.array(mi.render(scene, spp=samples, seed=seed), dtype=np.float64)[:, :, :3]
+        return image, cpu_seconds() - start
     return render
 
 
@@ -126,7 +126,7 @@ def triangles(mi, shape):
 
 
 def normals(mi, shape):
-    """Of the vertices, or None."""
+    """Normals of the vertices, or None."""
     import numpy as np
     parameters = mi.traverse(shape)
     found = np.array(parameters["vertex_normals"]).reshape(-1, 3) if "vertex_normals" in parameters else ()
@@ -134,19 +134,19 @@ def normals(mi, shape):
 
 
 def bsdf_values(text, name):
-    """What Cycles is to know of a BSDF by its XML: base colour, roughness of a plastic or None, file of a texture or None."""
+    """Parameters of a BSDF for Cycles from its XML: base color, roughness of a plastic or None, file of a texture or None."""
     found = re.search(rf'<bsdf type="[^"]*" id="{re.escape(name)}">(.*?)</bsdf>\s*</bsdf>', text, re.S)
     inner = found[1] if found else ""
     base = re.search(r'name="(?:diffuse_)?reflectance" value="([^"]*)"', inner)
     values = [float(v) for v in base[1].split(",")] if base else [0.5]
     alpha = re.search(r'name="alpha" value="([^"]*)"', inner)
-    picture = re.search(r'name="filename" value="([^"]*)"', inner)
-    return (values * 3)[:3], float(alpha[1]) if alpha and "roughplastic" in inner else None, picture[1] if picture else None
+    image = re.search(r'name="filename" value="([^"]*)"', inner)
+    return (values * 3)[:3], float(alpha[1]) if alpha and "roughplastic" in inner else None, image[1] if image else None
 
 
-def add_texture(bpy, mesh, nodes, links, picture, color):
+def add_texture(bpy, mesh, nodes, links, image, color):
     texture = nodes.new("ShaderNodeTexImage")
-    texture.image = bpy.data.images.load(picture)
+    texture.image = bpy.data.images.load(image)
     texture.image.colorspace_settings.name = "Non-Color"
     corners = ((0, 0), (1, 0), (1, 1), (0, 1))
     layer = mesh.uv_layers.new()
@@ -184,19 +184,19 @@ def cycles(path, threads):
             shader = nodes.new("ShaderNodeEmission")
             radiance = np.array(mi.traverse(shape.emitter())["radiance.value"]).ravel()
             shader.inputs["Color"].default_value = (*[float(v) for v in radiance[:3]], 1)
-            facing = nodes.new("ShaderNodeNewGeometry")  # mesh lights shine to both sides unless told
+            facing = nodes.new("ShaderNodeNewGeometry")  # mesh lights emit on both sides by default
             front = nodes.new("ShaderNodeMath")
             front.operation = "SUBTRACT"
             front.inputs[0].default_value = 1
             links.new(facing.outputs["Backfacing"], front.inputs[1])
             links.new(front.outputs[0], shader.inputs["Strength"])
         else:
-            base, alpha, picture = bsdf_values(text, shape.bsdf().id())
+            base, alpha, image = bsdf_values(text, shape.bsdf().id())
             if alpha is None:
                 shader = nodes.new("ShaderNodeBsdfDiffuse")
                 shader.inputs["Color"].default_value = (*base, 1)
-                if picture is not None:  # of rectangles only
-                    add_texture(bpy, mesh, nodes, links, picture, shader.inputs["Color"])
+                if image is not None:  # rectangles only
+                    add_texture(bpy, mesh, nodes, links, image, shader.inputs["Color"])
             else:
                 shader = nodes.new("ShaderNodeBsdfPrincipled")
                 shader.inputs["Base Color"].default_value = (*base, 1)
@@ -253,7 +253,7 @@ def ours(aureole, integrator, path, threads):
         subprocess.run([aureole, "render", path, "-q", "--sampler", "sobol", "--integrator", integrator, "--spp", str(samples), "--seed",
                         str(seed), "-t", str(threads), "-o", out], check=True)
         seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
-        with open(out, "rb") as file:  # Mitsuba reads pictures by its threads, and one alone waits for itself
+        with open(out, "rb") as file:  # Mitsuba reads images with its threads, and a single one would deadlock
             file.readline()
             width, height = (int(word) for word in file.readline().split())
             order = "<f4" if float(file.readline()) < 0 else ">f4"
@@ -282,12 +282,12 @@ KINDS = {
 
 
 def measurements(render, counts):
-    """Samples a pixel, error, CPU seconds and mean."""
+    """Samples per pixel, error, CPU seconds and mean."""
     return [(samples, *pair(render, samples)) for samples in counts]
 
 
 def measurements_until(render, error, pixels):
-    """The same for growing samples, two at least, as a law needs. Each is rendered once before, for kernels are compiled for it."""
+    """The same for increasing samples, at least two for the power law. The first render of each compiles its kernel."""
     samples, found = FIRST, []
     while len(found) < 2 or (found[-1][1] > error and STEP * found[-1][2] <= MOST_SECONDS and samples * pixels <= MOST_LANES):
         render(samples, 999)
@@ -296,27 +296,27 @@ def measurements_until(render, error, pixels):
     return found
 
 
-def child(kind, aureole, path, threads, wanted_errors, pixels):
-    """By the law between two numbers of samples; of --peers (`pixels`), between the last and a sixteenth of it."""
+def child(kind, aureole, path, threads, target_errors, pixels):
+    """Extrapolates from two numbers of samples; for --peers (`pixels`), from the last one and a sixteenth of it."""
     if pixels:
-        SAMPLES.clear()  # no kernels ahead
+        SAMPLES.clear()  # no kernels in advance
     render = KINDS[kind](aureole, path, threads)
-    found = measurements_until(render, min(wanted_errors), pixels) if pixels else measurements(render, SAMPLES[name_of(path)])
+    found = measurements_until(render, min(target_errors), pixels) if pixels else measurements(render, SAMPLES[name_of(path)])
     few, error, seconds, _ = found[max(len(found) - 3, 0)]
     many, less, more_seconds, mean = found[-1]
     slope = math.log(less / error) / math.log(many / few)
     each = (more_seconds - seconds) / (many - few)
-    counts = [many * (wanted / less) ** (1 / slope) for wanted in wanted_errors]
+    counts = [many * (target / less) ** (1 / slope) for target in target_errors]
     times = [max(each, more_seconds + each * (count - many)) for count in counts]
     print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts],
                       "errors": [row[1] for row in found], "slope": slope, "many": many}))
 
 
-# --- the peers alone, for `aureole-bench adaptive-speed`
+# --- the other renderers alone, for `aureole-bench adaptive-speed`
 
 
 def print_peers(given, folder):
-    """name|mean of the image, CPU seconds to each of the errors; or why it is not measured."""
+    """Prints name|mean of the image, CPU seconds to each of the errors; or the reason for a failure."""
     path, _, _, definitions = (SCENES | BUNDLED)[given.peers]
     width, height = (int(side) for side in given.size.split("x"))
     copy = os.path.join(folder, given.peers + ".xml")
@@ -329,7 +329,7 @@ def print_peers(given, folder):
         print(f"{kind}: not measured: {reason}", flush=True)
         return
     errors = ", ".join(f"{100 * error:.3g}" for error in row["errors"])
-    print(f"{kind}: errors of {errors} % up to {row['many']} samples a pixel, as samples^{row['slope']:.2f} at the end")
+    print(f"{kind}: errors of {errors} % up to {row['many']} samples per pixel, as samples^{row['slope']:.2f} at the end")
     print(f"{kind}|{row['mean']} " + " ".join(map(str, row["times"])), flush=True)
 
 
@@ -337,7 +337,7 @@ def print_peers(given, folder):
 
 
 def equal_samples_child(given, path):
-    """CPU seconds of pairs: Mitsuba's call, our process, and ours of one sample; with the means of both images."""
+    """CPU seconds of pairs: Mitsuba's call, Aureole's process, and its process for one sample; and the means of both images."""
     theirs = mitsuba("llvm_ad_rgb", "independent", path, given.threads)
     own = ours(given.aureole, given.integrator, path, given.threads)
     theirs(given.samples, 999)
@@ -362,7 +362,7 @@ def compiling_child(given, path):
 
 
 def run_child(arguments, **options):
-    """What it prints last, or None and why not."""
+    """Its last line of output, or None and the error."""
     done = subprocess.run([sys.executable, os.path.abspath(__file__), *arguments], capture_output=True, text=True, check=False, **options)
     lines = [line for line in done.stdout.splitlines() if line[:1] in "{[0123456789"]
     if done.returncode != 0 or not lines:
@@ -376,7 +376,7 @@ def spread(values):
 
 
 def compare_equal_samples(given, folder):
-    print(f"{given.integrator}, {given.samples} samples a pixel, {given.pairs} pairs, {given.threads} thread(s), CPU seconds; "
+    print(f"{given.integrator}, {given.samples} samples per pixel, {given.pairs} pairs, {given.threads} thread(s), CPU seconds; "
           "ratios above 1: ours is faster\n")
     print("| scene | llvm_ad_rgb | ours, rendering | llvm_ad_rgb / ours | it loads, compiles, renders | ours, all | ratio | means differ |")
     print("|---|---|---|---|---|---|---|---|")
@@ -394,7 +394,7 @@ def compare_equal_samples(given, folder):
         if rows is None:
             print(f"| {name} | not measured: {reason} | | | | | | |", flush=True)
             continue
-        with tempfile.TemporaryDirectory() as home:  # where no kernels are kept
+        with tempfile.TemporaryDirectory() as home:  # without cached kernels
             compiling, _ = run_child([*arguments, "compiling", copy], env={**os.environ, "HOME": home})
         calls, processes, least, theirs, own = zip(*rows)
         part = given.samples / (given.samples - 1)
@@ -416,7 +416,7 @@ def main():
     parser.add_argument("--pixels", type=int, default=0, help="of --peers, to its child")
     parser.add_argument("--errors", type=lambda text: [float(word) for word in text.split(",")], default=list(ERRORS), help="relative ones")
     parser.add_argument("--pairs", type=int, default=5)
-    parser.add_argument("--samples", type=int, default=16, help="a pixel, where they are equal; more than 1")
+    parser.add_argument("--samples", type=int, default=16, help="per pixel, where they are equal; more than 1")
     parser.add_argument("--integrator", default="path", help="ours, where samples are equal")
     parser.add_argument("--child", nargs=2, metavar=("RENDERER", "SCENE"))
     given = parser.parse_args()
@@ -438,7 +438,7 @@ def main():
             compare_equal_samples(given, folder)
         return
     aureole = os.path.abspath(given.aureole)
-    print("| scene | renderer | " + " | ".join(f"CPU s to {100 * e:g} %" for e in given.errors) + f" | samples a pixel | mean | measured | error ~ samples^ |")
+    print("| scene | renderer | " + " | ".join(f"CPU s to {100 * e:g} %" for e in given.errors) + f" | samples per pixel | mean | measured | error ~ samples^ |")
     print("|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name, (path, width, height, definitions) in SCENES.items():

@@ -4,8 +4,8 @@
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install numpy scipy pyviewfactor raystrack
     /tmp/peers/bin/python bench/peers/view_factors.py build/release/aureole [rectangles] [curved] [box] [city] [growth] [coverage]
 
-Without names all are run. CPU seconds are those of the process and its threads. pyviewfactor and raystrack are left out
-where they are not installed. View3D is neither in Debian nor on PyPI; `aureole viewfactors MESH -o MESH.vs3` writes its input.
+Without names all are run. CPU seconds are those of the process and its threads. pyviewfactor and raystrack are skipped
+if they are not installed. View3D is neither in Debian nor on PyPI; `aureole viewfactors MESH -o MESH.vs3` writes its input.
 """
 import math
 import os
@@ -22,7 +22,7 @@ PI = math.pi
 
 
 def parallel(a, b, c):
-    """Howell C-11: opposed rectangles a x b at the distance c."""
+    """Howell C-11: opposed rectangles a x b at distance c."""
     x, y = a / c, b / c
     p, q = 1 + x * x, 1 + y * y
     return 2 / (PI * x * y) * (0.5 * math.log(p * q / (x * x + q)) + x * math.sqrt(q) * math.atan(x / math.sqrt(q))
@@ -53,8 +53,8 @@ def write_obj(path, groups):
 
 
 def run(program, *arguments):
-    """CPU seconds of the program, and the most megabytes that it has had. A small process starts it, because a child is counted
-    with the memory that its parent had."""
+    """CPU seconds of the program, and its peak memory in megabytes. A small process starts it, because a child's peak includes
+    its parent's memory."""
     code = ("import resource, subprocess, sys\nstatus = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode\n"
             "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
             "print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)\nsys.exit(status)")
@@ -80,7 +80,7 @@ def rectangles(program, folder):
     except ImportError:
         pyviewfactor = None
     print("| pair | closed form | Aureole, relative error | pyviewfactor, relative error |\n|---|---|---|---|")
-    # Sides that floats hold exactly.
+    # Sides that are exact in single precision.
     cases = [("opposed 1 x 1 at 1", parallel(1, 1, 1), ([0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]),
               ([0, 0, 1], [0, 1, 1], [1, 1, 1], [1, 0, 1])),
              ("opposed 4 x 2 at .03125", parallel(4, 2, 1 / 32), ([0, 0, 0], [4, 0, 0], [4, 2, 0], [0, 2, 0]),
@@ -98,20 +98,20 @@ def rectangles(program, folder):
         ours = load(out)[0][0, 1]
         theirs = ""
         if pyviewfactor is not None:
-            # Its function gives the factor from the second cell to the first.
+            # Its function returns the factor from the second cell to the first.
             a, b = (pyvista.PolyData(np.array(c, float), faces=[4, 0, 1, 2, 3]) for c in (first, second))
             theirs = f"{pyviewfactor.compute_viewfactor(b, a) / exact - 1:.1e}"
         print(f"| {name} | {exact:.12g} | {ours / exact - 1:.1e} | {theirs} |")
 
 
 def ring(radius, z, n):
-    """A circle's area as a polygon of n corners."""
+    """A polygon of n corners with the area of a circle."""
     wide = radius * math.sqrt(2 * PI / n / math.sin(2 * PI / n))
     return [(wide * math.cos(2 * PI * k / n), wide * math.sin(2 * PI * k / n), z) for k in range(n)]
 
 
 def sphere(center, radius, rows, opening=0.0, inside=False):
-    """Rows of quadrilaterals from an opening's polar angle at the top down."""
+    """Rows of quadrilaterals, from the polar angle of an opening downwards."""
     polar = [opening + (PI - opening) * i / rows for i in range(rows + 1)]
     corner = lambda i, k: tuple(c + radius * x for c, x in zip(center, (
         math.sin(polar[i]) * math.cos(PI * k / rows), math.sin(polar[i]) * math.sin(PI * k / rows), math.cos(polar[i]))))
@@ -139,9 +139,9 @@ def cylinders(x, y):
 
 
 def curved(program, folder):
-    """Howell's disks, cylinders and sphere, and Sparrow's cavity, as polygons of more and more corners."""
+    """Howell's disks, cylinders and sphere, and Sparrow's cavity, as polygons with an increasing number of corners."""
     path, out = os.path.join(folder, "curved.obj"), os.path.join(folder, "curved.npz")
-    print("\n| surfaces | corners | facets | known | relative error | CPU s |\n|---|---|---|---|---|---|")
+    print("\n| surfaces | corners | facets | exact | relative error | CPU s |\n|---|---|---|---|---|---|")
 
     def row(name, corners, groups, known, found, *options):
         write_obj(path, groups)
@@ -151,7 +151,7 @@ def curved(program, folder):
         facets = sum(len(polygon) - 2 for polygons in groups.values() for polygon in polygons)
         print(f"| {name} | {corners} | {facets} | {known(areas):.9g} | {value / known(areas) - 1:.1e} | {cpu:.1f} |", flush=True)
 
-    x = 1 + (1 + 1) / 1  # radii 1 and 1 at the distance 1
+    x = 1 + (1 + 1) / 1  # radii 1 and 1 at distance 1
     disks = 0.5 * (x - math.sqrt(x * x - 4))
     inwards, itself = cylinders(2, 3)
     for n in (24, 48, 96):
@@ -181,7 +181,7 @@ def curved(program, folder):
 
 
 def enclosed(program, folder):
-    """A box in a box: the inner one sees the outer one only, so that two factors are known."""
+    """A box in a box: the inner one sees only the outer one, which determines two factors."""
     outer, inner = box((-1, -1, -1), (1, 2, 1), True), box((-0.25, 0, -0.5), (0.5, 0.75, 0.25), False)
     areas = 32.0, 6 * 0.75 ** 2
     exact = areas[1] / areas[0]
@@ -209,7 +209,7 @@ def enclosed(program, folder):
     solver = raystrack.Solver(scene, device="cpu")
     for replicates in (1, 8, 32):
         options = raystrack.SolveOptions(accuracy=raystrack.Accuracy(max_replicates=replicates, min_replicates=1, tolerance=0.0))
-        solver.solve(raystrack.Query(), options)  # compiled once
+        solver.solve(raystrack.Query(), options)  # the first call compiles
         start = time.process_time()
         result = solver.solve(raystrack.Query(), options)
         cpu = time.process_time() - start
@@ -222,7 +222,7 @@ def enclosed(program, folder):
 
 
 def radiosities(matrix, areas, light, reflectance=0.3):
-    """Where `light` leaves the facets at first."""
+    """The initial emission of the facets for `light`."""
     total = light.copy()
     for _ in range(80):
         light = reflectance * (matrix @ light)
@@ -237,13 +237,13 @@ def make_city(folder, facets):
 
 
 def difference(areas, a, b):
-    """The error of one seed: the root mean square difference of two over the root of 2, by area, over the mean; and the worst."""
+    """The error of one seed: the area-weighted root mean square difference of two, divided by the root of 2 and the mean; and the largest."""
     mean = (areas * a).sum() / areas.sum()
     return (math.sqrt((areas * (a - b) ** 2).sum() / areas.sum() / 2) / mean, abs(a - b).max() / math.sqrt(2) / mean)
 
 
 def sun(program, path, folder, arguments):
-    """CPU seconds, error and worst facet of radiosities under the sun alone, from two seeds."""
+    """CPU seconds, error and largest error of radiosities under the sun alone, from two seeds."""
     outs = [os.path.join(folder, f"sun-{seed}.csv") for seed in (1, 2)]
     cpu = np.mean([run(program, path, "--radiosity", 0.3, "--sun", "1,2,3", "--seed", seed, *arguments, "-o", outs[seed - 1])[0]
                    for seed in (1, 2)])
@@ -281,8 +281,8 @@ def city(program, folder, settings=([], ["--rays", 4096, "--half-planes", 2048])
 
 
 def growth(program, folder):
-    """CPU seconds and the most memory of each; the error of the radiosities that --matrix-free tells itself."""
-    print("\n| facets | matrix: CPU s | entries | memory | matrix-free, 64 rays: CPU s | memory | error told |\n|---|---|---|---|---|---|---|")
+    """CPU seconds and peak memory of each; the error of the radiosities that --matrix-free reports."""
+    print("\n| facets | matrix: CPU s | entries | memory | matrix-free, 64 rays: CPU s | memory | reported error |\n|---|---|---|---|---|---|---|")
     for facets in (1000, 5000, 22000, 100000, 1000000):
         path, out, table = make_city(folder, facets), os.path.join(folder, "grown.npz"), os.path.join(folder, "b.csv")
         with_matrix, entries, memory = "", "", ""
@@ -291,13 +291,13 @@ def growth(program, folder):
             with_matrix, entries, memory = f"{cpu:.1f}", f"{load(out)[0].nnz:,}", f"{peak:.0f} MB"
         free, peak = run(program, path, "--radiosity", 0.3, "--matrix-free", "--rays", 64, "-o", table)
         rows = np.loadtxt(table, delimiter=",", skiprows=1)
-        # Student's t of 95 % for 8 randomisations.
+        # Student's t of 95 % for 8 randomizations.
         error = math.sqrt((rows[:, 1] * (rows[:, 4] / 2.3646) ** 2).sum() / rows[:, 1].sum()) / ((rows[:, 1] * rows[:, 3]).sum() / rows[:, 1].sum())
         print(f"| {len(rows):,} | {with_matrix} | {entries} | {memory} | {free:.1f} | {peak:.0f} MB | {100 * error:.1f} % |", flush=True)
 
 
 def coverage(program, folder):
-    """How often intervals of 95 % hold the factor, over 1,000 seeds: facets of a room, and its groups."""
+    """Coverage of 95 % intervals of the factor over 1,000 seeds: facets of a room, and its groups."""
     path, out = os.path.join(folder, "room.obj"), os.path.join(folder, "room.npz")
     write_obj(path, {f"side-{i}": [p] for i, p in enumerate(box((0, 0, 0), (3, 4, 2.5), True))})
     print("\n| 1,000 seeds, rays only | factors | held by their intervals of 95 % |\n|---|---|---|")

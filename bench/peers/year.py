@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""A year of daylight by Radiance (rfluxmtx, gendaymtx, dctimestep) and by aureole irradiance --weather: hours, metrics, CPU seconds.
+"""A year of daylight with Radiance (rfluxmtx, gendaymtx, dctimestep) and with aureole irradiance --weather: hours, metrics, CPU seconds.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pyradiance numpy
     /tmp/peers/bin/python bench/peers/year.py build/release/aureole [--epw FILE] [--patches 4] [-ad 65536]
 
-The room of 6 x 4 x 3 m has a window without glass to the south, and stands on ground that reflects .2; nine sensors. Weather is that of
-scripts/weather.sh unless --epw names a file. Both read the same .wea and use the efficacies of Perez.
+The room of 6 x 4 x 3 m has a window without glass to the south, and stands on ground with reflectance .2; nine sensors. The weather file is that
+of scripts/weather.sh unless --epw names another. Both read the same .wea and use the efficacies of Perez.
 
-gendaymtx spreads the sun over the nearest patches and takes its declination from a formula that is up to .5 degrees wrong; Aureole has
-the disk at the position of Michalsky (1988). The rows "exact sun" replace the light straight from the sun in Radiance's numbers by the
-closed form: the direct illuminance of gendaymtx -d, where the line from the sensor to the sun of Michalsky passes through the window.
-Hourly values agree where the difference is within the 95 % intervals of Aureole and the noise of Radiance, which is the difference
+gendaymtx distributes the sun over the nearest patches and computes its declination with a formula that has errors up to .5 degrees; Aureole
+uses the disk at the position of Michalsky (1988). The rows "exact sun" replace the direct sunlight in Radiance's results by the
+closed form: the direct illuminance of gendaymtx -d, if the line from the sensor to the sun of Michalsky passes through the window.
+Hourly values agree if the difference is within the 95 % intervals of Aureole and the noise of Radiance, which is the difference
 between two of its runs.
 """
 import argparse
@@ -57,12 +57,12 @@ def shell(text):
 
 
 def numbers(command, rows):
-    """The luminances of a matrix."""
+    """Reads the luminances of a matrix."""
     return np.array(shell(command + " | rmtxop -fa -c 47.4 119.9 11.6 - | getinfo -").decode().split(), float).reshape(rows, -1)
 
 
 def radiance(m, rays, points, bounces=10, sky="-g .2 .2 .2"):
-    """Lux of sensors and hours."""
+    """Illuminances of sensors and hours, in lux."""
     shell(f"rfluxmtx -I+ -y {points} -ab {bounces} -ad {rays} -lw 1e-6 - sky.rad room.rad <desk.pts >coefficients.mtx")
     shell(f"gendaymtx -m {m} {sky} -O0 year.wea >sky.smx")
     return numbers("dctimestep coefficients.mtx sky.smx", points)
@@ -84,7 +84,7 @@ def suns(latitude, longitude, zone):
 
 
 def exact_sun(m, points, place):
-    """Lux straight from the sun through the window, by closed form: the disk counts as a point."""
+    """Direct sunlight through the window in lux, by closed form with a point sun."""
     shell(f"gendaymtx -m {m} -d -O0 year.wea >sun.smx")
     patches = 144 * m * m + 2
     angles = np.array(shell(f"cnt {patches} | rcalc -e 'MF:{m};Rbin=recno-1' -f reinsrc.cal -e '$1=Romega'").split(), float)
@@ -140,7 +140,7 @@ def main():
     noise = np.abs(lux - again)
     lit = lux.mean(0) > 100
     head = text.split("\n", 1)[0].split(",")
-    patches = radiance(given.patches, given.ad, len(points), 1, "-d")  # straight from the patches of the sun
+    patches = radiance(given.patches, given.ad, len(points), 1, "-d")  # direct light from the sun's patches
     better = lux - patches + exact_sun(given.patches, points, [float(head[i]) for i in (6, 7, 8)])
     for peer, values in (("Radiance", lux), ("exact sun", better)):
         for name, hours in (("overcast hours", lit & (direct == 0)), ("hours with sun", lit & (direct > 0))):
