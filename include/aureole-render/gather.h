@@ -88,7 +88,7 @@ typedef struct aur_gather_settings {
     aur_gather_density density;             /* [DEFAULT] */
     aur_gather_weights weights;             /* [RATIO] */
     double smoothness;                      /* s of the optimal weights and density, in (1, 2) [1.5] */
-    /* Of optimal weights; below 0: 0.5 for SOLVE, else 1e-6 [-1]. */
+    /* Of optimal weights; if negative: 0.5 for SOLVE, else 1e-6 [-1]. */
     double regularization;
     bool clip; /* glossy lobes end at the surface's horizon [true] */
     /* Light. */
@@ -151,7 +151,7 @@ typedef struct aur_gather_method {
     aur_result (*prepare)(const aur_gather_settings *options, size_t base,
                           const aur_gather_directions *pattern, void **state, aur_error *error);
     void (*release)(void *state); /* NULL is allowed */
-    /* Gathers: each lane is to be finished once. `memory` is 3 * AUR_GATHER_LANES floats a direction. */
+    /* Gathers; must finish each lane once. `memory` is 3 * AUR_GATHER_LANES floats per direction. */
     void (*gather)(const void *state, uint32_t lanes, aur_gather_sweep *sweep, float *memory);
 } aur_gather_method;
 

@@ -63,8 +63,8 @@ AUR_EXPERIMENTAL aur_result aur_radiosity_create(const aur_scene *scene, const a
     AUR_NONNULL(1, 3);
 AUR_EXPERIMENTAL void aur_radiosity_destroy(aur_radiosity *radiosity); /* NULL is allowed */
 
-/* Goes on until there are `paths` paths in all; what is there already stays. Errors: ARGUMENT for 0 paths or
- * fewer than there are, UNSUPPORTED when a set that is not extensible is to be continued, CANCELLED. */
+/* Traces until there are `paths` paths in total; existing ones are kept. Errors: ARGUMENT for 0 paths or
+ * fewer than there are, UNSUPPORTED to continue with a set that is not extensible, CANCELLED. */
 AUR_EXPERIMENTAL aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_error *error)
     AUR_NONNULL(1);
 

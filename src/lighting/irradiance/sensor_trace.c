@@ -278,7 +278,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_point *surface_poi
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         reflected[k] = REFLECTED;
     for (uint32_t depth = 1;; ++depth) {
-        aur_path_group_meet(g, depth);
+        aur_path_group_hit(g, depth);
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
             const bool met = aur_has_lane(g->alive, k);
             parts[k] = !aur_has_lane(unscattered, k) ? REFLECTED : met ? DIRECT : SKY;

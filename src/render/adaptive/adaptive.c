@@ -107,7 +107,7 @@ static aur_result make_identity(aur_adaptive *adaptive, const aur_scene *scene,
 }
 
 /* Copy the strings: later candidates outlive the caller's. */
-static aur_result keep_options(aur_adaptive *adaptive, aur_renderer *renderer,
+static aur_result copy_options(aur_adaptive *adaptive, aur_renderer *renderer,
                                const aur_render_options *options, aur_error *error) {
     adaptive->renderer = renderer;
     adaptive->options = *options;
@@ -122,29 +122,29 @@ static aur_result keep_options(aur_adaptive *adaptive, aur_renderer *renderer,
 
 static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const aur_render_options *given,
                           aur_error *error) {
-    aur_render_options own = {.size = sizeof own};
-    aur_render_options_init(&own, NULL);
-    aur_result result = aur_options_read(given, sizeof own, &own, "aur_render_options", error);
+    aur_render_options local = {.size = sizeof local};
+    aur_render_options_init(&local, NULL);
+    aur_result result = aur_options_read(given, sizeof local, &local, "aur_render_options", error);
     if (result == AUR_OK)
-        result = aur_adaptive_integrator_of(aur_renderer_scene(renderer), own.integrator,
+        result = aur_adaptive_integrator_of(aur_renderer_scene(renderer), local.integrator,
                                             &adaptive->candidate.integrator, &adaptive->open, error);
     if (result != AUR_OK)
         return result;
-    adaptive->progress = own.progress;
-    own.progress = (aur_progress){report, adaptive};
-    own.integrator = adaptive->candidate.integrator;
-    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX; /* in the identity */
-    if (own.sampler == NULL)
-        own.sampler = "sobol";
-    if (own.shard_count != 0)
+    adaptive->progress = local.progress;
+    local.progress = (aur_progress){report, adaptive};
+    local.integrator = adaptive->candidate.integrator;
+    local.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX; /* in the identity */
+    if (local.sampler == NULL)
+        local.sampler = "sobol";
+    if (local.shard_count != 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "parts of an image cannot be rendered to a target error, time or number of rays");
-    if (own.resumable)
-        result = make_identity(adaptive, aur_renderer_scene(renderer), &own, error);
-    own.resumable = false;
+    if (local.resumable)
+        result = make_identity(adaptive, aur_renderer_scene(renderer), &local, error);
+    local.resumable = false;
     if (result != AUR_OK)
         return result;
-    result = keep_options(adaptive, renderer, &own, error);
+    result = copy_options(adaptive, renderer, &local, error);
     char *const integrator = adaptive->candidate.integrator;
     adaptive->candidate.integrator = NULL;
     if (result == AUR_OK && adaptive->open && (adaptive->path = strdup(integrator)) == NULL)
@@ -158,7 +158,7 @@ static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const 
         return result;
     if (aur_render_film(adaptive->candidate.replicas.renders[0])->layout.channel_count > 3 &&
         !aur_replicas_clamp(&adaptive->candidate.replicas))
-        aur_warn_at(&own.warnings, (aur_location){0},
+        aur_warn_at(&local.warnings, (aur_location){0},
                     "an image to a target error, time or number of rays has only R, G and B: further "
                     "channels of the integrator are left out");
     adaptive->open = adaptive->open && (adaptive->target.error > 0.0 || adaptive->target.seconds > 0.0 ||
@@ -283,35 +283,35 @@ void aur_adaptive_cancel(aur_adaptive *adaptive) {
 
 aur_result aur_adaptive_get_report(const aur_adaptive *adaptive, aur_adaptive_report *out, aur_error *error) {
     const aur_error_interval interval = whole_error(adaptive, adaptive->target.measure);
-    aur_adaptive_report own = {.error = interval.estimate,
-                               .error_low = interval.low,
-                               .error_high = interval.high,
-                               .mean = adaptive->candidate.measure.mean,
-                               .degrees = interval.degrees,
-                               .rounds = adaptive->candidate.rounds,
-                               .samples_per_pixel = adaptive->candidate.finished,
-                               .replicas = adaptive->candidate.replicas.count,
-                               .candidate_rays = aur_adaptive_other_rays(adaptive),
-                               .bias_high = sqrt(adaptive->bias[adaptive->target.measure].high)};
-    own.candidate_rays += adaptive->target.rays > 0
-                              ? aur_adaptive_reserve(adaptive)
-                              : (uint64_t)aur_replicas_rays(&adaptive->corrections.replicas);
-    own.bias_room = adaptive->target.error > 0.0 ? aur_adaptive_bias_room(adaptive) : own.bias_high;
-    own.race_count = adaptive->race.order_count > 0 ? AUR_RACE_ROWS : 0;
+    aur_adaptive_report local = {.error = interval.estimate,
+                                 .error_low = interval.low,
+                                 .error_high = interval.high,
+                                 .mean = adaptive->candidate.measure.mean,
+                                 .degrees = interval.degrees,
+                                 .rounds = adaptive->candidate.rounds,
+                                 .samples_per_pixel = adaptive->candidate.finished,
+                                 .replicas = adaptive->candidate.replicas.count,
+                                 .candidate_rays = aur_adaptive_other_rays(adaptive),
+                                 .bias_high = sqrt(adaptive->bias[adaptive->target.measure].high)};
+    local.candidate_rays += adaptive->target.rays > 0
+                                ? aur_adaptive_reserve(adaptive)
+                                : (uint64_t)aur_replicas_rays(&adaptive->corrections.replicas);
+    local.bias_room = adaptive->target.error > 0.0 ? aur_adaptive_bias_room(adaptive) : local.bias_high;
+    local.race_count = adaptive->race.order_count > 0 ? AUR_RACE_ROWS : 0;
     for (size_t m = 0; m < AUR_ERROR_MEASURE_COUNT; ++m) {
         const aur_error_interval one = whole_error(adaptive, m);
-        own.errors[m] = (aur_error_figures){.error = one.estimate, .low = one.low, .high = one.high};
+        local.errors[m] = (aur_error_figures){.error = one.estimate, .low = one.low, .high = one.high};
     }
     aur_spent spent = {.budget = 0};
     aur_candidate_add_spent(&adaptive->candidate, &spent);
-    own.statistics = spent.all; /* of others only rays and times */
+    local.statistics = spent.all; /* of others only rays and times */
     spent = aur_adaptive_spent(adaptive);
-    own.statistics.rays = spent.all.rays;
-    own.statistics.prepare_seconds = spent.all.prepare_seconds;
-    own.statistics.render_seconds = spent.all.render_seconds;
-    own.statistics.cpu_seconds = spent.all.cpu_seconds;
-    own.statistics.size = sizeof own.statistics;
-    return aur_description_write(&own, sizeof own, out, "aur_adaptive_report", error);
+    local.statistics.rays = spent.all.rays;
+    local.statistics.prepare_seconds = spent.all.prepare_seconds;
+    local.statistics.render_seconds = spent.all.render_seconds;
+    local.statistics.cpu_seconds = spent.all.cpu_seconds;
+    local.statistics.size = sizeof local.statistics;
+    return aur_description_write(&local, sizeof local, out, "aur_adaptive_report", error);
 }
 
 aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index, aur_adaptive_candidate *out,
@@ -319,17 +319,17 @@ aur_result aur_adaptive_get_candidate(const aur_adaptive *adaptive, size_t index
     if (index >= AUR_RACE_ROWS || adaptive->race.order_count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no candidate %zu", index);
     const aur_race_entry *const entry = &adaptive->race.entries[index];
-    aur_adaptive_candidate own = {.name = aur_race_name(index),
-                                  .taken = index == adaptive->row,
-                                  .pixels = entry->blocks * AUR_BLOCK_PIXELS,
-                                  .rays = entry->rays,
-                                  .need = entry->need,
-                                  .reason = entry->reason};
-    if (own.taken)
-        own.reason = "taken";
+    aur_adaptive_candidate local = {.name = aur_race_name(index),
+                                    .taken = index == adaptive->row,
+                                    .pixels = entry->blocks * AUR_BLOCK_PIXELS,
+                                    .rays = entry->rays,
+                                    .need = entry->need,
+                                    .reason = entry->reason};
+    if (local.taken)
+        local.reason = "taken";
     else if (!entry->out)
-        own.reason = entry->need > 0.0 ? "more work than the one taken" : "not measured";
-    return aur_description_write(&own, sizeof own, out, "aur_adaptive_candidate", error);
+        local.reason = entry->need > 0.0 ? "more work than the one taken" : "not measured";
+    return aur_description_write(&local, sizeof local, out, "aur_adaptive_candidate", error);
 }
 
 const char *aur_adaptive_integrator(const aur_adaptive *adaptive) {

@@ -21,7 +21,7 @@ struct aur_adaptive {
     aur_spent others;        /* what the race, rejected candidates and their corrections cost */
     aur_cache_uses uses;     /* of all of them */
     atomic_bool cancelled;
-    bool open;  /* the integrator is still to be chosen */
+    bool open;  /* the integrator is not chosen yet */
     bool races; /* ... and that is going on */
     aur_race race;
     char *path;     /* the integrator of path tracing; NULL where the integrator is named */
@@ -35,7 +35,7 @@ struct aur_adaptive {
 
 /* The integrator as aur_render_options take it; NULL: the scene's. A new string. `open`: no integrator is
  * named, so the race may choose. Errors: MEMORY. */
-aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted, char **integrator,
+aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
                                       bool *open, aur_error *error);
 
 /* What the bias of a candidate may be, in the units of the target error. */

@@ -133,7 +133,7 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
                              path);
     }
     if (result == AUR_OK && words[STEPS] > 0 && adaptive->row != AUR_RACE_PATH) {
-        aur_candidate_look(candidate);
+        aur_candidate_measure(candidate);
         result = aur_corrections_repeat(&adaptive->corrections, words[STEPS], &adaptive->cancelled, error);
         aur_adaptive_bound_bias(adaptive);
     }
@@ -143,19 +143,19 @@ static aur_result take_over(aur_adaptive *adaptive, const char *path, const aur_
 aur_result aur_adaptive_resume(aur_adaptive *adaptive, const char *path, aur_error *error) {
     if (adaptive->identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "only an image whose options say 'resumable' can go on");
-    aur_checkpoint kept;
-    aur_result result = aur_checkpoint_load(path, false, &kept, error);
-    if (result == AUR_OK && kept.film_count < 2)
+    aur_checkpoint checkpoint;
+    aur_result result = aur_checkpoint_load(path, false, &checkpoint, error);
+    if (result == AUR_OK && checkpoint.film_count < 2)
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
                              "of another render: it was not made to an error, a time or a number of rays");
     if (result == AUR_OK)
-        result = aur_identity_compare(path, kept.identity, adaptive->identity, NULL, error);
-    if (result == AUR_OK &&
-        (kept.film_count != adaptive->candidate.replicas.count || kept.word_count != word_count(adaptive)))
+        result = aur_identity_compare(path, checkpoint.identity, adaptive->identity, NULL, error);
+    if (result == AUR_OK && (checkpoint.film_count != adaptive->candidate.replicas.count ||
+                             checkpoint.word_count != word_count(adaptive)))
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
                              "a checkpoint of another form");
     if (result == AUR_OK)
-        result = take_over(adaptive, path, &kept, error);
-    aur_checkpoint_release(&kept);
+        result = take_over(adaptive, path, &checkpoint, error);
+    aur_checkpoint_release(&checkpoint);
     return result;
 }

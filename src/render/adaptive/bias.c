@@ -13,7 +13,7 @@ enum { FIRST_BLOCKS = 54 };
 
 /* Over blocks. */
 typedef struct bias_sums {
-    aur_moments products;              /* of a block's mean product */
+    aur_moments products;              /* moments of the blocks' mean products */
     double replicas[AUR_REPLICAS_MAX]; /* sums of products of each replica with the others */
 } bias_sums;
 
@@ -112,10 +112,10 @@ aur_bias aur_bias_of_both(aur_bias a, aur_bias b) {
 aur_result aur_corrections_create(aur_renderer *renderer, const aur_render_options *options,
                                   const char *integrator, size_t replica_count, aur_corrections *corrections,
                                   aur_error *error) {
-    aur_render_options own = *options;
-    own.warnings = (aur_warnings){0};
+    aur_render_options local = *options;
+    local.warnings = (aur_warnings){0};
     aur_result result =
-        aur_replicas_create(renderer, &own, integrator, replica_count, &corrections->replicas, error);
+        aur_replicas_create(renderer, &local, integrator, replica_count, &corrections->replicas, error);
     if (result != AUR_OK)
         return result;
     const aur_film_layout *const layout = &aur_render_film(corrections->replicas.renders[0])->layout;
@@ -137,8 +137,8 @@ aur_result aur_corrections_grow(aur_corrections *corrections, bool more_samples,
                                 aur_error *error) {
     const bool first = corrections->steps == 0;
     const size_t all = corrections->blocks.count;
-    const size_t wanted = first ? FIRST_BLOCKS : corrections->rendered * (more_samples ? 1 : 2);
-    const size_t blocks = wanted < all ? wanted : all;
+    const size_t target = first ? FIRST_BLOCKS : corrections->rendered * (more_samples ? 1 : 2);
+    const size_t blocks = target < all ? target : all;
     const uint32_t samples = corrections->samples * (!first && more_samples ? 2 : 1);
     for (size_t b = 0; b < blocks; ++b) {
         size_t pixels[AUR_BLOCK_PIXELS];

@@ -23,8 +23,8 @@ typedef struct aur_bias {
 aur_bias aur_replicas_bias(const aur_replicas *replicas, size_t first, aur_weighing weighing,
                            const double (*values)[3], double confidence);
 
-/* Of two biases that add up pixel by pixel, by the triangle inequality. The estimate takes them for
- * independent. */
+/* The bound of the sum of two biases that add up pixel by pixel, by the triangle inequality. The estimate
+ * assumes that they are independent. */
 aur_bias aur_bias_of_both(aur_bias a, aur_bias b);
 
 /* Images of corrections in some blocks of the image: paths' radiance less the map's. */

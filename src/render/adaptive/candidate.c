@@ -11,20 +11,20 @@
 #include "render/film/integrator.h"
 
 /* Lamps that the camera sees, as the integrator shows them. */
-static aur_result find_lamps(aur_candidate *candidate, const aur_scene *scene, uint64_t seed,
-                             aur_error *error) {
+static aur_result find_emitters(aur_candidate *candidate, const aur_scene *scene, uint64_t seed,
+                                aur_error *error) {
     const aur_render *const render = candidate->replicas.renders[0];
     const aur_integrator *const integrator = aur_render_integrator(render);
     const aur_film_layout *const layout = &aur_render_film(render)->layout;
-    if (!integrator->descriptor->shows_lamps)
+    if (!integrator->descriptor->shows_emitters)
         return AUR_OK;
     const aur_result found =
         aur_visible_emitters_find(scene, layout, AUR_EMITTER_POINTS, seed, &candidate->visible, error);
     if (found != AUR_OK)
         return found;
-    if (integrator->refines_lamp_edges)
+    if (integrator->refines_emitter_edges)
         aur_visible_emitters_leave_edges(layout, &candidate->visible);
-    aur_visible_emitters_take_probes(layout, integrator->lamp_looks, &candidate->visible);
+    aur_visible_emitters_take_probes(layout, integrator->emitter_probes, &candidate->visible);
     return AUR_OK;
 }
 
@@ -72,7 +72,7 @@ aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options
         result = allocate(candidate, error);
     }
     if (result == AUR_OK)
-        result = find_lamps(candidate, aur_renderer_scene(renderer), options->seed, error);
+        result = find_emitters(candidate, aur_renderer_scene(renderer), options->seed, error);
     candidate->alone = aur_rays_traced - prepared;
     candidate->traced = aur_rays_traced - before;
     return result;
@@ -110,11 +110,11 @@ static double bound_expected(const aur_candidate *candidate) {
 static double factor_to_error(const aur_candidate *candidate, double error) {
     if (!(candidate->bound < INFINITY))
         return 1.0 / AUR_MOST_GROWTH;
-    const aur_error_interval *const seen = &candidate->intervals[candidate->error_measure];
-    const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
+    const aur_error_interval *const interval = &candidate->intervals[candidate->error_measure];
+    const double width = interval->high < INFINITY ? 1.0 - interval->estimate / interval->high : 0.0;
     const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
-    const double wanted = fmin(margin * error / bound_expected(candidate), 1.0 - least_fall);
-    return pow(wanted * wanted, 1.0 / candidate->rate);
+    const double fall = fmin(margin * error / bound_expected(candidate), 1.0 - least_fall);
+    return pow(fall * fall, 1.0 / candidate->rate);
 }
 
 /* Initial target of rounds, in units of the target error: variances from few samples are too uncertain to
@@ -254,12 +254,12 @@ static void pool_pixels(aur_candidate *candidate) {
 static void pool_variances(aur_candidate *candidate) {
     double measured = 0.0, pooled = 0.0, visible = 0.0;
     for (size_t i = 0; i < candidate->value_count; ++i) {
-        const double now = candidate->measured[i], lamps = visible_variance(candidate, i);
+        const double now = candidate->measured[i], emitters = visible_variance(candidate, i);
         const double all = candidate->rounds > 1 ? 0.5 * (candidate->variances[i] + now) : now;
-        candidate->variances[i] = fmax(all, lamps);
+        candidate->variances[i] = fmax(all, emitters);
         measured += now;
         pooled += candidate->variances[i];
-        visible += lamps;
+        visible += emitters;
     }
     const double count = (double)candidate->replicas.count; /* each replica is one part of the mean */
     if (!(candidate->measure.mean > 0.0))
@@ -291,7 +291,7 @@ static aur_error_interval measure_by(aur_candidate *candidate, aur_error_measure
     return aur_replica_interval(&candidate->measure.deviations, replicas->count, 3 * count, confidence);
 }
 
-void aur_candidate_look(aur_candidate *candidate) {
+void aur_candidate_measure(aur_candidate *candidate) {
     const aur_film_layout *const layout = &aur_render_film(candidate->replicas.renders[0])->layout;
     aur_replicas_mean(&candidate->replicas, candidate->values);
     aur_error_smooth(layout->x1 - layout->x0, layout->y1 - layout->y0, (const double(*)[3])candidate->values,
@@ -301,7 +301,7 @@ void aur_candidate_look(aur_candidate *candidate) {
 /* By all measures, the target's last, so that its results remain stored. */
 static void measure(aur_candidate *candidate, double confidence) {
     const aur_pixel_measure pixels = {candidate->measured, candidate->spreads};
-    aur_candidate_look(candidate);
+    aur_candidate_measure(candidate);
     for (size_t k = 1; k <= AUR_ERROR_MEASURE_COUNT; ++k) {
         const size_t m = (candidate->error_measure + k) % AUR_ERROR_MEASURE_COUNT;
         const bool last = k == AUR_ERROR_MEASURE_COUNT;

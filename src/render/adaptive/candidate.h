@@ -43,7 +43,7 @@ typedef struct aur_candidate {
     size_t replica;  /* replicas done of this round */
 } aur_candidate;
 
-/* `options` as for aur_replicas_create, by the candidate's integrator. The candidate is to be released in
+/* `options` as for aur_replicas_create, with the candidate's integrator. The candidate must be released in
  * every case. Errors as there. */
 aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,
                                 size_t replica_count, aur_error_measure measure, aur_candidate *candidate,
@@ -54,7 +54,7 @@ void aur_candidate_release(aur_candidate *candidate);
 void aur_candidate_add_spent(const aur_candidate *candidate, aur_spent *sum);
 
 /* Computes `values` from the films, as each round does. */
-void aur_candidate_look(aur_candidate *candidate);
+void aur_candidate_measure(aur_candidate *candidate);
 /* Sets `weights` to those of a measure, from the values of the last round. */
 void aur_candidate_weigh(aur_candidate *candidate, aur_error_measure measure);
 

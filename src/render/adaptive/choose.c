@@ -9,7 +9,7 @@
 #include "render/driver/renderer.h"
 #include "render/film/film.h"
 
-/* Of the target error, what bias may be: its square leaves three quarters to the noise. */
+/* The largest bias, relative to the target error: its square leaves three quarters to the noise. */
 static const double BIAS_PART = 0.5;
 /* The rays of corrections during the rounds, relative to the candidate's; and relative to a budget of rays.
  */
@@ -17,7 +17,7 @@ static const double CORRECTIONS_PART = 0.05;
 enum { COLOURS = 3 };
 
 /* Integrators whose image is not the radiance of all paths: another integrator would give another image. */
-static bool has_its_own_image(const char *name) {
+static bool renders_other_quantity(const char *name) {
     static const char *const names[] = {"ao", "direct", "radiosity", "depth", "aov"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
         if (strcmp(name, names[i]) == 0)
@@ -32,17 +32,17 @@ static const char *depth_of(const aur_parameters *parameters) {
     return NULL;
 }
 
-aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *wanted, char **integrator,
+aur_result aur_adaptive_integrator_of(const aur_scene *scene, const char *requested, char **integrator,
                                       bool *open, aur_error *error) {
-    const aur_parameters *const own = aur_scene_integrator(scene);
+    const aur_parameters *const scene_integrator = aur_scene_integrator(scene);
     *integrator = NULL;
     *open = false;
-    if (wanted == NULL && has_its_own_image(own->plugin))
+    if (requested == NULL && renders_other_quantity(scene_integrator->plugin))
         return AUR_OK;
-    *open = wanted == NULL && !aur_scene_has_media(scene);
-    const char *const depth = wanted == NULL ? depth_of(own) : NULL;
+    *open = requested == NULL && !aur_scene_has_media(scene);
+    const char *const depth = requested == NULL ? depth_of(scene_integrator) : NULL;
     *integrator = aur_new_text("%s%s%s",
-                               wanted != NULL               ? wanted
+                               requested != NULL            ? requested
                                : aur_scene_has_media(scene) ? "volpath"
                                                             : "path",
                                depth != NULL ? ":max_depth=" : "", depth != NULL ? depth : "");
@@ -130,7 +130,7 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
 }
 
 /* Continues with the candidate at position `place` in the race's order. */
-static aur_result take_place(aur_adaptive *adaptive, size_t place, aur_error *error) {
+static aur_result take_ranked(aur_adaptive *adaptive, size_t place, aur_error *error) {
     const aur_race *const race = &adaptive->race;
     const size_t row = race->order[place];
     const double work = adaptive->target.rays > 0 ? (double)adaptive->target.rays : race->entries[row].need;
@@ -164,7 +164,7 @@ aur_result aur_adaptive_race(aur_adaptive *adaptive, aur_error *error) {
     aur_cache_count(cache, before);
     adaptive->others = race->spent; /* including an interrupted race */
     aur_race_release(race);
-    return result == AUR_OK ? take_place(adaptive, 0, error) : result;
+    return result == AUR_OK ? take_ranked(adaptive, 0, error) : result;
 }
 
 /* --- bias */
@@ -219,7 +219,7 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     size_t place = adaptive->place + 1;
     while (place + 1 < race->order_count && race->order[place] != AUR_RACE_PATH && !too_large)
         ++place;
-    return take_place(adaptive, place < race->order_count ? place : race->order_count - 1, error);
+    return take_ranked(adaptive, place < race->order_count ? place : race->order_count - 1, error);
 }
 
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {

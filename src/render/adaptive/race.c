@@ -16,20 +16,20 @@ enum {
     MAP_PHOTONS = 50000,
     RESAMPLINGS = 300
 };
-/* Of the work that the best candidate needs, what the race may take; and the first blocks of all candidates.
- */
+/* The largest work of the race, relative to the work of the best candidate; and that of the first blocks of
+ * all candidates. */
 static const double PART = 0.05, FIRST_PART = 0.1;
 /* A candidate is dropped if it is worse than the best in this fraction of the bootstrap resamplings of the
  * blocks. */
 static const double CONFIDENCE = 0.95;
 /* Half of the error of gathers is left to bias, so that three quarters of its square are noise. */
 static const double GATHER_PRICE = 1.0 / (1.0 - 0.5 * 0.5);
-/* The shortest time in which a race is worth it: it takes tenths of a second. */
+/* The shortest time limit for which a race is worthwhile: it takes tenths of a second. */
 static const double LEAST_SECONDS = 2.0;
 /* Samples per pixel that a replica of each row renders: whole patterns. */
 static const uint32_t samples_of[AUR_RACE_ROWS] = {6, 2, 4, 4, 4};
 
-static void say(aur_race_entry *entry, bool out, const char *reason) {
+static void set_reason(aur_race_entry *entry, bool out, const char *reason) {
     entry->out = out;
     snprintf(entry->reason, sizeof entry->reason, "%.95s", reason);
 }
@@ -92,12 +92,12 @@ static aur_result render_blocks(aur_race *race, size_t row, size_t count, aur_er
         aur_race_integrator(row, race->path, MAP_PHOTONS, (race->options->seed & UINT32_MAX) + 1);
     uint32_t *const targets = calloc(race->width * race->height, sizeof *targets);
     aur_replicas replicas = {0};
-    aur_render_options own = *race->options;
-    own.warnings = (aur_warnings){0};
+    aur_render_options local = *race->options;
+    local.warnings = (aur_warnings){0};
     const uint64_t before = aur_rays_traced;
     aur_result result =
         text != NULL && targets != NULL
-            ? aur_replicas_create(race->renderer, &own, text, race->replica_count, &replicas, error)
+            ? aur_replicas_create(race->renderer, &local, text, race->replica_count, &replicas, error)
             : aur_fail_memory(error);
     const uint64_t prepared = aur_rays_traced - before;
     const bool around = result == AUR_OK && reads_neighbours(row, &replicas);
@@ -163,7 +163,7 @@ static double root_variance(const aur_race *race, size_t row, size_t block, cons
     return sqrt(sum * (double)samples_of[row] / (others * (double)pixel_count));
 }
 
-/* Work of a sample. */
+/* Work per sample. */
 static double price(const aur_race_entry *entry, size_t row) {
     return entry->rays / entry->samples * (row == AUR_RACE_PATH ? 1.0 : GATHER_PRICE);
 }
@@ -244,7 +244,7 @@ static size_t drop(aur_race *race, size_t blocks, size_t best) {
         if (!is_measured(&race->entries[i], blocks))
             continue;
         if (i != best && (double)worse[i] >= CONFIDENCE * RESAMPLINGS)
-            say(&race->entries[i], true, "dropped: more work in 95 % of resamplings");
+            set_reason(&race->entries[i], true, "dropped: more work in 95 % of resamplings");
         left += !race->entries[i].out;
     }
     return left;
@@ -292,7 +292,8 @@ static aur_result run_others(aur_race *race, size_t blocks, aur_error *error) {
         if (spent_work(race) + first_rung(race, row) <= most || (path && row == AUR_RACE_PATH))
             result = render_blocks(race, row, blocks, error);
         else
-            say(&race->entries[row], true, "not tried: its first blocks cost more than 10 % of the image");
+            set_reason(&race->entries[row], true,
+                       "not tried: its first blocks cost more than 10 % of the image");
     }
     return result;
 }
@@ -352,7 +353,7 @@ static aur_result run(aur_race *race, aur_error *error) {
     aur_error refused = {0};
     if ((race->budget > 0.0 && race->budget * AUR_RACE_MAP_PART <= aur_race_least_map(race->replica_count)) ||
         (race->seconds > 0.0 && race->seconds <= LEAST_SECONDS)) {
-        say(middle, true, "not tried: its photons cost more than a quarter of the request");
+        set_reason(middle, true, "not tried: its photons cost more than a quarter of the request");
         return AUR_OK;
     }
     aur_result result = render_blocks(race, AUR_RACE_MIDDLE, blocks, &refused);
@@ -362,12 +363,12 @@ static aur_result run(aur_race *race, aur_error *error) {
         return result;
     }
     if (result != AUR_OK) { /* final gathering is not for this scene */
-        say(middle, true, refused.message);
+        set_reason(middle, true, refused.message);
         return AUR_OK;
     }
     if (is_black(race, middle)) {
         middle->blocks = 0;
-        say(middle, true, "no light was found in the first blocks");
+        set_reason(middle, true, "no light was found in the first blocks");
         return AUR_OK;
     }
     result = measure(race, blocks, error);

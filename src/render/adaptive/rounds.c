@@ -13,19 +13,19 @@ static double samples_at(double spending, double variance, uint32_t samples) {
  * one over the spending, with a corner for each pixel. Newton's steps from 0 stay below the solution and end
  * there, when no pixel passes its corner any more. */
 static double spending_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
-    double wanted = 0.0;
+    double goal = 0.0;
     for (size_t i = 0; i < count; ++i)
-        wanted += factor * variances[i];
+        goal += factor * variances[i];
     double slack = 0.0; /* one over the spending */
-    for (bool moves = wanted > 0.0; moves;) {
-        double kept = 0.0, slope = 0.0;
+    for (bool moves = goal > 0.0; moves;) {
+        double fixed = 0.0, slope = 0.0;
         for (size_t i = 0; i < count; ++i) {
             const double root = sqrt(variances[i] * targets[i]);
             const bool spends = slack * root < variances[i];
-            kept += spends ? 0.0 : variances[i];
+            fixed += spends ? 0.0 : variances[i];
             slope += spends ? root : 0.0;
         }
-        const double next = slope > 0.0 ? (wanted - kept) / slope : slack;
+        const double next = slope > 0.0 ? (goal - fixed) / slope : slack;
         const double close_enough = 1.0 + 1e-9;
         moves = next > close_enough * slack;
         slack = fmax(next, slack);
@@ -57,10 +57,10 @@ bool aur_raise_targets(size_t count, const double *variances, double factor, uin
     const double spending = spending_to(count, variances, factor, targets);
     bool raised = false;
     for (size_t i = 0; i < count; ++i) {
-        const double wanted = variances[i] > 0.0 ? ceil(fmin(samples_at(spending, variances[i], targets[i]),
-                                                             (double)AUR_MOST_GROWTH * targets[i]))
-                                                 : targets[i];
-        const uint32_t target = (uint32_t)fmin(wanted, most);
+        const double goal = variances[i] > 0.0 ? ceil(fmin(samples_at(spending, variances[i], targets[i]),
+                                                           (double)AUR_MOST_GROWTH * targets[i]))
+                                               : targets[i];
+        const uint32_t target = (uint32_t)fmin(goal, most);
         raised = raised || target > targets[i];
         targets[i] = target > targets[i] ? target : targets[i];
     }

@@ -17,16 +17,16 @@ aur_result aur_render_resume(aur_render *render, const char *path, aur_error *er
     const char *const identity = aur_render_identity(render);
     if (identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a render goes on whose options say 'resumable'");
-    aur_checkpoint kept;
-    aur_result result = aur_checkpoint_load(path, false, &kept, error);
+    aur_checkpoint checkpoint;
+    aur_result result = aur_checkpoint_load(path, false, &checkpoint, error);
     if (result == AUR_OK)
-        result = aur_render_check_kind(path, &kept, error);
+        result = aur_render_check_kind(path, &checkpoint, error);
     if (result == AUR_OK)
-        result = aur_identity_compare(path, kept.identity, identity, NULL, error);
+        result = aur_identity_compare(path, checkpoint.identity, identity, NULL, error);
     if (result == AUR_OK)
-        result = aur_fail_in(error, aur_render_merge(render, kept.films[0], error), path);
+        result = aur_fail_in(error, aur_render_merge(render, checkpoint.films[0], error), path);
     if (result == AUR_OK)
-        aur_render_take_spent(render, kept.words);
-    aur_checkpoint_release(&kept);
+        aur_render_take_spent(render, checkpoint.words);
+    aur_checkpoint_release(&checkpoint);
     return result;
 }

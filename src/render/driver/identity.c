@@ -65,17 +65,17 @@ static aur_result write_identity(const aur_scene *scene, const aur_render_option
 
 aur_result aur_render_identify(const aur_scene *scene, const aur_render_options *options, char **identity,
                                aur_error *error) {
-    aur_render_options own = *options;
+    aur_render_options local = *options;
     const aur_filter *filter;
     size_t size = 0;
     *identity = NULL;
-    aur_result result = aur_render_options_complete(scene, &own, &filter, error);
+    aur_result result = aur_render_options_complete(scene, &local, &filter, error);
     if (result != AUR_OK)
         return result;
     FILE *const stream = open_memstream(identity, &size);
     if (stream == NULL)
         return aur_fail_memory(error);
-    result = write_identity(scene, &own, stream, error);
+    result = write_identity(scene, &local, stream, error);
     if (fclose(stream) != 0 && result == AUR_OK)
         result = aur_fail_memory(error);
     return result;

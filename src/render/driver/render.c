@@ -184,12 +184,13 @@ static aur_result prepare(aur_render *render, aur_error *error) {
                               .pixel_centre = render->integrator->pixel_centre,
                               .has_lens = aur_camera_has_lens(scene)};
     const aur_integrator_context context = context_of(render);
-    return render->integrator->descriptor->look != NULL
-               ? render->integrator->descriptor->look(&render->view, &context, render->integrator, error)
+    return render->integrator->descriptor->prepare_view != NULL
+               ? render->integrator->descriptor->prepare_view(&render->view, &context, render->integrator,
+                                                              error)
                : AUR_OK;
 }
 
-/* Of a job of several processes: rank 0's time, and all processors'. */
+/* Adds the times of a job of several processes: rank 0's wall clock, and the processors' sum. */
 static void add_seconds(aur_render *render, const aur_stopwatch *start, double *wall) {
     double seconds = 0.0, cpu = 0.0;
     aur_stopwatch_add(start, &seconds, &cpu);
@@ -208,10 +209,10 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     atomic_init(&render->cancelled, false);
     const aur_stopwatch start = aur_stopwatch_start();
     const uint64_t before = aur_rays_traced;
-    aur_render_options *const own = &render->settings;
-    own->size = sizeof(aur_render_options);
-    aur_render_options_init(own, NULL);
-    aur_result result = aur_options_read(options, sizeof *own, own, "aur_render_options", error);
+    aur_render_options *const local = &render->settings;
+    local->size = sizeof(aur_render_options);
+    aur_render_options_init(local, NULL);
+    aur_result result = aur_options_read(options, sizeof *local, local, "aur_render_options", error);
     if (result == AUR_OK)
         result = prepare(render, error);
     render->statistics.rays = aur_rays_traced - before;
@@ -240,8 +241,8 @@ const aur_integrator *aur_render_integrator(const aur_render *render) {
 
 /* --- steps */
 
-/* Whether the tile is of the render's part of the image. */
-static bool is_own(const aur_render *render, size_t tile) {
+/* Whether the tile belongs to the shard of this render. */
+static bool is_in_shard(const aur_render *render, size_t tile) {
     const aur_render_options *const s = &render->settings;
     return s->shard_count == 0 || tile % s->shard_count == s->shard - 1;
 }
@@ -274,7 +275,7 @@ static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *c
             return AUR_ERROR_MEMORY;
         for (size_t y = tile->y0; y < tile->y1; ++y)
             for (size_t x = tile->x0; x < tile->x1; ++x)
-                tile->counters.samples += aur_tile_wanted(tile, x, y);
+                tile->counters.samples += aur_tile_needed(tile, x, y);
         const uint64_t before = aur_rays_traced;
         const aur_result result = add_samples(render->integrator, tile);
         if (result != AUR_OK)
@@ -302,9 +303,9 @@ static aur_result render_tile(void *context, size_t index) {
     aur_render *const render = work->render;
     if (atomic_load_explicit(&render->cancelled, memory_order_relaxed))
         return AUR_ERROR_CANCELLED;
-    aur_tile tile = {.view = &render->view, .stop = &render->cancelled, .asked = aur_rays_traced};
+    aur_tile tile = {.view = &render->view, .stop = &render->cancelled, .rays_checked = aur_rays_traced};
     aur_film_before before;
-    if (!is_own(render, index))
+    if (!is_in_shard(render, index))
         return AUR_OK;
     aur_result result = aur_film_open_tile(render->film, index, &work->targets, &tile, &before);
     if (result == AUR_OK)
@@ -315,7 +316,7 @@ static aur_result render_tile(void *context, size_t index) {
 
 static bool pack_tile(void *context, size_t index, aur_bytes *bytes) {
     const render_work *const work = context;
-    if (!is_own(work->render, index))
+    if (!is_in_shard(work->render, index))
         return true;
     aur_bytes_put(bytes, sizeof work->counted[index], &work->counted[index]);
     aur_film_put_tile(work->render->film, index, bytes);
@@ -324,7 +325,7 @@ static bool pack_tile(void *context, size_t index, aur_bytes *bytes) {
 
 static aur_result unpack_tile(void *context, size_t index, aur_bytes_reader *bytes) {
     const render_work *const work = context;
-    if (!is_own(work->render, index))
+    if (!is_in_shard(work->render, index))
         return AUR_OK;
     aur_bytes_get(bytes, sizeof work->counted[index], &work->counted[index]);
     aur_film_get_tile(work->render->film, index, &work->counted[index], bytes);
@@ -359,7 +360,7 @@ static void warn_of_losses(const aur_render *render) {
 
 /* The progress callback returns the request of aur_render_cancel, so that every check for cancellation sees
  * it. */
-static int ask_to_stop(void *user, const char *what, uint64_t done, uint64_t total) {
+static int should_stop(void *user, const char *what, uint64_t done, uint64_t total) {
     const aur_render *const render = user;
     const aur_progress *const progress = &render->settings.progress;
     if (atomic_load_explicit(&render->cancelled, memory_order_relaxed))
@@ -413,7 +414,7 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
     const aur_stopwatch start = aur_stopwatch_start();
     const aur_parallel_options parallel = {.threads = render->settings.threads,
                                            .what = "rendering",
-                                           .progress = {.function = ask_to_stop, .user = render},
+                                           .progress = {.function = should_stop, .user = render},
                                            .flush_denormals = true,
                                            .share = &share};
     const aur_result result =
@@ -430,11 +431,11 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
 }
 
 aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
-    const size_t wanted = render->settings.samples_per_pixel, done = aur_render_samples(render);
-    if (done >= wanted && render->broken == AUR_OK)
+    const size_t target = render->settings.samples_per_pixel, done = aur_render_samples(render);
+    if (done >= target && render->broken == AUR_OK)
         return AUR_OK;
-    if (count == 0 || count > wanted - done)
-        count = wanted - done;
+    if (count == 0 || count > target - done)
+        count = target - done;
     render_work work = {.targets = {.all = (uint32_t)(done + count)}};
     return do_work(render, &work, error);
 }
@@ -461,7 +462,7 @@ size_t aur_render_samples(const aur_render *render) {
     uint32_t least = (uint32_t)render->settings.samples_per_pixel;
     for (size_t i = 0; i < aur_film_unit_count(render->film); ++i) {
         const uint32_t given = aur_film_unit_given(render->film, i);
-        if (given < least && is_own(render, aur_film_unit_tile(render->film, i)))
+        if (given < least && is_in_shard(render, aur_film_unit_tile(render->film, i)))
             least = given;
     }
     return least;
@@ -485,15 +486,15 @@ aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error 
 
 aur_result aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics,
                                      aur_error *error) {
-    aur_render_statistics own = render->statistics;
+    aur_render_statistics local = render->statistics;
     const aur_counters counted = aur_film_counted(render->film);
-    own.rays += counted.rays;
-    own.samples = counted.samples;
-    own.invalid_samples = counted.invalid;
-    own.cut_paths = counted.cut;
-    own.unsolved_weights = counted.unsolved;
-    memcpy(own.levels, counted.levels, sizeof own.levels);
-    return aur_description_write(&own, sizeof own, statistics, "aur_render_statistics", error);
+    local.rays += counted.rays;
+    local.samples = counted.samples;
+    local.invalid_samples = counted.invalid;
+    local.cut_paths = counted.cut;
+    local.unsolved_weights = counted.unsolved;
+    memcpy(local.levels, counted.levels, sizeof local.levels);
+    return aur_description_write(&local, sizeof local, statistics, "aur_render_statistics", error);
 }
 
 const char *aur_render_identity(const aur_render *render) {
@@ -527,8 +528,8 @@ aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options 
         result = developed != AUR_OK ? developed : result;
     }
     if (statistics != NULL && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
-        const aur_result told = aur_render_get_statistics(render, statistics, error);
-        result = told != AUR_OK ? told : result;
+        const aur_result status = aur_render_get_statistics(render, statistics, error);
+        result = status != AUR_OK ? status : result;
     }
     aur_render_destroy(render);
     return result;

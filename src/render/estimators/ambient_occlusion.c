@@ -1,6 +1,6 @@
-/* Ambient occlusion: the part of the hemisphere over a point, weighted by the cosine, that is open (Zhukov
- * 1998; Schretter 2012, fig. 5). One pattern of directions an image, shared out among the samples of a pixel
- * as final gathering does it, its rotations interleaved over blocks of 4 by 4 pixels. */
+/* Ambient occlusion: the unoccluded fraction of the hemisphere over a point, weighted by the cosine (Zhukov
+ * 1998; Schretter 2012, fig. 5). There is one pattern of directions per image, split among the samples of a
+ * pixel as in final gathering, with rotations interleaved over blocks of 4 by 4 pixels. */
 #include "render/film/integrator.h"
 #include "render/occlusion/rays.h"
 
@@ -41,8 +41,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     aur_gather_rule_options *const pattern = &data->pattern;
     /* AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. Many samples share long patterns, whose heights,
      * which rotations do not change, are close together; each sample uses an eighth of `samples`. */
-    enum { SAMPLES_KNOWN = 1 << 16, SAMPLES_A_PATTERN = 128, PATTERN_LENGTH = 16 };
-    data->occlusion.renews = context->samples_per_pixel > SAMPLES_KNOWN;
+    enum { MOST_SAMPLES = 1 << 16, SAMPLES_A_PATTERN = 128, PATTERN_LENGTH = 16 };
+    data->occlusion.renews = context->samples_per_pixel > MOST_SAMPLES;
     const size_t shares = data->occlusion.renews ? SAMPLES_A_PATTERN : context->samples_per_pixel;
     integrator->pixel_centre = data->pixel == PIXEL_CENTRE;
     if (data->occlusion.renews)
@@ -94,7 +94,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
                                 surface_point % AUR_PACKET_SIZE);
             const size_t px = x + pixel % AUR_TILE_SIZE, py = y + pixel / AUR_TILE_SIZE;
             if (px < tile->x0 || px >= tile->x1 || py < tile->y0 || py >= tile->y1 ||
-                !aur_tile_wants(tile, px, py, i))
+                !aur_tile_needs(tile, px, py, i))
                 continue;
             const float open = 1.0f - (float)sums.stopped[surface_point] / (float)directions;
             aur_tile_add(tile, px, py, i, surface_points.offset[surface_point],

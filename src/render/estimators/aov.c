@@ -90,7 +90,7 @@ static const aov_type types[] = {
 enum { TYPE_COUNT = sizeof types / sizeof types[0] };
 
 typedef struct aov_data {
-    /* Of the keys, and gone afterwards: */
+    /* From the keys, and invalid after creation: */
     const char *list;
     const aur_parameter *item;
 
@@ -137,11 +137,11 @@ static aur_result add_aov(aov_data *data, const char *text, size_t length, aur_l
         return aur_fail_at(error, location, AUR_ERROR_FORMAT,
                            "integrator 'aov': '%.*s' is not of the form name:type, with a name of at most %d",
                            length < 64 ? (int)length : 64, text, NAME_CAPACITY - 3);
-    char wanted[NAME_CAPACITY];
+    char target[NAME_CAPACITY];
     size_t index;
-    snprintf(wanted, sizeof wanted, "%.*s", (int)(length - name_length - 1), colon + 1);
+    snprintf(target, sizeof target, "%.*s", (int)(length - name_length - 1), colon + 1);
     const aur_result result = aur_names_choose((aur_names){TYPE_COUNT, type_name, NULL}, "kind of channel",
-                                               wanted, location, &index, error);
+                                               target, location, &index, error);
     if (result != AUR_OK)
         return result;
     const aov_type *const type = &types[index];
@@ -244,7 +244,7 @@ static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
             for (uint32_t i = 0; i < tile->count; ++i)
-                if (aur_tile_wants(tile, x, y, tile->first + i))
+                if (aur_tile_needs(tile, x, y, tile->first + i))
                     add_sample(integrator, tile, x, y, tile->first + i);
     return AUR_OK;
 }

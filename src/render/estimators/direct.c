@@ -91,7 +91,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     if (aur_scene_emitter_count(scene) == 0)
         return sum;
     const aur_shading shading = aur_shading_at(&surface, view);
-    uint32_t pair = AUR_PAIR_FIRST; /* two a sample: choice, then position or direction */
+    uint32_t pair = AUR_PAIR_FIRST; /* two per sample: choice, then position or direction */
     for (int64_t i = 0; i < data->emitter_samples + data->bsdf_samples; ++i, pair += 2) {
         float u[2][2];
         aur_stream_pairs(&sample->stream, pair, 2, u);

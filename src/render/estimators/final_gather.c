@@ -91,21 +91,21 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     (void)parameters;
     aur_gather_settings *const p = integrator->data;
     const aur_gather_method *method = integrator->gather != NULL ? integrator->gather->method : NULL;
-    bool asked = false;
+    bool selected = false;
     /* Short patterns, complete after few samples, if the final sample count is unknown. */
     if (p->split == 0 && !aur_integrator_knows_samples(context))
         p->split = UNKNOWN_SPLIT;
     aur_result result = aur_gather_settings_complete(p, error);
     if (result == AUR_OK && method != NULL)
-        result = method->begin(p, context->warnings, &asked, error);
-    method = asked ? method : NULL;
+        result = method->begin(p, context->warnings, &selected, error);
+    method = selected ? method : NULL;
     if (result == AUR_OK)
         result = aur_scene_refuse_media(context->scene, "integrator 'finalgather'", error);
     if (result != AUR_OK)
         return result;
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
     integrator->whole_tiles = p->share == AUR_SHARE_BLOCKS;
-    integrator->refines_lamp_edges = p->edge_samples > 0;
+    integrator->refines_emitter_edges = p->edge_samples > 0;
     integrator->samples_a_pattern = (uint32_t)p->split;
     static const char *const directions[] = {"directions"};
     static const char *const sharing[] = {"sharing.R", "sharing.G", "sharing.B"};
@@ -120,17 +120,17 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 
 /* Probe rays are those of one step of the render: of at most four patterns, if it continues in rounds, so
  * that each sample has at least that many for emitters. */
-static aur_result look(const aur_view *view, const aur_integrator_context *context,
-                       aur_integrator *integrator, aur_error *error) {
+static aur_result prepare_view(const aur_view *view, const aur_integrator_context *context,
+                               aur_integrator *integrator, aur_error *error) {
     enum { MOST_PATTERNS = 4 };
     const aur_gather_settings *const p = integrator->data;
     aur_gather_plan *const plan = integrator->made;
     const size_t probes = p->edge_samples / (MOST_PATTERNS * plan->samples_per_pattern);
     if (p->edge_samples == 0 || p->direct == AUR_DIRECT_NONE)
         return AUR_OK;
-    const aur_result result =
-        aur_emitter_edges_find(view, (uint16_t)(probes > 1 ? probes : 1), context, &plan->lamp_edges, error);
-    integrator->lamp_looks = plan->lamp_edges;
+    const aur_result result = aur_emitter_edges_find(view, (uint16_t)(probes > 1 ? probes : 1), context,
+                                                     &plan->emitter_edges, error);
+    integrator->emitter_probes = plan->emitter_edges;
     return result;
 }
 
@@ -151,8 +151,8 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
     .initial = &initial,
     .moved = moved,
     .create = create,
-    .look = look,
+    .prepare_view = prepare_view,
     .release = release,
     .tile = tile,
-    .shows_lamps = true,
+    .shows_emitters = true,
 };

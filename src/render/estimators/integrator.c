@@ -109,10 +109,10 @@ static aur_result fill(aur_parameters *parameters, void *object, const void *con
                               integrator->data, error);
     if (result != AUR_OK || from->context == NULL)
         return result;
-    aur_integrator_context own = *from->context;
-    own.create = aur_integrator_create;
-    integrator->scene = own.scene;
-    return descriptor->create != NULL ? descriptor->create(parameters, &own, integrator, error) : AUR_OK;
+    aur_integrator_context local = *from->context;
+    local.create = aur_integrator_create;
+    integrator->scene = local.scene;
+    return descriptor->create != NULL ? descriptor->create(parameters, &local, integrator, error) : AUR_OK;
 }
 
 static const aur_plugin_kind kind = {.table = &aur_integrator_table,

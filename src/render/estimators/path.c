@@ -22,7 +22,7 @@ static const aur_key keys[] = {
                         "candidate points on emitters per vertex; one is chosen by its unshadowed "
                         "contribution and gets the shadow ray: less noise under skies for more time")},
     AUR_CLAMP_KEY(aur_path),
-    {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
+    {AUR_KEY_OF_REAL(aur_path, "lamp_rays", probe_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
                      "extra camera rays per sample at edges of visible lights (image average)"),
      .computed = true},
 };
@@ -38,19 +38,19 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     /* Keep the noise of directly visible lights: otherwise --error stops before rare reflections of lights
      * are sampled. */
     if (aur_parameters_find(parameters, "lamp_rays") == NULL)
-        data->lamp_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
+        data->probe_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
     aur_clamp_prepare(data->clamp, integrator);
     return aur_path_prepare(data, context->scene, error);
 }
 
 /* Hidden emitters need no probe rays. */
-static aur_result look(const aur_view *view, const aur_integrator_context *context,
-                       aur_integrator *integrator, aur_error *error) {
+static aur_result prepare_view(const aur_view *view, const aur_integrator_context *context,
+                               aur_integrator *integrator, aur_error *error) {
     aur_path *const data = integrator->data;
-    if (data->lamp_rays == 0.0 || data->hide_emitters)
+    if (data->probe_rays == 0.0 || data->hide_emitters)
         return AUR_OK;
-    const aur_result result = aur_edge_probes_find(view, data->lamp_rays, context, &data->probes, error);
-    integrator->lamp_looks = data->probes != NULL ? data->probes->counts : NULL;
+    const aur_result result = aur_edge_probes_find(view, data->probe_rays, context, &data->probes, error);
+    integrator->emitter_probes = data->probes != NULL ? data->probes->counts : NULL;
     return result;
 }
 
@@ -61,9 +61,9 @@ static void release(aur_integrator *integrator) {
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
     const aur_path *const data = integrator->data;
-    aur_vector straight;
-    const aur_vector all = aur_path_radiance(data, integrator->scene, sample, NULL, &straight, counters);
-    return aur_clamped(all, straight, data->clamp);
+    aur_vector unscattered;
+    const aur_vector all = aur_path_radiance(data, integrator->scene, sample, NULL, &unscattered, counters);
+    return aur_clamped(all, unscattered, data->clamp);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
@@ -75,7 +75,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
             for (uint32_t i = tile->first; i < tile->first + tile->count; ++i)
-                if (aur_tile_wants(tile, x, y, i))
+                if (aur_tile_needs(tile, x, y, i))
                     aur_path_add_sample(data, integrator->scene, x, y, i, tile);
     return AUR_OK;
 }
@@ -87,10 +87,10 @@ const aur_integrator_descriptor aur_integrator_path = {
             AUR_ROW_KEYS(keys)},
     .size = sizeof(aur_path),
     .create = create,
-    .look = look,
+    .prepare_view = prepare_view,
     .release = release,
     .radiance = radiance,
     .tile = tile,
     .cuts = true,
-    .shows_lamps = true,
+    .shows_emitters = true,
 };

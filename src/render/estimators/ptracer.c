@@ -223,8 +223,8 @@ static aur_vector mirrored_light(const round_work *work, const aur_camera_sample
     aur_camera_sample next = {.ray = ray, .stream = sample->stream};
     next.stream.pixel = aur_hash3(sample->stream.pixel, 0x6d6972726f72, depth);
     aur_stream_pairs(&next.stream, 0, AUR_STREAM_BLOCK, next.first_pairs);
-    aur_vector straight;
-    return aur_path_radiance(&path, work->view->scene, &next, NULL, &straight, counters);
+    aur_vector unscattered;
+    return aur_path_radiance(&path, work->view->scene, &next, NULL, &unscattered, counters);
 }
 
 static aur_vector camera_light(const round_work *work, const aur_camera_sample *sample,
@@ -392,7 +392,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
     const ptracer *const self = integrator->data;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
-            if (aur_tile_wants(tile, x, y, tile->first))
+            if (aur_tile_needs(tile, x, y, tile->first))
                 aur_tile_add_mean(tile, x, y, 1, &self->image[3 * (y * self->width + x)]);
     return AUR_OK;
 }

@@ -27,9 +27,9 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
     const aur_volume_path *const data = integrator->data;
-    aur_vector straight;
-    const aur_vector all = aur_volume_path_radiance(data, integrator->scene, sample, &straight, counters);
-    return aur_clamped(all, straight, data->clamp);
+    aur_vector unscattered;
+    const aur_vector all = aur_volume_path_radiance(data, integrator->scene, sample, &unscattered, counters);
+    return aur_clamped(all, unscattered, data->clamp);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
@@ -38,13 +38,13 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
         for (size_t x = tile->x0; x < tile->x1; ++x)
             for (uint32_t i = tile->first; i < tile->first + tile->count && !tile->counters.stopped; ++i) {
                 aur_camera_sample sample;
-                aur_vector straight;
-                if (!aur_tile_wants(tile, x, y, i))
+                aur_vector unscattered;
+                if (!aur_tile_needs(tile, x, y, i))
                     continue;
                 aur_view_sample(tile->view, x, y, i, &sample);
                 const aur_vector all =
-                    aur_volume_path_radiance(data, integrator->scene, &sample, &straight, &tile->counters);
-                aur_tile_add_clamped(tile, x, y, i, sample.offset, all, straight, data->clamp);
+                    aur_volume_path_radiance(data, integrator->scene, &sample, &unscattered, &tile->counters);
+                aur_tile_add_clamped(tile, x, y, i, sample.offset, all, unscattered, data->clamp);
             }
     return AUR_OK;
 }
@@ -60,7 +60,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
         .radiance = radiance,                                                                                \
         .tile = tile,                                                                                        \
         .cuts = true,                                                                                        \
-        .shows_lamps = true,                                                                                 \
+        .shows_emitters = true,                                                                              \
     }
 
 VOLUME_PATH(volpath, "path tracing through participating media");

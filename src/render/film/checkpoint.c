@@ -213,11 +213,11 @@ static bool is_changed_file(line a, line b) {
            memcmp(a.text, b.text, a.length) != 0;
 }
 
-aur_result aur_identity_compare(const char *path, const char *kept, const char *wanted, const char *but,
+aur_result aur_identity_compare(const char *path, const char *saved, const char *current, const char *but,
                                 aur_error *error) {
     for (;;) {
         line a = {0}, b = {0};
-        const bool has_a = next_line_but(&kept, but, &a), has_b = next_line_but(&wanted, but, &b);
+        const bool has_a = next_line_but(&saved, but, &a), has_b = next_line_but(&current, but, &b);
         if (!has_a && !has_b)
             return AUR_OK;
         const aur_location where = {.file = path};

@@ -25,24 +25,25 @@ static inline void aur_clamp_prepare(float clamp, aur_integrator *integrator) {
     integrator->extra_names = names;
 }
 
-/* The limited radiance of a sample; `straight` is the part from the first surface, which is not limited. */
-static inline aur_vector aur_clamped(aur_vector radiance, aur_vector straight, float clamp) {
-    const aur_vector rest = aur_vector_subtract(radiance, straight);
+/* The limited radiance of a sample; `unscattered` is the part from the first surface, which is not limited.
+ */
+static inline aur_vector aur_clamped(aur_vector radiance, aur_vector unscattered, float clamp) {
+    const aur_vector rest = aur_vector_subtract(radiance, unscattered);
     const float most = aur_vector_max(rest);
-    return clamp > 0.0f && most > clamp ? aur_vector_add_scaled(straight, clamp / most, rest) : radiance;
+    return clamp > 0.0f && most > clamp ? aur_vector_add_scaled(unscattered, clamp / most, rest) : radiance;
 }
 
-/* Adds such a sample to a pixel. */
+/* Adds a limited sample to a pixel, and the removed light to its channels. */
 static inline void aur_tile_add_clamped(aur_tile *tile, size_t x, size_t y, uint32_t index,
-                                        const float offset[2], aur_vector radiance, aur_vector straight,
+                                        const float offset[2], aur_vector radiance, aur_vector unscattered,
                                         float clamp) {
     if (!(clamp > 0.0f) || !aur_is_radiance(radiance)) {
         aur_tile_add(tile, x, y, index, offset, radiance);
         return;
     }
-    const aur_vector kept = aur_clamped(radiance, straight, clamp);
-    const aur_vector left = aur_tile_measured(tile, kept);
-    const aur_vector taken = aur_tile_measured(tile, aur_vector_subtract(radiance, kept));
+    const aur_vector limited = aur_clamped(radiance, unscattered, clamp);
+    const aur_vector left = aur_tile_measured(tile, limited);
+    const aur_vector taken = aur_tile_measured(tile, aur_vector_subtract(radiance, limited));
     const float values[] = {left.x, left.y, left.z, taken.x, taken.y, taken.z};
     aur_tile_add_channels(tile, x, y, index, offset, values);
 }

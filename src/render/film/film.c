@@ -17,7 +17,7 @@ static bool is_good(const aur_film_layout *layout) {
            (layout->cell == 0 || aur_spread_reach(&layout->filter) <= AUR_FILTER_REACH_MAX);
 }
 
-void aur_film_place(aur_film *film) {
+void aur_film_compute_area(aur_film *film) {
     const aur_film_area area = aur_film_area_of(&film->layout);
     film->column0 = area.x0 / AUR_TILE_SIZE;
     film->row0 = area.y0 / AUR_TILE_SIZE;
@@ -34,7 +34,7 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
     if (film == NULL)
         return aur_fail_memory(error);
     film->layout = *layout;
-    aur_film_place(film);
+    aur_film_compute_area(film);
     const size_t pixels = aur_film_pixel_count(film), own = layout->cell == 0 ? pixels : 0;
     film->channels = calloc(layout->channel_count, sizeof *film->channels);
     film->given = calloc(pixels, sizeof *film->given);
@@ -93,14 +93,14 @@ static size_t first_pixel(const aur_film *film, const aur_tile *tile) {
 }
 
 /* Which samples the pixels of a tile lack. */
-static void set_wanted(const aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
-                       aur_film_before *before) {
+static void set_targets(const aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
+                        aur_film_before *before) {
     const size_t width = film->layout.x1 - film->layout.x0;
     const size_t count = tile->stride * (tile->y1 - tile->y0);
     uint32_t begin = UINT32_MAX, end = 0, most = targets->all;
     bool even = true;
     if (film->spread != NULL)
-        aur_spread_set_wanted(film, index, targets, tile, before);
+        aur_spread_set_targets(film, index, targets, tile, before);
     for (size_t k = 0; k < count && film->spread == NULL; ++k) {
         const size_t at = first_pixel(film, tile) + k / tile->stride * width + k % tile->stride;
         before->given[k] = film->given[at];
@@ -123,7 +123,7 @@ static void set_wanted(const aur_film *film, size_t index, const aur_film_target
     tile->ends = even ? NULL : before->targets;
 }
 
-void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile) {
+void aur_film_set_tile(const aur_film *film, size_t index, aur_tile *tile) {
     const aur_film_area area = aur_film_area_of(&film->layout);
     const size_t x = (film->column0 + index % film->columns) * AUR_TILE_SIZE;
     const size_t y = (film->row0 + index / film->columns) * AUR_TILE_SIZE;
@@ -137,9 +137,9 @@ void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile) {
 aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
                               aur_film_before *before) {
     const size_t channels = film->layout.channel_count, width = film->layout.x1 - film->layout.x0;
-    aur_film_place_tile(film, index, tile);
+    aur_film_set_tile(film, index, tile);
     before->cells = NULL;
-    set_wanted(film, index, targets, tile, before);
+    set_targets(film, index, targets, tile, before);
     if (tile->count == 0)
         return AUR_OK;
     tile->channel_count = channels;

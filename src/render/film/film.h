@@ -94,10 +94,10 @@ static inline size_t aur_film_tile_at(const aur_film *film, size_t x, size_t y) 
 /* Cells of films whose pixels may have different numbers of samples; other films have one cell per tile. */
 enum { AUR_FILM_CELL = 4 };
 
-/* Sets what follows from the film's layout alone. */
-void aur_film_place(aur_film *film);
+/* Computes the fields that depend only on the layout. */
+void aur_film_compute_area(aur_film *film);
 
-/* An empty film; its channels after the first three are still to be named. Errors: ARGUMENT, MEMORY. */
+/* An empty film; the caller names its channels after the first three. Errors: ARGUMENT, MEMORY. */
 aur_result aur_film_create(const aur_film_layout *layout, aur_film **film, aur_error *error);
 
 /* The sample counts of a tile's pixels before a step, row by row, and their targets. */
@@ -146,8 +146,8 @@ void aur_film_take_tile(aur_film *film, aur_tile *tile);
 /* Records the step's samples, and discards uncommitted sums. */
 void aur_film_close_tile(aur_film *film, aur_tile *tile, aur_film_before *before);
 
-/* Where the tile lies in the film: x0 .. y1 and the stride. */
-void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile);
+/* Sets the position of the tile in the film: x0 .. y1 and the stride. */
+void aur_film_set_tile(const aur_film *film, size_t index, aur_tile *tile);
 
 /* Serialises all data of a tile, with its counters, to and from another process that renders the same image.
  */
@@ -193,7 +193,7 @@ void aur_checkpoint_release(aur_checkpoint *checkpoint);
 
 /* Whether two identities are equal; lines that begin with `but` may differ (NULL: none). The error, ARGUMENT,
  * names `path` and the first line that differs. */
-aur_result aur_identity_compare(const char *path, const char *kept, const char *wanted, const char *but,
+aur_result aur_identity_compare(const char *path, const char *saved, const char *current, const char *but,
                                 aur_error *error);
 /* The value of a key's line, or NULL; *length is its length. */
 const char *aur_identity_find(const char *identity, const char *key, size_t *length);

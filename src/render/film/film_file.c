@@ -28,14 +28,14 @@ static void floats_of_word(uint64_t word, float *a, float *b) {
 
 /* Doubles of a film's pixels, and of its cells where pixels share samples. */
 typedef struct film_values {
-    size_t own_sums, own_squares, cells, cell_sums, cell_moments;
+    size_t pixel_sums, pixel_squares, cells, cell_sums, cell_moments;
 } film_values;
 
 static film_values values_of(const aur_film *film) {
     const aur_film_layout *const layout = &film->layout;
     const size_t pixels = aur_film_pixel_count(film);
     if (layout->cell == 0)
-        return (film_values){.own_sums = pixels * layout->channel_count, .own_squares = 3 * pixels};
+        return (film_values){.pixel_sums = pixels * layout->channel_count, .pixel_squares = 3 * pixels};
     aur_spread spread;
     aur_spread_measure(&layout->filter, layout->cell, layout->channel_count, &spread);
     const size_t cells = film->tile_count * spread.tile_cells;
@@ -63,8 +63,8 @@ static void put_pixels(aur_word_writer *writer, const aur_film *film) {
         aur_word_put(writer, film->given[i]);
     for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
         aur_word_put(writer, (uint64_t)film->steps[i] << 32 | film->counts[i]);
-    put_doubles(writer, values.own_squares, film->squares);
-    put_doubles(writer, values.own_sums, film->sums);
+    put_doubles(writer, values.pixel_squares, film->squares);
+    put_doubles(writer, values.pixel_sums, film->sums);
     for (size_t i = 0; i < values.cells; ++i)
         aur_word_put(writer, (uint64_t)spread->steps[i] << 32 | spread->given[i]);
     if (spread != NULL)
@@ -122,7 +122,7 @@ void aur_film_write(const aur_film *film, FILE *stream) {
 size_t aur_film_file_size(const aur_film *film) {
     const film_values values = values_of(film);
     return 8 * (HEADER_WORDS + COUNTER_WORDS + film->layout.channel_count * (1 + NAME_WORDS) +
-                2 * aur_film_pixel_count(film) + values.own_sums + values.own_squares + values.cells +
+                2 * aur_film_pixel_count(film) + values.pixel_sums + values.pixel_squares + values.cells +
                 values.cell_sums + values.cell_moments + 1);
 }
 
@@ -176,8 +176,8 @@ static void get_pixels(aur_word_reader *reader, aur_film *film) {
         film->steps[i] = (uint32_t)(word >> 32);
         film->counts[i] = (uint32_t)word;
     }
-    get_doubles(reader, values.own_squares, film->squares);
-    get_doubles(reader, values.own_sums, film->sums);
+    get_doubles(reader, values.pixel_squares, film->squares);
+    get_doubles(reader, values.pixel_sums, film->sums);
     for (size_t i = 0; i < values.cells; ++i) {
         const uint64_t word = aur_word_get(reader);
         spread->steps[i] = (uint32_t)(word >> 32);
@@ -213,7 +213,7 @@ static size_t words_of(const aur_film_layout *layout, size_t left) {
         (double)(layout->x1 - layout->x0) * (double)(layout->y1 - layout->y0) > (double)left)
         return 0;
     aur_film film = {.layout = *layout};
-    aur_film_place(&film);
+    aur_film_compute_area(&film);
     const size_t bytes = aur_film_file_size(&film), words = bytes / 8 - HEADER_WORDS;
     return words <= left ? words : 0;
 }

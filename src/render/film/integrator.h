@@ -51,8 +51,8 @@ typedef struct aur_integrator_descriptor {
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error);
     /* Prepares what also depends on the image size and the camera; NULL: nothing. */
-    aur_result (*look)(const aur_view *view, const aur_integrator_context *context,
-                       aur_integrator *integrator, aur_error *error);
+    aur_result (*prepare_view)(const aur_view *view, const aur_integrator_context *context,
+                               aur_integrator *integrator, aur_error *error);
     /* Frees what integrator->data points to, if it was prepared; NULL: nothing. */
     void (*release)(aur_integrator *integrator);
     /* Radiance that arrives along the camera ray. */
@@ -71,7 +71,7 @@ typedef struct aur_integrator_descriptor {
      * same bits. Otherwise it calls aur_tile_stops itself, and returns AUR_ERROR_CANCELLED. */
     bool cuts;
     /* Camera rays hit emitters, so that their outlines contribute to the image's error. */
-    bool shows_lamps;
+    bool shows_emitters;
 } aur_integrator_descriptor;
 
 /* False where samples_per_pixel is AUR_SAMPLES_PER_PIXEL_MAX: final sample count unknown. */
@@ -87,11 +87,11 @@ struct aur_integrator {
     void *made;                 /* by create, where it is not in `data` */
     bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
     bool whole_tiles;           /* all pixels of a tile have the same number of samples */
-    bool refines_lamp_edges;    /* traces more rays in a pixel whose neighbours see the edge of an emitter */
+    bool refines_emitter_edges; /* traces more rays in a pixel whose neighbours see the edge of an emitter */
     uint32_t samples_a_pattern; /* samples of a pixel that form one pattern; 0: no patterns */
     const uint16_t
-        *lamp_looks;    /* of each pixel of the image: probe rays for emitters per sample; NULL: none */
-    size_t extra_count; /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
+        *emitter_probes; /* of each pixel of the image: probe rays for emitters per sample; NULL: none */
+    size_t extra_count;  /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
     const char *const *extra_names; /* as in the image's file */
     /* What they show; NULL: means. */
     const aur_channel_kind *extra_kinds;
@@ -110,7 +110,7 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
             for (uint32_t i = 0; i < tile->count; ++i) {
                 if (tile->counters.stopped)
                     return;
-                if (!aur_tile_wants(tile, x, y, tile->first + i))
+                if (!aur_tile_needs(tile, x, y, tile->first + i))
                     continue;
                 aur_camera_sample sample;
                 aur_view_sample(tile->view, x, y, tile->first + i, &sample);

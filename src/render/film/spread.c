@@ -75,12 +75,12 @@ void aur_spread_add(const aur_spread *spread, double *cells, size_t x, size_t y,
     enum { PLAIN = 4 };
     const size_t width = 2 * spread->reach + 1, channels = spread->channels;
     float across[AUR_SPREAD_WIDTH_MAX], down[AUR_SPREAD_WIDTH_MAX];
-    double own[3 + AUR_EXTRA_CHANNELS_MAX + 1];
+    double entry[3 + AUR_EXTRA_CHANNELS_MAX + 1];
     aur_spread_weights(spread, offset[0], across);
     aur_spread_weights(spread, offset[1], down);
     for (size_t c = 0; c + 1 < channels; ++c)
-        own[c] = (double)values[c];
-    own[channels - 1] = counts ? 1.0 : 0.0;
+        entry[c] = (double)values[c];
+    entry[channels - 1] = counts ? 1.0 : 0.0;
     double *const sums = cells + aur_spread_cell_of(spread, x, y) * spread->cell_values;
     for (size_t j = 0; j < width; ++j) {
         double *const row = sums + ((y % spread->cell + j) * spread->side + x % spread->cell) * channels;
@@ -88,9 +88,9 @@ void aur_spread_add(const aur_spread *spread, double *cells, size_t x, size_t y,
         if (down[j] == 0.0f)
             continue;
         if (channels == PLAIN)
-            add_row(width, PLAIN, across, share, own, row);
+            add_row(width, PLAIN, across, share, entry, row);
         else
-            add_row(width, channels, across, share, own, row);
+            add_row(width, channels, across, share, entry, row);
     }
 }
 
@@ -105,8 +105,8 @@ static size_t clamped(size_t at, size_t first, size_t end) {
 }
 
 /* Pixels outside a crop get as many samples as the nearest one in it. */
-void aur_spread_set_wanted(const aur_film *film, size_t index, const aur_film_targets *targets,
-                           const aur_tile *tile, aur_film_before *before) {
+void aur_spread_set_targets(const aur_film *film, size_t index, const aur_film_targets *targets,
+                            const aur_tile *tile, aur_film_before *before) {
     const aur_film_layout *const layout = &film->layout;
     const aur_spread *const spread = film->spread;
     const size_t width = layout->x1 - layout->x0, count = tile->stride * (tile->y1 - tile->y0);
@@ -180,12 +180,12 @@ static void note_step(const aur_spread *spread, uint32_t count, const double *be
             const size_t value = i * spread->channels + (c < 3 ? c : spread->channels - 1);
             step[c] = now[value] - before[value];
         }
-        double *const own = &moments[i * AUR_SPREAD_MOMENTS];
+        double *const entry = &moments[i * AUR_SPREAD_MOMENTS];
         for (size_t c = 0; c < 3; ++c) {
-            own[c] += step[c] * step[c] / (double)count;
-            own[3 + c] += step[c] * step[3] / (double)count;
+            entry[c] += step[c] * step[c] / (double)count;
+            entry[3 + c] += step[c] * step[3] / (double)count;
         }
-        own[6] += step[3] * step[3] / (double)count;
+        entry[6] += step[3] * step[3] / (double)count;
     }
 }
 
@@ -275,13 +275,13 @@ bool aur_spread_error(const aur_film *film, size_t pixel, double squares[3]) {
         squares[c] = 0.0;
         for (size_t i = 0; i < count; ++i) {
             const size_t cell = cells[i].cell;
-            const double *const own =
+            const double *const entry =
                 &spread->moments[(cell * spread->side * spread->side + cells[i].place) * AUR_SPREAD_MOMENTS];
             const double mean =
                 sum_of(spread, &cells[i], c) - value * sum_of(spread, &cells[i], spread->channels - 1);
             const double given = spread->given[cell];
             const double square =
-                own[c] - 2.0 * value * own[3 + c] + value * value * own[6] - given * mean * mean;
+                entry[c] - 2.0 * value * entry[3 + c] + value * value * entry[6] - given * mean * mean;
             squares[c] += fmax(square, 0.0) / ((double)(spread->steps[cell] - 1) * given);
         }
         squares[c] /= weight * weight;

@@ -15,7 +15,8 @@ struct aur_film_layout;
 struct aur_film_targets;
 struct aur_film_before;
 
-/* Bins of the table over a pixel; between them the filter is linear, wrong by 2e-6 of a gaussian's peak. */
+/* Bins of the table over a pixel, which is interpolated linearly, with an error of 2e-6 of a Gaussian's peak.
+ */
 enum { AUR_SPREAD_BINS = 512, AUR_SPREAD_WIDTH_MAX = 2 * AUR_FILTER_REACH_MAX + 1 };
 
 /* Samples of a pixel that are stored to be added in order, at most this many per call. */
@@ -28,7 +29,7 @@ typedef struct aur_spread {
     size_t channels;    /* of a pixel's sums: the film's and, last, the filter's weights */
     size_t tile_cells;  /* cells of a tile */
     size_t cell_values; /* doubles of a cell's sums */
-    float *table;       /* [AUR_SPREAD_BINS + 1][2 reach + 1], by where a sample lies in its pixel */
+    float *table;       /* [AUR_SPREAD_BINS + 1][2 reach + 1], by the sample's position in its pixel */
     /* Cells tile by tile: their sums; the samples that each of their pixels was given; and steps. */
     double *sums;
     uint32_t *given, *steps;
@@ -71,8 +72,8 @@ void aur_spread_add(const aur_spread *spread, double *cells, size_t x, size_t y,
                     double weight, const float *values, bool counts);
 
 /* What aur_film_open_tile, aur_film_take_tile and aur_film_close_tile do for such films. */
-void aur_spread_set_wanted(const struct aur_film *film, size_t index, const struct aur_film_targets *targets,
-                           const aur_tile *tile, struct aur_film_before *before);
+void aur_spread_set_targets(const struct aur_film *film, size_t index, const struct aur_film_targets *targets,
+                            const aur_tile *tile, struct aur_film_before *before);
 aur_result aur_spread_open_tile(const struct aur_film *film, aur_tile *tile, struct aur_film_before *before);
 void aur_spread_take_tile(struct aur_film *film, aur_tile *tile);
 void aur_spread_close_tile(struct aur_film *film, const aur_tile *tile, const struct aur_film_before *before);

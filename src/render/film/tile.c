@@ -221,18 +221,18 @@ void aur_tile_release(aur_tile *tile) {
     const size_t pixels = tile->stride * (tile->y1 - tile->y0), values = SLOT_VALUES + tile->channel_count;
     if (slots->light_count > 0)
         qsort(slots->lights, slots->light_count, sizeof *slots->lights, compare_lights);
-    float seen[3 + AUR_EXTRA_CHANNELS_MAX] = {0};
+    float emission[3 + AUR_EXTRA_CHANNELS_MAX] = {0};
     const aur_tile_light *light = slots->lights, *const end = light + slots->light_count;
     for (size_t slot = 0; slot < pixels * tile->count; ++slot) {
         const size_t x = tile->x0 + slot % pixels % tile->stride, y = tile->y0 + slot % pixels / tile->stride;
         const float *const sample = &slots->values[slot * values];
-        const bool told = light < end && light->slot == slot;
+        const bool has_light = light < end && light->slot == slot;
         if (sample[SLOT_COUNTS] > 0.0f)
-            aur_spread_add(tile->spread, tile->sums, x, y, sample, 1.0, sample + SLOT_VALUES, !told);
+            aur_spread_add(tile->spread, tile->sums, x, y, sample, 1.0, sample + SLOT_VALUES, !has_light);
         for (; light < end && light->slot == slot; ++light) {
-            memcpy(seen, light->radiance, sizeof light->radiance);
+            memcpy(emission, light->radiance, sizeof light->radiance);
             if (sample[SLOT_COUNTS] > 0.0f)
-                aur_spread_add(tile->spread, tile->sums, x, y, light->offset, (double)light->part, seen,
+                aur_spread_add(tile->spread, tile->sums, x, y, light->offset, (double)light->part, emission,
                                true);
         }
     }

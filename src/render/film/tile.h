@@ -95,28 +95,28 @@ typedef struct aur_tile {
     uint32_t *counts; /* samples added to each pixel */
     aur_counters counters;
     const atomic_bool *stop; /* true: the samples are no longer needed; NULL: never cancelled */
-    uint64_t asked;          /* aur_rays_traced at the last call of aur_tile_stops */
+    uint64_t rays_checked;   /* aur_rays_traced at the last call of aur_tile_stops */
 } aur_tile;
 
 /* Whether the tile may be left unfinished. Asks as often as rays are traced that take some milliseconds, so
  * that it may be called for every sample. */
 static inline bool aur_tile_stops(aur_tile *tile) {
     enum { RAYS_BETWEEN = 1 << 14 };
-    if (aur_rays_traced - tile->asked < RAYS_BETWEEN)
+    if (aur_rays_traced - tile->rays_checked < RAYS_BETWEEN)
         return false;
-    tile->asked = aur_rays_traced;
+    tile->rays_checked = aur_rays_traced;
     return (tile->stop != NULL && atomic_load_explicit(tile->stop, memory_order_relaxed)) ||
            aur_parallel_stops();
 }
 
 /* Whether pixel (x, y) of the tile needs a sample of the range. */
-static inline bool aur_tile_wants(const aur_tile *tile, size_t x, size_t y, uint32_t index) {
+static inline bool aur_tile_needs(const aur_tile *tile, size_t x, size_t y, uint32_t index) {
     const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
     return tile->begins == NULL || (index >= tile->begins[pixel] && index < tile->ends[pixel]);
 }
 
 /* How many samples of the range pixel (x, y) needs. */
-static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y) {
+static inline uint32_t aur_tile_needed(const aur_tile *tile, size_t x, size_t y) {
     const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
     if (tile->begins == NULL)
         return tile->count;
@@ -126,7 +126,7 @@ static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y)
     return begin < end ? end - begin : 0;
 }
 
-/* What the camera measures of a sample's radiance. */
+/* The sensor's response to a sample's radiance. */
 static inline aur_vector aur_tile_measured(const aur_tile *tile, aur_vector radiance) {
     const float factor = tile->view != NULL ? tile->view->factor : 0.0f;
     return factor == 0.0f || factor == 1.0f ? radiance : aur_vector_scale(radiance, factor);
@@ -135,8 +135,8 @@ static inline aur_vector aur_tile_measured(const aur_tile *tile, aur_vector radi
 /* Whether finite and not negative. */
 bool aur_is_radiance(aur_vector radiance);
 
-/* Adds sample `index` of a pixel of the tile, at `offset` from its centre. Samples that are no radiance are
- * counted and left out. */
+/* Adds sample `index` of a pixel of the tile, at `offset` from its centre. Invalid samples are counted and
+ * ignored. */
 void aur_tile_add(aur_tile *tile, size_t x, size_t y, uint32_t index, const float offset[2],
                   aur_vector radiance);
 /* One sample with all channels, the first three what the camera measures (aur_tile_measured). */

@@ -7,7 +7,7 @@ typedef struct piece {
     size_t size; /* of one pixel */
 } piece;
 
-enum { PIECES = 5, OWN_PIECES = 2 }; /* the first two only where pixels share no samples */
+enum { PIECES = 5, PIXEL_PIECES = 2 }; /* the first two only where pixels share no samples */
 
 /* Calls `move` for each row of the tile in each of the film's arrays, as one contiguous piece of memory. */
 static void each_row(const aur_film *film, size_t index, void (*move)(void *bytes, size_t size, void *data),
@@ -19,14 +19,14 @@ static void each_row(const aur_film *film, size_t index, void (*move)(void *byte
                                   {film->given, sizeof *film->given},
                                   {film->steps, sizeof *film->steps}};
     aur_tile tile = {0};
-    aur_film_place_tile(film, index, &tile);
+    aur_film_set_tile(film, index, &tile);
     const size_t x0 = tile.x0 > layout->x0 ? tile.x0 : layout->x0;
     const size_t x1 = tile.x1 < layout->x1 ? tile.x1 : layout->x1;
     for (size_t y = tile.y0; y < tile.y1; ++y) {
         size_t pixel;
         if (x0 >= x1 || !aur_film_has(film, x0, y, &pixel))
             continue;
-        for (size_t p = film->spread != NULL ? OWN_PIECES : 0; p < PIECES; ++p)
+        for (size_t p = film->spread != NULL ? PIXEL_PIECES : 0; p < PIECES; ++p)
             move(bytes, (x1 - x0) * pieces[p].size, (char *)pieces[p].data + pixel * pieces[p].size);
     }
     const aur_spread *const spread = film->spread;

@@ -120,9 +120,9 @@ uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, 
     }
     uint32_t aimed = 0;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const bool wanted = aur_has_lane(lanes, k) && above[k] > 0.0f;
-        packet->valid[k] = wanted ? -1 : 0;
-        aimed |= (uint32_t)wanted << k;
+        const bool active = aur_has_lane(lanes, k) && above[k] > 0.0f;
+        packet->valid[k] = active ? -1 : 0;
+        aimed |= (uint32_t)active << k;
     }
     return aimed;
 }

@@ -7,8 +7,8 @@
 typedef struct continuation_walk {
     aur_walk path;
     uint64_t hash;
-    bool known; /* the map has estimated the rest of the path; known_sum is the sum at that point */
-    aur_vector known_sum;
+    bool estimated; /* the map has estimated the rest of the path; estimated_sum is the sum at that point */
+    aur_vector estimated_sum;
 } continuation_walk;
 
 /* Adds the emission that the ray hits; `surface` NULL: the sky. Emission behind mirrors belongs to the
@@ -23,17 +23,17 @@ static void add_emission(const aur_continuation *continuation, const aur_surface
  * ends adds the map's estimate of the rest, and a path that continues subtracts it in proportion. */
 static bool survives(const aur_continuation *continuation, const aur_hit *hit, const aur_shading *shading,
                      aur_vector view, continuation_walk *walk) {
-    const float go_on = continuation->share > 0.0f ? 0.5f : 0.0f;
+    const float map_survival = continuation->share > 0.0f ? 0.5f : 0.0f;
     const unsigned kinds = aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
     aur_texel_view texel = {0};
-    bool known = (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0;
-    if (known) {
+    bool estimated = (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0;
+    if (estimated) {
         texel = aur_irradiance_view(continuation->map, continuation->scene, hit, shading->surface, view);
-        known = !aur_continuation_is_near(continuation, hit->distance, texel.area);
+        estimated = !aur_continuation_is_near(continuation, hit->distance, texel.area);
     }
-    const float survival = known ? go_on : aur_survival(walk->path.beta);
+    const float survival = estimated ? map_survival : aur_survival(walk->path.beta);
     aur_vector estimate = {0};
-    if (known)
+    if (estimated)
         estimate = aur_vector_multiply(walk->path.beta, texel.radiance);
     walk->path.radiance = aur_vector_add(walk->path.radiance, estimate);
     if (continuation->caustics != NULL) {
@@ -42,9 +42,9 @@ static bool survives(const aur_continuation *continuation, const aur_hit *hit, c
         walk->path.radiance =
             aur_vector_add(walk->path.radiance, aur_vector_multiply(walk->path.beta, caustic.radiance));
     }
-    if (known && !walk->known) {
-        walk->known = true;
-        walk->known_sum = walk->path.radiance;
+    if (estimated && !walk->estimated) {
+        walk->estimated = true;
+        walk->estimated_sum = walk->path.radiance;
     }
     if (!aur_vertex_survives(survival, aur_draw_unit(&walk->hash), &walk->path.beta))
         return false;
@@ -60,7 +60,7 @@ typedef struct continuation_walks {
     aur_vertex_lobes
         lobes; /* of each path's current surface: at the first one the lobes that the map covers, then all */
     continuation_walk walk[AUR_PACKET_SIZE];
-    aur_surface met[AUR_PACKET_SIZE];
+    aur_surface surfaces[AUR_PACKET_SIZE];
     aur_vector view[AUR_PACKET_SIZE];
     uint32_t edges[AUR_PACKET_SIZE];
     aur_packet packet;
@@ -77,7 +77,7 @@ static void draw_lights(continuation_walks *walks, aur_light_lanes *lights) {
     aur_lane_numbers choice = {0}, u = {0}, v = {0};
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_shading shading = aur_shading_at(&walks->surfaces[k], walks->view[k]);
         const aur_light_reference reference = aur_shading_reference(&shading);
         float units[3];
         aur_draw_units(&walks->walk[k].hash, units);
@@ -102,7 +102,7 @@ static void add_direct_light(continuation_walks *walks) {
     aur_packet_empty(&walks->packet);
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_shading shading = aur_shading_at(&walks->surfaces[k], walks->view[k]);
         const aur_light_sample light = aur_light_lane(&lights, k);
         aur_shadow shadow;
         if (!aur_vertex_light(&shading, walks->lobes, AUR_VERTEX_ONE_EACH, &light, &shadow))
@@ -129,7 +129,7 @@ static uint32_t trace(continuation_walks *walks) {
     aur_packet_empty(&walks->packet);
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_shading shading = aur_shading_at(&walks->surfaces[k], walks->view[k]);
         float u[3];
         aur_draw_units(&walks->walk[k].hash, u);
         if (aur_walk_scatter(&shading, walks->lobes, u, &walks->walk[k].path))
@@ -145,14 +145,14 @@ static uint32_t trace(continuation_walks *walks) {
 }
 
 /* Computes the surface that a path hits; false if the path ends there. */
-static bool meet(continuation_walks *walks, size_t k) {
+static bool find_surface(continuation_walks *walks, size_t k) {
     const aur_continuation *const continuation = walks->continuation;
     continuation_walk *const walk = &walks->walk[k];
     const aur_hit hit = aur_packet_hit(continuation->scene, &walks->packet, k);
-    aur_scene_surface(continuation->scene, &walk->path.ray, &hit, &walks->met[k]);
-    add_emission(continuation, &walks->met[k], walk);
+    aur_scene_surface(continuation->scene, &walk->path.ray, &hit, &walks->surfaces[k]);
+    add_emission(continuation, &walks->surfaces[k], walk);
     walks->view[k] = aur_vector_scale(walk->path.ray.direction, -1.0f);
-    const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+    const aur_shading shading = aur_shading_at(&walks->surfaces[k], walks->view[k]);
     return ++walks->edges[k] < continuation->max_depth &&
            survives(continuation, &hit, &shading, walks->view[k], walk);
 }
@@ -172,7 +172,7 @@ static void bounce(continuation_walks *walks) {
         const size_t k = aur_first_lane(rest);
         if (!aur_has_lane(found, k))
             add_emission(continuation, NULL, &walks->walk[k]);
-        if (!aur_has_lane(found, k) || !meet(walks, k))
+        if (!aur_has_lane(found, k) || !find_surface(walks, k))
             walks->alive &= ~(1u << k);
     }
 }
@@ -180,12 +180,13 @@ static void bounce(continuation_walks *walks) {
 static aur_vector corrected(const aur_continuation *continuation, const aur_continuation_start *start,
                             const continuation_walk *walk) {
     if (start->near && continuation->single)
-        return walk->known ? aur_vector_subtract(walk->path.radiance, walk->known_sum) : (aur_vector){0};
+        return walk->estimated ? aur_vector_subtract(walk->path.radiance, walk->estimated_sum)
+                               : (aur_vector){0};
     if (start->near)
         return walk->path.radiance;
-    return aur_vector_add_scaled(aur_continuation_kept(continuation, start->known),
+    return aur_vector_add_scaled(aur_continuation_uncorrected(continuation, start->map_radiance),
                                  1.0f / continuation->share,
-                                 aur_vector_subtract(walk->path.radiance, start->known));
+                                 aur_vector_subtract(walk->path.radiance, start->map_radiance));
 }
 
 void aur_continuation_correct(const aur_continuation *continuation, size_t count,
@@ -197,7 +198,7 @@ void aur_continuation_correct(const aur_continuation *continuation, size_t count
     for (size_t k = 0; k < count; ++k) {
         walks.walk[k] =
             (continuation_walk){.path = {.beta = {1.0f, 1.0f, 1.0f}}, .hash = aur_mix64(~starts[k].hash)};
-        walks.met[k] = starts[k].surface;
+        walks.surfaces[k] = starts[k].surface;
         walks.view[k] = starts[k].view;
         walks.edges[k] = starts[k].edges;
         if (starts[k].edges < continuation->max_depth)

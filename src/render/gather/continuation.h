@@ -23,11 +23,11 @@ typedef struct aur_continuation {
 /* Where a path begins. */
 typedef struct aur_continuation_start {
     aur_surface surface;
-    aur_vector view;  /* unit, of the world */
-    uint32_t edges;   /* from the camera to the surface */
-    uint64_t hash;    /* seed of the random decisions */
-    bool near;        /* the texel is: see aur_continuation_is_near */
-    aur_vector known; /* the map's light */
+    aur_vector view;         /* unit, of the world */
+    uint32_t edges;          /* from the camera to the surface */
+    uint64_t hash;           /* seed of the random decisions */
+    bool near;               /* the texel is: see aur_continuation_is_near */
+    aur_vector map_radiance; /* the map's light */
 } aur_continuation_start;
 
 /* Returns the radiance of a path where the texel is near; else the map's radiance corrected by a path. With a
@@ -45,6 +45,7 @@ static inline bool aur_continuation_is_near(const aur_continuation *continuation
 static inline bool aur_continuation_is_due(const aur_continuation *continuation, uint64_t hash) {
     return aur_unit_float((uint32_t)(hash >> 32)) < continuation->share;
 }
-static inline aur_vector aur_continuation_kept(const aur_continuation *continuation, aur_vector known) {
-    return continuation->single ? (aur_vector){0} : known;
+static inline aur_vector aur_continuation_uncorrected(const aur_continuation *continuation,
+                                                      aur_vector map_radiance) {
+    return continuation->single ? (aur_vector){0} : map_radiance;
 }

@@ -104,9 +104,9 @@ void aur_gather_add_direct_light(const aur_gather_points *surface_points, aur_ga
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
                                    aur_vector position, uint64_t hash) {
     const aur_gather_light *const from = &plan->light;
-    const aur_photon_radiance known =
+    const aur_photon_radiance map_light =
         aur_gather_plan_photons(plan, point->shape, point->element, point->u, point->v, point->behind);
-    aur_vector radiance = known.radiance;
+    aur_vector radiance = map_light.radiance;
     const aur_vector offset = aur_vector_subtract(point->position, position);
     const float square = aur_vector_dot(offset, offset);
     const aur_vector direction = aur_vector_scale(offset, 1.0f / sqrtf(square));
@@ -115,11 +115,11 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
         .position = aur_surface_target(position, point->position, point->normal, point->rounding),
         .direction = direction};
     if (cosine > 0.0f && square > 0.0f) {
-        sample.pdf = aur_bright_texels_density(from->bright, known.radiance) * (float)from->bright_draws *
+        sample.pdf = aur_bright_texels_density(from->bright, map_light.radiance) * (float)from->bright_draws *
                      square / cosine;
-        const bool near = aur_continuation_is_near(&plan->continuation, sqrtf(square), known.area);
+        const bool near = aur_continuation_is_near(&plan->continuation, sqrtf(square), map_light.area);
         if (!near && !aur_continuation_is_due(&plan->continuation, hash)) {
-            radiance = aur_continuation_kept(&plan->continuation, radiance);
+            radiance = aur_continuation_uncorrected(&plan->continuation, radiance);
         } else {
             const aur_ray ray = {position, 0.0f, direction, INFINITY};
             const aur_hit hit = {.distance = sqrtf(square),
@@ -132,12 +132,12 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
                                             .edges = 2,
                                             .hash = hash,
                                             .near = near,
-                                            .known = radiance};
+                                            .map_radiance = radiance};
             aur_scene_surface(plan->scene, &ray, &hit, &start.surface);
             aur_continuation_correct(&plan->continuation, 1, &start, &radiance);
         }
     }
-    sample.radiance = aur_vector_add(radiance, known.caustics);
+    sample.radiance = aur_vector_add(radiance, map_light.caustics);
     return sample;
 }
 

@@ -24,11 +24,11 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
 /* A path of mirrors and rough facets, and how it came to where it is. */
 typedef struct gather_chain {
     aur_walk path;
-    size_t lane;       /* of the gather ray */
-    uint64_t hash;     /* seed of the random decisions along the chain */
-    uint32_t length;   /* bounces since the gathering point */
-    bool specular;     /* all of them */
-    float length_seen; /* length of the rays since the last non-specular scattering */
+    size_t lane;           /* of the gather ray */
+    uint64_t hash;         /* seed of the random decisions along the chain */
+    uint32_t length;       /* bounces since the gathering point */
+    bool specular;         /* all of them */
+    float specular_length; /* length of the rays since the last non-specular scattering */
 } gather_chain;
 
 /* Adds the MIS-weighted emission of a surface, or of the sky if `surface` is NULL. Light sampling finds the
@@ -86,13 +86,13 @@ static void add_scattered(const aur_gather_plan *plan, const aur_hit *hit, const
         const aur_texel_view texel = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, wo);
         const uint64_t hash = aur_hash2(chain->hash, chain->length);
         const bool near =
-            aur_continuation_is_near(&plan->continuation, chain->length_seen + hit->distance, texel.area);
+            aur_continuation_is_near(&plan->continuation, chain->specular_length + hit->distance, texel.area);
         if (near || aur_continuation_is_due(&plan->continuation, hash)) {
             waiting->starts[waiting->count] =
                 (aur_continuation_start){*surface, wo, chain->length + 2, hash, near, texel.radiance};
             wait_for_path(plan, chain->lane, chain->path.beta, waiting, rays);
         } else {
-            radiance = aur_continuation_kept(&plan->continuation, texel.radiance);
+            radiance = aur_continuation_uncorrected(&plan->continuation, texel.radiance);
         }
     }
     if (plan->light.caustics != NULL)
@@ -128,7 +128,7 @@ static bool scatter(const aur_shading *shading, float distance, gather_chain *ch
     }
     ++chain->length;
     chain->specular = chain->specular && path->bounce.specular_bounce;
-    chain->length_seen = path->bounce.specular_bounce ? chain->length_seen + distance : 0.0f;
+    chain->specular_length = path->bounce.specular_bounce ? chain->specular_length + distance : 0.0f;
     return true;
 }
 
@@ -172,8 +172,8 @@ static float density_of(const aur_gather_rays *rays, size_t lane) {
 
 /* The part of a bright texel's light that gathering counts; sampling of bright texels adds the rest. */
 static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
-                           aur_vector known) {
-    const float texel = aur_bright_texels_density(plan->light.bright, known);
+                           aur_vector map_light) {
+    const float texel = aur_bright_texels_density(plan->light.bright, map_light);
     if (texel == 0.0f)
         return 1.0f;
     const struct RTCRayHit16 *const query = &rays->packet.query;
@@ -196,15 +196,16 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiti
                             query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
                         0.0f;
     const uint32_t element = plan->light.map->texels.elements.shape_first[shape] + query->hit.primID[lane];
-    const aur_photon_radiance known =
+    const aur_photon_radiance map_light =
         aur_gather_plan_photons(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind);
     const float weight =
-        plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, known.radiance) : 1.0f;
+        plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, map_light.radiance) : 1.0f;
     const uint64_t hash = aur_gather_rays_hash(rays, lane);
-    const bool near = aur_continuation_is_near(&plan->continuation, query->ray.tfar[lane], known.area);
+    const bool near = aur_continuation_is_near(&plan->continuation, query->ray.tfar[lane], map_light.area);
     if (!near && !aur_continuation_is_due(&plan->continuation, hash))
         return aur_vector_scale(
-            aur_vector_add(aur_continuation_kept(&plan->continuation, known.radiance), known.caustics),
+            aur_vector_add(aur_continuation_uncorrected(&plan->continuation, map_light.radiance),
+                           map_light.caustics),
             weight);
     const aur_ray ray = aur_packet_ray(&rays->packet, lane);
     const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
@@ -214,9 +215,9 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiti
     start->edges = 2;
     start->hash = hash;
     start->near = near;
-    start->known = known.radiance;
+    start->map_radiance = map_light.radiance;
     wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, waiting, rays);
-    return aur_vector_scale(known.caustics, weight);
+    return aur_vector_scale(map_light.caustics, weight);
 }
 
 /* The lanes whose radiance is read from the map without evaluating their surface. */
@@ -237,7 +238,8 @@ static const aur_texel_range *range_of(const aur_irradiance_map *map, const aur_
     return &map->texels.ranges[aur_element_of(&map->texels.elements, hit)];
 }
 
-/* Of curved shapes another texel of the element. */
+/* The index of a hit's light on a triangle, for prefetching: on curved shapes another texel of the element.
+ */
 static size_t light_of(const aur_irradiance_map *map, const aur_hit *hit) {
     return 2 * (size_t)aur_texel_of_triangle(*range_of(map, hit), hit->u, hit->v);
 }

@@ -33,12 +33,12 @@ static void destroy_text(void *text) {
  * NULL if that cannot be determined. */
 static const char *scene_key(const aur_integrator_context *context) {
     static const char name[] = "what photon maps depend on";
-    char *const known = aur_cache_find(context->cache, name);
+    char *const cached = aur_cache_find(context->cache, name);
     const uint64_t build = aur_build_identity();
     char *contents = NULL, *key = NULL;
     size_t size;
-    if (known != NULL || build == 0 || aur_scene_contents(context->scene, &contents, NULL) != AUR_OK)
-        return known;
+    if (cached != NULL || build == 0 || aur_scene_contents(context->scene, &contents, NULL) != AUR_OK)
+        return cached;
     FILE *const stream = open_memstream(&key, &size);
     if (stream != NULL) {
         fprintf(stream, "build %016" PRIx64 "\ninstructions %s, of rays %s\n%s", build,
@@ -110,7 +110,7 @@ static aur_result find_maps(const aur_gather_settings *p, const aur_integrator_c
                             aur_gather_light *light, aur_error *error) {
     const bool apart = p->caustic_photons > 0;
     const bool leaves_out = p->debias == AUR_DEBIAS_FOUND && aur_scene_has_hidden_light(context->scene);
-    const uint64_t own_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
+    const uint64_t fixed_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
     aur_photon_options photons = {.count = p->photons,
                                   /* A diffuse surface at the end of a gather ray is two edges from the
                                      camera; caustics are seen without a gather ray. */
@@ -118,7 +118,7 @@ static aur_result find_maps(const aur_gather_settings *p, const aur_integrator_c
                                   .kind = apart        ? AUR_PHOTONS_OTHER
                                           : leaves_out ? AUR_PHOTONS_FOUND
                                                        : AUR_PHOTONS_ALL,
-                                  .seed = p->photon_seed > 0 ? own_seed : context->seed,
+                                  .seed = p->photon_seed > 0 ? fixed_seed : context->seed,
                                   .threads = context->threads,
                                   .progress = context->progress,
                                   .warnings = context->warnings};
@@ -166,9 +166,9 @@ static aur_result find_light(const aur_gather_settings *p, const aur_integrator_
     aur_gather_light *const light = &plan->light;
     light->draws = p->light_samples;
     /* If gather rays continue from every surface, no photons are needed. */
-    const bool wants_photons = p->incident != AUR_INCIDENT_EMITTERS && p->max_depth >= 3 &&
+    const bool needs_photons = p->incident != AUR_INCIDENT_EMITTERS && p->max_depth >= 3 &&
                                (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
-    aur_result result = wants_photons ? find_maps(p, context, light, error) : AUR_OK;
+    aur_result result = needs_photons ? find_maps(p, context, light, error) : AUR_OK;
     if (result != AUR_OK || p->bright_samples == 0 || light->map == NULL || p->component != AUR_COMPONENT_ALL)
         return result;
     const size_t samples = context->samples_per_pixel;

@@ -46,7 +46,7 @@ typedef struct aur_gather_plan {
      * importance sampling. */
     bool counts_emitters;
     bool gathers;                  /* whether gather rays can carry any light */
-    const uint16_t *lamp_edges;    /* per pixel of the image: not 0 at the edge of a small emitter; or NULL */
+    const uint16_t *emitter_edges; /* per pixel of the image: not 0 at the edge of a small emitter; or NULL */
     aur_continuation continuation; /* replaces the map where it is too coarse, or corrects it */
 } aur_gather_plan;
 
@@ -82,10 +82,10 @@ static inline aur_photon_radiance aur_gather_plan_photons(const aur_gather_plan 
     const aur_gather_light *const light = &plan->light;
     const aur_vector albedo = plan->classes[shape].albedo_on_pi[behind];
     const aur_texel_light *const texel = aur_irradiance_on_triangle(light->map, element, u, v, behind);
-    aur_photon_radiance known = {.radiance = aur_vector_multiply(albedo, texel->irradiance),
-                                 .area = texel->area};
+    aur_photon_radiance map_light = {.radiance = aur_vector_multiply(albedo, texel->irradiance),
+                                     .area = texel->area};
     if (light->caustics != NULL)
-        known.caustics = aur_vector_multiply(
+        map_light.caustics = aur_vector_multiply(
             albedo, aur_irradiance_on_triangle(light->caustics, element, u, v, behind)->irradiance);
-    return known;
+    return map_light;
 }

@@ -37,7 +37,7 @@ typedef struct aur_gather_points {
     aur_gather_point at[AUR_PACKET_SIZE];
 } aur_gather_points;
 
-/* As drawing lights sees it. */
+/* The reference point for light sampling. */
 static inline aur_light_reference aur_gather_point_reference(const aur_gather_point *surface_point) {
     const aur_shading shading = {&surface_point->surface, surface_point->view};
     return aur_shading_reference(&shading);

@@ -19,8 +19,8 @@ typedef struct aur_ggx_rule_options {
 typedef struct aur_ggx_rule {
     float alpha;
     size_t count, rotations;
-    /* Rotation after rotation: a direction's azimuth from the plane of the view, in circles, and the part of
-     * the hemisphere above it. */
+    /* Per rotation: a direction's azimuth from the plane of the view, in turns, and the part of the
+     * hemisphere above it. */
     float (*square)[2];
     aur_weight_table *table;
 } aur_ggx_rule;

@@ -6,8 +6,8 @@
 #include "points/base/random.h"
 #include "render/trace/packet.h"
 
-size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
-    return (wanted + samples_per_pixel - 1) / samples_per_pixel * samples_per_pixel;
+size_t aur_gather_split_count(size_t target, size_t samples_per_pixel) {
+    return (target + samples_per_pixel - 1) / samples_per_pixel * samples_per_pixel;
 }
 
 /* Common data of the rules of one kind, diffuse or glossy. */
@@ -87,20 +87,21 @@ static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse,
 }
 
 /* The rule of an analytic lobe, created on first use. */
-static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wanted, aur_gather_rules *rules,
-                               const aur_gather_lobe_rule **found, aur_error *error) {
-    size_t i = wanted->diffuse ? 0 : 1;
-    while (i > 0 && i < rules->count && (float)rules->lobes[i].rule.exponent != wanted->exponent)
+static aur_result find_or_create(const rule_maker *maker, const aur_bsdf_lobe *target,
+                                 aur_gather_rules *rules, const aur_gather_lobe_rule **found,
+                                 aur_error *error) {
+    size_t i = target->diffuse ? 0 : 1;
+    while (i > 0 && i < rules->count && (float)rules->lobes[i].rule.exponent != target->exponent)
         ++i;
     aur_gather_lobe_rule *const lobe = &rules->lobes[i];
     *found = lobe;
     if (i < rules->count)
         return AUR_OK;
     ++rules->count;
-    const aur_result result = make(maker, wanted->exponent, lobe, error);
+    const aur_result result = make(maker, target->exponent, lobe, error);
     lobe->clipped = maker->p->clip && maker->method == NULL;
     if (lobe->clipped)
-        aur_gather_horizon_fill(wanted->exponent, &lobe->horizon);
+        aur_gather_horizon_fill(target->exponent, &lobe->horizon);
     return result == AUR_OK && aur_merges_samples(maker->p->weights)
                ? merge(maker, &rules->lobes[0].rule, lobe, error)
                : result;
@@ -116,7 +117,7 @@ static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules,
         rules->scatters |= bsdf->scatters[0] | bsdf->scatters[1];
         for (size_t k = 0; k < bsdf->lobe_count && result == AUR_OK; ++k)
             if (bsdf->lobes[k].shape == AUR_LOBE_SHAPE_COSINE_POWER)
-                result = find_or_make(maker, &bsdf->lobes[k], rules, &rules->of_shape[i][k], error);
+                result = find_or_create(maker, &bsdf->lobes[k], rules, &rules->of_shape[i][k], error);
     }
     return result;
 }

@@ -71,4 +71,4 @@ void aur_gather_rules_release(aur_gather_rules *rules);
 
 /* Rounds a count of directions or draws to one that the samples of a pixel split evenly: at least one each.
  */
-size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel);
+size_t aur_gather_split_count(size_t count, size_t samples_per_pixel);

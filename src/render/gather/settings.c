@@ -40,11 +40,11 @@ static const struct {
      "debias corrects the bias of the photon map, not that of caustic_photons: they cannot be combined"},
 };
 
-static unsigned asked_of(const aur_gather_settings *o) {
+static unsigned given_options(const aur_gather_settings *o) {
     const bool fibonacci = strcmp(o->pattern, "spherical-fibonacci") == 0 &&
                            (o->scramble == NULL || strcmp(o->scramble, "rotate") == 0);
     const struct {
-        bool asked;
+        bool given;
         unsigned bit;
     } bits[] = {
         {o->weights == AUR_WEIGHTS_EQUAL, EQUAL},
@@ -58,10 +58,10 @@ static unsigned asked_of(const aur_gather_settings *o) {
         {o->decorrelation != AUR_DECORRELATION_BLUE, NOT_DITHERED},
         {!fibonacci, NOT_FIBONACCI},
     };
-    unsigned asked = 0;
+    unsigned given = 0;
     for (size_t i = 0; i < sizeof bits / sizeof bits[0]; ++i)
-        asked |= bits[i].asked ? bits[i].bit : 0;
-    return asked;
+        given |= bits[i].given ? bits[i].bit : 0;
+    return given;
 }
 
 aur_result aur_gather_settings_complete(aur_gather_settings *o, aur_error *error) {
@@ -71,9 +71,9 @@ aur_result aur_gather_settings_complete(aur_gather_settings *o, aur_error *error
         o->regularization = o->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
     if (o->debias == AUR_DEBIAS_ONLY || o->debias == AUR_DEBIAS_FOUND)
         o->direct = AUR_DIRECT_NONE;
-    const unsigned asked = asked_of(o);
+    const unsigned given = given_options(o);
     for (size_t i = 0; i < sizeof exclusions / sizeof exclusions[0]; ++i)
-        if ((asked & exclusions[i].all) == exclusions[i].all)
+        if ((given & exclusions[i].all) == exclusions[i].all)
             return aur_fail(error, exclusions[i].result, "finalgather: %s", exclusions[i].message);
     return AUR_OK;
 }

@@ -20,8 +20,8 @@ static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
 }
 
 /* Keeps the gathered irradiance for the pool instead of adding it. */
-static void keep_for_pool(const aur_gather_points *surface_points, const aur_gather_sweep *sweep, size_t lane,
-                          aur_vector gathered, aur_gather_sums *sums) {
+static void add_to_pool(const aur_gather_points *surface_points, const aur_gather_sweep *sweep, size_t lane,
+                        aur_vector gathered, aur_gather_sums *sums) {
     const aur_gather_point *const surface_point = &surface_points->at[lane];
     sums->pooled_lanes |= 1u << lane;
     sums->pooled[lane] =
@@ -57,7 +57,7 @@ static void by_rule(const aur_gather_points *surface_points, const aur_gather_lo
         const size_t lane = aur_first_lane(rest);
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
         if (aur_gather_pools(surface_points, rule)) {
-            keep_for_pool(surface_points, &sweep, lane, gathered, sums);
+            add_to_pool(surface_points, &sweep, lane, gathered, sums);
             continue;
         }
         const aur_vector reflected =

@@ -15,14 +15,14 @@ uint64_t aur_gather_surface_key(const aur_shape_class *classes, const aur_packet
     return key + aur_vector_facing(behind ? aur_vector_scale(n, -1.0f) : n);
 }
 
-aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *known) {
-    *known = true;
+aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *exists) {
+    *exists = true;
     for (uint32_t i = 0; i < pixel->count; ++i)
         if (pixel->strata[i].key == key)
             return &pixel->strata[i];
     if (pixel->count == AUR_STRATUM_COUNT)
         return &pixel->strata[AUR_STRATUM_COUNT - 1];
-    *known = false;
+    *exists = false;
     aur_stratum *const added = &pixel->strata[pixel->count++];
     *added = (aur_stratum){.key = key};
     return added;
@@ -97,7 +97,7 @@ enum { SIDE = AUR_TILE_SIZE, MOST_REACH = 2, MOST_SIDE = SIDE + 2 * MOST_REACH }
 /* What a pixel's samples hit: the key of one surface, and whether there were others. */
 typedef struct glance {
     uint64_t key;
-    bool known, several, light;
+    bool exists, several, light;
 } glance;
 
 /* A tile's pixels and the ring around it, as wide as the reach of edges: what each pixel sees. */
@@ -109,15 +109,15 @@ typedef struct surroundings {
 } surroundings;
 
 static void see(glance *self, uint64_t key) {
-    self->several = self->several || (self->known && key != self->key);
+    self->several = self->several || (self->exists && key != self->key);
     self->light = self->light || (key & AUR_SURFACE_KEY_EMITS) != 0;
     self->key = key;
-    self->known = true;
+    self->exists = true;
 }
 
 /* Pixels, 16 at a time: what the first sample of each sees. */
-static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
-                    const size_t *y, glance *const *seen) {
+static void probe_pixels(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
+                         const size_t *y, glance *const *seen) {
     aur_packet packet;
     aur_camera_sample samples[AUR_PACKET_SIZE];
     aur_packet_clear(&packet);
@@ -130,54 +130,55 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
 }
 
 /* The tile's pixel at an index of the surroundings; NULL on the ring around the tile. */
-static const aur_pixel_strata *own_pixel(const surroundings *self, size_t surface_point) {
+static const aur_pixel_strata *tile_pixel(const surroundings *self, size_t surface_point) {
     const size_t column = surface_point % self->side, row = surface_point / self->side, reach = self->reach;
     const bool inside = column >= reach && column < SIDE + reach && row >= reach && row < SIDE + reach;
     return inside ? &self->strata[(row - reach) * SIDE + (column - reach)] : NULL;
 }
 
 /* Whether a pixel within reach has samples, so that an edge between them counts. */
-static bool is_beside_samples(const surroundings *self, size_t surface_point) {
+static bool is_near_samples(const surroundings *self, size_t surface_point) {
     const size_t column = surface_point % self->side, row = surface_point / self->side, reach = self->reach;
     for (size_t j = row > reach ? row - reach : 0; j <= row + reach && j < self->side; ++j)
         for (size_t i = column > reach ? column - reach : 0; i <= column + reach && i < self->side; ++i) {
-            const aur_pixel_strata *const other = own_pixel(self, j * self->side + i);
+            const aur_pixel_strata *const other = tile_pixel(self, j * self->side + i);
             if (other != NULL && other->count > 0)
                 return true;
         }
     return false;
 }
 
-/* Finds what the pixels near those with samples see. If all pixels of the tile are `alike` in their number of
- * samples, their samples provide it. Otherwise the result would depend on which neighbours have samples, so
- * one ray per pixel is traced, as on the ring. Pixels beyond the image see nothing and make no edge. */
-static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike,
-                        surroundings *self) {
+/* Finds what the pixels near those with samples see. With `equal_counts`, the samples of the tile's
+ * pixels provide it. Otherwise the result would depend on which neighbours have
+ * samples, so one ray per pixel is traced, as on the ring. Pixels beyond the image see nothing and make no
+ * edge. */
+static void find_surroundings(const aur_gather_plan *plan, size_t left, size_t top, bool equal_counts,
+                              surroundings *self) {
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;
     glance *seen[AUR_PACKET_SIZE];
     const size_t reach = self->reach, surface_points = self->side * self->side;
     for (size_t i = 0; i < surface_points; ++i) {
-        const aur_pixel_strata *const own = own_pixel(self, i);
+        const aur_pixel_strata *const own = tile_pixel(self, i);
         self->seen[i] = (glance){0};
-        if (alike && own != NULL && own->count > 0) {
+        if (equal_counts && own != NULL && own->count > 0) {
             for (uint32_t k = 0; k < own->count; ++k)
                 see(&self->seen[i], own->strata[k].key);
             continue;
         }
         const size_t column = left + i % self->side, row = top + i / self->side; /* too many by the reach */
         if (column < reach || row < reach || column >= self->view->width + reach ||
-            row >= self->view->height + reach || !is_beside_samples(self, i))
+            row >= self->view->height + reach || !is_near_samples(self, i))
             continue;
         x[count] = column - reach;
         y[count] = row - reach;
         seen[count++] = &self->seen[i];
         if (count == AUR_PACKET_SIZE) {
-            look_at(plan, self->view, count, x, y, seen);
+            probe_pixels(plan, self->view, count, x, y, seen);
             count = 0;
         }
     }
     if (count > 0)
-        look_at(plan, self->view, count, x, y, seen);
+        probe_pixels(plan, self->view, count, x, y, seen);
 }
 
 /* The strongest edge among what the pixels within reach see. The pixel's samples do not count: otherwise
@@ -188,7 +189,7 @@ static int edge_at(const surroundings *self, size_t x, size_t y) {
     const size_t across = 2 * self->reach + 1;
     for (size_t i = 0; i < across * across; ++i) {
         const glance *const other = &self->seen[(y + i / across) * self->side + x + i % across];
-        if (i == across * across / 2 || !other->known)
+        if (i == across * across / 2 || !other->exists)
             continue;
         see(&all, other->key);
         all.several = all.several || other->several;
@@ -207,27 +208,27 @@ static size_t reach_of(const aur_filter *filter) {
     return reach < MOST_REACH ? reach : MOST_REACH;
 }
 
-static bool is_lamp_edge(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y) {
-    return plan->lamp_edges != NULL && x < view->width && y < view->height &&
-           plan->lamp_edges[y * view->width + x] > 0;
+static bool is_emitter_edge(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y) {
+    return plan->emitter_edges != NULL && x < view->width && y < view->height &&
+           plan->emitter_edges[y * view->width + x] > 0;
 }
 
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges) {
+                           const aur_pixel_strata *strata, bool equal_counts, aur_gather_edges *edges) {
     const size_t reach = reach_of(view->filter);
     surroundings all;
     all.view = view;
     all.strata = strata;
     all.reach = reach;
     all.side = SIDE + 2 * reach;
-    look_around(plan, x, y, alike, &all);
+    find_surroundings(plan, x, y, equal_counts, &all);
     *edges = (aur_gather_edges){0};
     for (uint32_t surface_point = 0; surface_point < AUR_GROUP_COUNT; ++surface_point)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
             const size_t pixel = aur_group_pixel(0, surface_point, lane);
             if (strata[pixel].count == 0)
                 continue;
-            const int edge = is_lamp_edge(plan, view, x + pixel % SIDE, y + pixel / SIDE)
+            const int edge = is_emitter_edge(plan, view, x + pixel % SIDE, y + pixel / SIDE)
                                  ? LIGHT_EDGE
                                  : edge_at(&all, pixel % SIDE, pixel / SIDE);
             edges->any[surface_point] |= (uint32_t)(edge != NO_EDGE) << lane;

@@ -31,8 +31,8 @@ typedef struct aur_pixel_strata {
     aur_stratum strata[AUR_STRATUM_COUNT];
 } aur_pixel_strata;
 
-/* The pixel's stratum with a key, added if there is none yet: then `known` is false. */
-aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *known);
+/* The pixel's stratum with a key, added if there is none yet: then `exists` is false. */
+aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *exists);
 
 /* Adds one lane's result, a sample of the pixel in that stratum. A sample with invalid radiance is counted as
  * such and otherwise ignored: false. */
@@ -54,10 +54,10 @@ typedef struct aur_gather_edges {
     uint32_t lights[AUR_GROUP_COUNT]; /* those where one of the surfaces is a light */
 } aur_gather_edges;
 
-/* `strata` are those of the tile at (x, y). `alike`: all of its pixels have equally many samples. One ray is
- * traced for each pixel around the tile, and for those of the tile if they are not alike. */
+/* `strata` are those of the tile at (x, y). `equal_counts`: all of its pixels have equally many samples; if
+ * not, one ray is traced for each of them. One ray is also traced for each pixel around the tile. */
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges);
+                           const aur_pixel_strata *strata, bool equal_counts, aur_gather_edges *edges);
 
 /* Pooled irradiance: one joint pattern is split among the pixels of a 4 x 4 block, the same way in all
  * blocks. Gathered irradiance is pooled among pixels that see one surface (a discontinuity buffer: Wald,

@@ -146,17 +146,17 @@ static void weigh(gather_tile *work, size_t lane, const aur_stratum *stratum, co
 }
 
 /* Counts the camera rays' hits by stratum, and removes lanes that need no shading. */
-static void count_seen(gather_tile *work, uint32_t found) {
+static void count_hits(gather_tile *work, uint32_t found) {
     const aur_packet *const packet = &work->sums.rays.packet;
     for (uint32_t rest = work->surface_points.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const uint64_t key = aur_has_lane(found, lane)
                                  ? aur_gather_surface_key(work->surface_points.plan->classes, packet, lane)
                                  : 0;
-        bool known;
-        aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
+        bool exists;
+        aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &exists);
         stratum->seen += 1.0;
-        if (work->only_new && known && stratum->shaded > 0.0) {
+        if (work->only_new && exists && stratum->shaded > 0.0) {
             work->surface_points.lanes &= ~(1u << lane);
             weigh(work, lane, stratum, NULL);
         } else {
@@ -178,7 +178,7 @@ static void add_sky(gather_tile *work, uint32_t lanes) {
 }
 
 /* Sets up the surfaces that the rays hit, and adds light that is not gathered: caustics and emission. */
-static void set_places(gather_tile *work) {
+static void set_points(gather_tile *work) {
     const aur_gather_plan *const plan = work->surface_points.plan;
     const aur_scene *const scene = plan->scene;
     const aur_irradiance_map *const caustics = plan->light.caustics;
@@ -241,12 +241,12 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
          ++surface_points->bounces) {
         const uint32_t found = trace(work);
         if (surface_points->bounces == 0)
-            count_seen(work, found);
+            count_hits(work, found);
         add_sky(work, surface_points->lanes & ~found);
         surface_points->lanes &= found;
         if (surface_points->lanes == 0)
             break;
-        set_places(work);
+        set_points(work);
         aur_gather_shade(surface_points, &work->sums);
         bounce(work);
     }
@@ -296,7 +296,7 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
             const uint32_t lanes =
                 aur_group_lanes_within(work->columns, work->rows, 0, view->width, 0, view->height);
             add_samples(work,
-                        aur_group_lanes_wanted(tile, work->columns, work->rows, lanes, tile->first + i));
+                        aur_group_lanes_needed(tile, work->columns, work->rows, lanes, tile->first + i));
         }
     return work->surface_points.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
@@ -328,7 +328,7 @@ static void spread_stratum(const gather_tile *work, const aur_pixel_strata *pixe
 static void spread_pixel(const gather_tile *work, aur_tile *tile, size_t x, size_t y,
                          const aur_pixel_strata *pixel, double *sums) {
     const size_t width = 2 * work->spread->reach + 1, numbers = width * width * work->spread->channels;
-    const uint32_t count = aur_tile_wanted(tile, x, y);
+    const uint32_t count = aur_tile_needed(tile, x, y);
     double seen = 0.0;
     memset(sums, 0, numbers * sizeof *sums);
     for (uint32_t i = 0; i < pixel->count; ++i) {
@@ -366,7 +366,7 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
                 continue;
             double mean[3];
             aur_pixel_strata_mean(pixel, mean);
-            const uint32_t count = aur_tile_wanted(tile, x, y);
+            const uint32_t count = aur_tile_needed(tile, x, y);
             aur_tile_add_mean(tile, x, y, count, mean);
             if (policy->share == AUR_SHARE_NEAR) {
                 double added[3];

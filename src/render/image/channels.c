@@ -22,9 +22,9 @@ aur_channel_role aur_channel_role_of(const char *name) {
                  {"Z", AUR_CHANNEL_Z},         {"ZBack", AUR_CHANNEL_DATA}, {"RY", AUR_CHANNEL_RY},
                  {"BY", AUR_CHANNEL_BY},       {"AR", AUR_CHANNEL_DATA},    {"AG", AUR_CHANNEL_DATA},
                  {"AB", AUR_CHANNEL_DATA},     {"id", AUR_CHANNEL_DATA}};
-    const char *const own = name + aur_channel_layer(name);
+    const char *const base = name + aur_channel_layer(name);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
-        if (strcasecmp(own, names[i].name) == 0)
+        if (strcasecmp(base, names[i].name) == 0)
             return names[i].role;
     return AUR_CHANNEL_OTHER;
 }

@@ -4,10 +4,10 @@
 #include <math.h>
 
 /* The mean of ((X_i - X_j).(X_k - X_l))^2 / 4 over distinct i, j, k, l, computed from the sum of squares of
- * all products (`squares`), that of the diagonal (`own`), and the row sums, which are zero. */
-static double spread_of_fours(double count, double trace, double squares, double own) {
-    const double two = squares - own, three = 2.0 * own - squares;
-    const double four = trace * trace - 6.0 * own + 2.0 * squares;
+ * all products (`squares`), that of the diagonal (`diagonal`), and the row sums, which are zero. */
+static double spread_of_fours(double count, double trace, double squares, double diagonal) {
+    const double two = squares - diagonal, three = 2.0 * diagonal - squares;
+    const double four = trace * trace - 6.0 * diagonal + 2.0 * squares;
     const double pairs = count * (count - 1.0), triples = pairs * (count - 2.0);
     return two / pairs - 2.0 * three / triples + four / (triples * (count - 3.0));
 }
@@ -17,16 +17,16 @@ static double spread_of_three(double trace, double squares) {
 }
 
 double aur_gram_spread(const aur_gram *block) {
-    double trace = 0.0, squares = 0.0, own = 0.0;
+    double trace = 0.0, squares = 0.0, diagonal = 0.0;
     for (size_t r = 0; r < block->count; ++r) {
         trace += block->products[r][r];
-        own += block->products[r][r] * block->products[r][r];
+        diagonal += block->products[r][r] * block->products[r][r];
         for (size_t s = 0; s < block->count; ++s)
             squares += block->products[r][s] * block->products[r][s];
     }
-    const double told = block->count > 3 ? spread_of_fours((double)block->count, trace, squares, own)
-                                         : spread_of_three(trace, squares);
-    return fmax(told, 0.0);
+    const double unbiased = block->count > 3 ? spread_of_fours((double)block->count, trace, squares, diagonal)
+                                             : spread_of_three(trace, squares);
+    return fmax(unbiased, 0.0);
 }
 
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
@@ -75,10 +75,10 @@ aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count,
     const double square = (sum->trace * sum->trace - 2.0 * n * spread) / (n * n);
     interval.degrees = fmin(fmax(square / spread, 1.0), (double)values);
     const double square_error = sum->trace / (n * (double)count * (double)values);
-    const double own = 2.0 / (9.0 * interval.degrees), seen = own / n;
+    const double variance = 2.0 / (9.0 * interval.degrees), mean_variance = variance / n;
     const double quantile = aur_student_quantile(degrees_of_spread(sum, count), 0.5 * (1.0 + confidence));
-    const double centre = cbrt(square_error) * (1.0 - own) / (1.0 - seen);
-    const double half = quantile * cbrt(square_error) * sqrt(own + seen);
+    const double centre = cbrt(square_error) * (1.0 - variance) / (1.0 - mean_variance);
+    const double half = quantile * cbrt(square_error) * sqrt(variance + mean_variance);
     interval.estimate = sqrt(square_error);
     interval.low = pow(fmax(centre - half, 0.0), 1.5);
     interval.high = pow(centre + half, 1.5);

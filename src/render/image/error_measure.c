@@ -9,7 +9,7 @@
 /* Luminance of Rec. 709 primaries. */
 static const double luminance[3] = {0.2126, 0.7152, 0.0722};
 
-/* Of all values together. */
+/* Scales from all values of an image. */
 typedef struct error_scale {
     double mean;     /* of R, G and B */
     double bright;   /* mean luminance */

@@ -196,7 +196,8 @@ static exr_result_t decode_tiles(exr_reader *reader) {
     return code;
 }
 
-/* Forces the chunk table to be read, so that a header that claims more than there is costs no memory. */
+/* Forces OpenEXR to read the chunk table, so that a header with excessive claims is refused before memory is
+ * allocated. */
 static exr_result_t check_chunk_table(exr_reader *reader, exr_storage_t storage) {
     exr_chunk_info_t chunk;
     if (storage == EXR_STORAGE_TILED)
@@ -349,7 +350,7 @@ static void make_colors(const exr_reader *reader) {
         aur_image_note(image, "its X, Y, Z are read as CIE XYZ and became R, G, B");
 }
 
-/* What cannot be seen from the values. */
+/* Notes how to interpret the values. */
 static void add_notes(const exr_reader *reader) {
     static const float usual[8] = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
     exr_attr_chromaticities_t c;
@@ -382,7 +383,7 @@ static uint64_t largest_ratio(exr_compression_t compression) {
     }
 }
 
-/* Refuses a header that claims more pixels than the file can hold, before memory is taken for them. */
+/* Refuses a header that claims more pixels than the file can hold, before memory is allocated. */
 static aur_result check_length(const exr_reader *reader, uint64_t pixels, aur_error *error) {
     exr_compression_t compression = EXR_COMPRESSION_NONE;
     exr_get_compression(reader->context, 0, &compression);

@@ -58,7 +58,7 @@ static exr_result_t write_header(exr_context_t context, const aur_image *image, 
     return code == EXR_ERR_SUCCESS ? exr_write_header(context) : code;
 }
 
-/* What a half can hold; infinities and NaN stay what they are. */
+/* Clamps to the range of a half; infinities and NaN are unchanged. */
 static float half_value(float value) {
     const float largest = 65504.0f;
     return isfinite(value) ? fmaxf(-largest, fminf(value, largest)) : value;

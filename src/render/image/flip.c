@@ -6,7 +6,7 @@
 
 #include "render/image/format.h"
 
-/* Pixels a degree in the paper's setting, a screen 0.7 m wide of 3840 pixels seen from 0.7 m (section 4.1).
+/* Pixels per degree in the paper's setting, a screen 0.7 m wide of 3840 pixels seen from 0.7 m (section 4.1).
  */
 static const double pixels_per_degree = 0.7 * 3840.0 / 0.7 * 3.14159265358979323846 / 180.0;
 

@@ -246,7 +246,7 @@ static aur_result read_hdr(const aur_image_source *source, aur_image **image, au
     return result;
 }
 
-/* The largest radiance that RGBE holds: mantissa 255/256, exponent 127. */
+/* The largest radiance of RGBE: mantissa 255/256, exponent 127. */
 static float hdr_value(float radiance) {
     const float largest = 255.0f / 256.0f * 0x1p127f;
     return radiance > 0.0f ? fminf(radiance, largest) : 0.0f;

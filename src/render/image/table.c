@@ -94,15 +94,16 @@ aur_result aur_image_find_writer(const char *path, const char *format, const aur
 static aur_result write_image(const char *path, const aur_image *image,
                               const aur_image_write_options *options, aur_error *error) {
     aur_image_target target = {.name = path, .options = {.size = sizeof target.options}};
-    aur_image_write_options *const own = &target.options;
-    aur_result result = aur_options_read(options, sizeof *own, own, "aur_image_write_options", error);
+    aur_image_write_options *const settings = &target.options;
+    aur_result result =
+        aur_options_read(options, sizeof *settings, settings, "aur_image_write_options", error);
     if (result != AUR_OK)
         return result;
-    if (!isfinite(own->exposure) || (size_t)own->tone >= AUR_TONE_COUNT)
+    if (!isfinite(settings->exposure) || (size_t)settings->tone >= AUR_TONE_COUNT)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "cannot write an image with exposure %g and tone curve %d",
-                        (double)own->exposure, (int)own->tone);
+                        (double)settings->exposure, (int)settings->tone);
     const aur_row *row;
-    result = aur_image_find_writer(path, own->format, &row, error);
+    result = aur_image_find_writer(path, settings->format, &row, error);
     if (result != AUR_OK)
         return result;
     const aur_image_format *const format = (const aur_image_format *)row;

@@ -11,7 +11,7 @@ static void put(float arrays[3][AUR_OCCLUSION_POINTS], size_t surface_point, aur
 }
 
 /* Surfaces are seen from either side. */
-static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, size_t surface_point,
+static void set_point(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, size_t surface_point,
                       aur_occlusion_points *surface_points) {
     aur_surface surface;
     aur_scene_surface(scene, ray, hit, &surface);
@@ -48,7 +48,7 @@ void aur_occlusion_find_points(const aur_view *view, size_t x, size_t y, uint32_
         for (size_t within = 0; within < AUR_PACKET_SIZE; ++within)
             if ((hits >> within & 1) != 0) {
                 const aur_hit hit = aur_packet_hit(view->scene, &packet, within);
-                set_place(view->scene, &rays[within], &hit, within * AUR_PACKET_SIZE + block, surface_points);
+                set_point(view->scene, &rays[within], &hit, within * AUR_PACKET_SIZE + block, surface_points);
             }
     }
 }

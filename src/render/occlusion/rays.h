@@ -35,7 +35,7 @@ void aur_occlusion_find_points(const aur_view *view, size_t x, size_t y, uint32_
                                aur_occlusion_points *surface_points);
 
 /* Called with each packet of the tile's rays in a fixed order; lane k is point first_place + k. */
-typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_embree_order order,
+typedef void (*aur_occlusion_visitor)(void *context, size_t first_point, aur_embree_order order,
                                       aur_packet *packet);
 
 /* Builds the rays of sample `index` from its points and passes them to `visit`; returns the number of

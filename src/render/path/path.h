@@ -17,17 +17,17 @@ typedef struct aur_path {
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
     float clamp;         /* most light after the first surface in a sample; 0: no limit */
-    double lamp_rays;    /* additional probe rays per sample, averaged over the image */
+    double probe_rays;   /* additional probe rays per sample, averaged over the image */
     const aur_vertex_kernels *kernels;
     aur_shape_class *classes;      /* one per shape */
     const aur_edge_probes *probes; /* NULL: emission is what the camera rays hit */
 } aur_path;
 
 AUR_INTERNAL aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
-/* Radiance along one camera ray. `seen`: its directly visible emission if already computed; or NULL.
+/* Radiance along one camera ray. `emission`: its directly visible emission if already computed; or NULL.
  * *straight becomes that emission. */
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
-                             const aur_vector *seen, aur_vector *straight, aur_counters *counters);
+                             const aur_vector *emission, aur_vector *unscattered, aur_counters *counters);
 /* Adds sample `index` of a pixel of the tile by itself. */
 void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
                          aur_tile *tile);

@@ -37,7 +37,7 @@ static void shared_numbers(aur_path_group *g, uint32_t depth) {
 }
 
 /* Random numbers of one pair for the active paths; in one block if they are few. */
-static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v) {
+static void draw_pair(const aur_path_group *g, uint32_t pair, float *u, float *v) {
     if (aur_lane_count(g->alive) > AUR_STREAM_BLOCK) {
         aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
         return;
@@ -56,16 +56,16 @@ static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v)
 }
 
 /* Fills each lane's needed random numbers only; `mixed`: not all surfaces are plain. */
-static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
+static void draw_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
     aur_vertex_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
     if (g->chooses || depth >= g->data->rr_depth)
-        own_pair(g, first + AUR_PATH_CHOICE, lanes->choice, lanes->roulette);
+        draw_pair(g, first + AUR_PATH_CHOICE, lanes->choice, lanes->roulette);
     if (g->has_lights)
-        own_pair(g, first + AUR_PATH_POSITION, lanes->light_u, lanes->light_v);
+        draw_pair(g, first + AUR_PATH_POSITION, lanes->light_u, lanes->light_v);
     if (mixed || g->candidates > 1)
-        own_pair(g, first + AUR_PATH_LOBE, lanes->lobe, lanes->selection);
-    own_pair(g, first + AUR_PATH_DIRECTION, lanes->direction_u, lanes->direction_v);
+        draw_pair(g, first + AUR_PATH_LOBE, lanes->lobe, lanes->selection);
+    draw_pair(g, first + AUR_PATH_DIRECTION, lanes->direction_u, lanes->direction_v);
 }
 
 /* --- lanes on surfaces that are not plain, one by one */
@@ -131,7 +131,7 @@ static void set_surfaces(aur_path_group *g, uint32_t lanes) {
         const aur_ray ray = aur_packet_ray(&g->packet, k);
         const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
         aur_scene_surface(g->scene, &ray, &hit, &g->surfaces[k]);
-        if (!aur_has_lane(g->told, k))
+        if (!aur_has_lane(g->preset, k))
             add_emission(g, k, &g->surfaces[k]);
     }
 }
@@ -166,7 +166,7 @@ static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) 
                  aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), shadow.radiance));
 }
 
-/* Of a lane that is not plain, on the path `before`. */
+/* Scatters a lane that is not plain; `before` is its path. */
 static bool scatter_one(aur_path_group *g, size_t k, const aur_walk *before, bool unscattered,
                         bool roulette) {
     const aur_surface *const surface = &g->surfaces[k];
@@ -241,7 +241,7 @@ static uint32_t trace(aur_path_group *g, bool coherent) {
 }
 
 /* For scenes lit by environments only. */
-static void tell_of_sky(aur_path_group *g, uint32_t lit) {
+static void report_sky(aur_path_group *g, uint32_t lit) {
     for (; lit != 0; lit &= lit - 1) {
         const size_t k = aur_first_lane(lit);
         g->sensor.from_sky(g->sensor.from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
@@ -327,7 +327,7 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
     stopped &= ~pass_panes(g, stopped & lit, farthest, depth);
     g->data->kernels->add(lanes, lit & ~stopped);
     if (g->sensor.from_sky != NULL)
-        tell_of_sky(g, lit & ~stopped);
+        report_sky(g, lit & ~stopped);
 }
 
 static void scatter(aur_path_group *g, bool roulette) {
@@ -357,23 +357,23 @@ static bool are_parallel(const aur_path_group *g) {
     return 2 * aur_lane_count(flat) >= aur_lane_count(g->alive);
 }
 
-void aur_path_group_meet(aur_path_group *g, uint32_t depth) {
+void aur_path_group_hit(aur_path_group *g, uint32_t depth) {
     const uint32_t found = trace(g, depth == 1 || g->coherent);
     if (g->has_sky)
-        add_sky(g, g->alive & ~found & ~g->told);
+        add_sky(g, g->alive & ~found & ~g->preset);
     g->alive &= found;
     g->plain = plain_lanes(g, g->alive);
     if (g->plain != 0)
         g->data->kernels->surface(&g->lanes, &g->packet);
     set_surfaces(g, g->alive & ~g->plain);
-    g->told = 0;
+    g->preset = 0;
 }
 
 void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {
     if (g->data->interleaved)
         shared_numbers(g, depth);
     else
-        own_numbers(g, depth, g->alive != g->plain);
+        draw_numbers(g, depth, g->alive != g->plain);
     g->coherent = are_parallel(g);
     if (g->has_lights)
         add_direct(g, depth);
@@ -382,7 +382,7 @@ void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {
 
 void aur_path_group_trace(aur_path_group *g, uint32_t depth) {
     for (; depth <= g->data->max_depth && g->alive != 0; ++depth) {
-        aur_path_group_meet(g, depth);
+        aur_path_group_hit(g, depth);
         if (depth == g->data->max_depth || aur_path_stops(depth, &g->stopped))
             return;
         aur_path_group_scatter(g, depth);

@@ -33,11 +33,11 @@ typedef struct aur_path_group {
     uint32_t candidates; /* at least 1 */
     bool coherent;       /* the next rays are nearly parallel */
     bool stopped;        /* long paths were abandoned on cancellation: the sums are invalid */
-    uint32_t alive;      /* a bit a lane, as in all masks */
+    uint32_t alive;      /* one bit per lane, as in all masks */
     uint32_t specular;   /* lanes whose ray could not have been a light sample */
     uint32_t plain;      /* lanes whose surface the kernels support */
     bool background;     /* unscattered lanes see the scene's background: they are camera rays */
-    uint32_t told;       /* lanes whose sums already include the emission that their first rays hit */
+    uint32_t preset;     /* lanes whose sums already include the emission that their first rays hit */
     aur_path_sensor sensor;
     aur_stream shared; /* interleaved: of all lanes */
     float ahead[AUR_STREAM_BLOCK][2];
@@ -55,8 +55,8 @@ AUR_INTERNAL void aur_path_group_prepare(const aur_path *data, const aur_scene *
  * the lanes in `alive`, and their `from` and `pdf` unless they are in `specular`. `pixels` and `index` select
  * the random numbers. Adds the emission that the rays hit, and leaves the lanes that hit a surface in
  * `alive`. */
-AUR_INTERNAL void aur_path_group_meet(aur_path_group *group, uint32_t depth);
-/* Adds direct light at the surfaces that aur_path_group_meet has found, and samples the next rays. */
+AUR_INTERNAL void aur_path_group_hit(aur_path_group *group, uint32_t depth);
+/* Adds direct light at the surfaces that aur_path_group_hit has found, and samples the next rays. */
 AUR_INTERNAL void aur_path_group_scatter(aur_path_group *group, uint32_t depth);
 /* The transmittance of panes along the shadow ray of a lane, which ended at `farthest` before the
  * intersection. 0 unless sensor.panes is set and only panes are on the ray, at most as many as a path at

@@ -16,7 +16,7 @@ static bool draw_light(const aur_scene *scene, const aur_shading *shading, aur_v
 /* The same for one of `count` candidates, chosen by `selection`. */
 static bool draw_candidates(const aur_scene *scene, const aur_shading *shading, aur_vector beta,
                             uint32_t count, const float u[3], float selection, aur_shadow *chosen) {
-    float total = 0.0f, own = 0.0f;
+    float total = 0.0f, selected_weight = 0.0f;
     for (uint32_t i = 0; i < count; ++i) {
         float shifted[3];
         aur_candidate_shift(i, count, shifted);
@@ -28,11 +28,11 @@ static bool draw_candidates(const aur_scene *scene, const aur_shading *shading, 
         if (!aur_candidate_wins(weight, &total, &selection))
             continue;
         *chosen = shadow;
-        own = weight;
+        selected_weight = weight;
     }
-    if (!(own > 0.0f))
+    if (!(selected_weight > 0.0f))
         return false;
-    chosen->radiance = aur_vector_scale(chosen->radiance, aur_candidate_scale(count, total, own));
+    chosen->radiance = aur_vector_scale(chosen->radiance, aur_candidate_scale(count, total, selected_weight));
     return true;
 }
 
@@ -49,18 +49,18 @@ static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surf
                      (data->candidates > 1 ? draw_candidates(scene, &shading, walk->beta, data->candidates, u,
                                                              lobe[1], &shadow)
                                            : draw_light(scene, &shading, walk->beta, u, &shadow));
-    const bool goes_on = aur_walk_scatter(&shading, AUR_VERTEX_ALL,
-                                          (const float[3]){lobe[0], direction[0], direction[1]}, walk);
+    const bool continues = aur_walk_scatter(&shading, AUR_VERTEX_ALL,
+                                            (const float[3]){lobe[0], direction[0], direction[1]}, walk);
     if (lit && !aur_scene_occluded(scene, &shadow.ray))
         walk->radiance = aur_vector_add(walk->radiance, shadow.radiance);
-    return goes_on &&
+    return continues &&
            (depth < data->rr_depth || aur_vertex_survives(aur_survival(walk->beta), choice[1], &walk->beta));
 }
 
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
-                             const aur_vector *seen, aur_vector *straight, aur_counters *counters) {
+                             const aur_vector *emission, aur_vector *unscattered, aur_counters *counters) {
     /* Light sampling cannot hit the camera either. */
-    aur_walk walk = {.radiance = seen != NULL ? *seen : (aur_vector){0},
+    aur_walk walk = {.radiance = emission != NULL ? *emission : (aur_vector){0},
                      .beta = {1.0f, 1.0f, 1.0f},
                      .ray = sample->ray,
                      .bounce = {.specular_bounce = true}};
@@ -73,18 +73,18 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
         const float(*const pairs)[2] = depth == 1 ? &sample->first_pairs[AUR_PAIR_FIRST]
                                                   : (const float(*)[2]) & ahead[depth % 2 * AUR_PATH_PAIRS];
         aur_surface surface;
-        const bool hide = data->hide_emitters && depth == 1, told = seen != NULL && depth == 1;
-        const bool met = aur_visible_surface(scene, hide, &walk.ray, &surface, counters);
-        if (!met && !scattered && !told && !hide)
+        const bool hide = data->hide_emitters && depth == 1, probed = emission != NULL && depth == 1;
+        const bool found = aur_visible_surface(scene, hide, &walk.ray, &surface, counters);
+        if (!found && !scattered && !probed && !hide)
             walk.radiance = aur_vector_add(
                 walk.radiance,
                 aur_vector_multiply(walk.beta, aur_scene_background(scene, walk.ray.direction)));
-        else if (!told && (met || !hide))
-            aur_walk_add_emission(scene, met ? &surface : NULL, &walk);
+        else if (!probed && (found || !hide))
+            aur_walk_add_emission(scene, found ? &surface : NULL, &walk);
         if (depth == 1)
-            *straight = walk.radiance;
+            *unscattered = walk.radiance;
         const aur_vector before = walk.ray.direction;
-        if (!met || depth == data->max_depth || aur_path_stops(depth, &counters->stopped) ||
+        if (!found || depth == data->max_depth || aur_path_stops(depth, &counters->stopped) ||
             !scatter(data, scene, &surface, depth, pairs, &walk))
             break;
         scattered = scattered || !aur_walk_passed(&surface, before, &walk);
@@ -95,10 +95,10 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
 void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
                          aur_tile *tile) {
     aur_camera_sample sample;
-    aur_vector seen, straight;
+    aur_vector emission, unscattered;
     aur_view_sample(tile->view, x, y, index, &sample);
-    const bool told = aur_edge_probe(data->probes, tile, x, y, index, &seen);
+    const bool probed = aur_edge_probe(data->probes, tile, x, y, index, &emission);
     const aur_vector radiance =
-        aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &straight, &tile->counters);
-    aur_tile_add_clamped(tile, x, y, index, sample.offset, radiance, straight, data->clamp);
+        aur_path_radiance(data, scene, &sample, probed ? &emission : NULL, &unscattered, &tile->counters);
+    aur_tile_add_clamped(tile, x, y, index, sample.offset, radiance, unscattered, data->clamp);
 }

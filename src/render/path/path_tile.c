@@ -8,21 +8,22 @@
 #include "render/trace/interleave.h"
 
 /* Traces the probe rays for emitters of those of `lanes` that have any. */
-static void look(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes) {
-    g->told = 0;
+static void trace_probes(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y,
+                         uint32_t lanes) {
+    g->preset = 0;
     for (uint32_t rest = g->data->probes != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_vector seen;
         if (!aur_edge_probe(g->data->probes, tile, x[k], y[k], g->index, &seen))
             continue;
-        g->told |= 1u << k;
+        g->preset |= 1u << k;
         aur_lane_set(&g->lanes.sum, k, seen);
     }
 }
 
-/* Starts sample g->index of the pixels of `lanes`, with probe rays in those of `wanted`. */
+/* Starts sample g->index of the pixels of `lanes`, with probe rays in those of `needed`. */
 static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
-                  uint32_t wanted, aur_camera_sample *samples) {
+                  uint32_t needed, aur_camera_sample *samples) {
     aur_view_samples(tile->view, AUR_PACKET_SIZE, x, y, g->index, samples);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         g->pixels[k] = samples[k].stream.pixel;
@@ -30,28 +31,28 @@ static void begin(aur_path_group *g, aur_tile *tile, const size_t *x, const size
         aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
         aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
     }
-    look(g, tile, x, y, wanted);
+    trace_probes(g, tile, x, y, needed);
     g->alive = g->sensor.unscattered = lanes;
     g->background = true;
     g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
 }
 
-/* Traces sample g->index of the pixels of `lanes` and adds the samples of `wanted`. */
+/* Traces sample g->index of the pixels of `lanes` and adds the samples of `needed`. */
 static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const size_t *y, uint32_t lanes,
-                      uint32_t wanted) {
+                      uint32_t needed) {
     aur_camera_sample samples[AUR_PACKET_SIZE];
-    begin(g, tile, x, y, lanes, wanted, samples);
-    aur_path_group_meet(g, 1);
-    const aur_lane_vectors straight = g->lanes.sum;
+    begin(g, tile, x, y, lanes, needed, samples);
+    aur_path_group_hit(g, 1);
+    const aur_lane_vectors unscattered = g->lanes.sum;
     if (g->data->max_depth > 1 && g->alive != 0) {
         aur_path_group_scatter(g, 1);
         aur_path_group_trace(g, 2);
     }
     tile->counters.stopped |= g->stopped;
-    for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = needed; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_tile_add_clamped(tile, x[k], y[k], g->index, samples[k].offset, aur_lane_vector(&g->lanes.sum, k),
-                             aur_lane_vector(&straight, k), g->data->clamp);
+                             aur_lane_vector(&unscattered, k), g->data->clamp);
     }
 }
 
@@ -66,29 +67,29 @@ static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     else
         aur_block_pixels(number, x0, y0, x, y);
     const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
-    const uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
-    if (wanted == 0)
+    const uint32_t needed = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
+    if (needed == 0)
         return;
     for (uint32_t i = 0; i < tile->count; ++i) {
         g->index = tile->first + i;
         g->shared = (aur_stream){view->sampler, aur_hash4(view->seed, y0, x0, UINT64_C(0x696e746c) + number),
                                  g->index};
-        const uint32_t traced = aur_group_lanes_wanted(tile, x, y, lanes, g->index);
+        const uint32_t traced = aur_group_lanes_needed(tile, x, y, lanes, g->index);
         if (traced != 0)
-            add_lanes(g, tile, x, y, traced, wanted & traced);
+            add_lanes(g, tile, x, y, traced, needed & traced);
     }
 }
 
 /* The samples of a tile whose pixels need different sample indices: packets are filled with any pixels that
  * need the same one. */
-static void add_wanted(aur_path_group *g, aur_tile *tile) {
+static void add_needed(aur_path_group *g, aur_tile *tile) {
     enum { FEW = 4 }; /* faster one by one than in a nearly empty packet */
     for (uint32_t i = 0; i < tile->count; ++i) {
         size_t x[AUR_PACKET_SIZE] = {0}, y[AUR_PACKET_SIZE] = {0}, count = 0;
         g->index = tile->first + i;
         for (size_t row = tile->y0; row < tile->y1; ++row)
             for (size_t column = tile->x0; column < tile->x1; ++column) {
-                if (!aur_tile_wants(tile, column, row, g->index))
+                if (!aur_tile_needs(tile, column, row, g->index))
                     continue;
                 x[count] = column;
                 y[count++] = row;
@@ -109,7 +110,7 @@ void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *t
     aur_path_group g = {0};
     aur_path_group_prepare(data, scene, tile->view->sampler, &g);
     if (tile->begins != NULL && !data->interleaved) {
-        add_wanted(&g, tile);
+        add_needed(&g, tile);
         return;
     }
     for (uint32_t number = 0; number < AUR_PACKET_SIZE; ++number)

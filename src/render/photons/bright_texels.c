@@ -22,9 +22,9 @@ static bool collect(patch_search *search, const aur_bright_patch *patch, double 
     const float excess = radiance - bright->threshold;
     if (!(excess > 0.0f))
         return true;
-    const size_t wanted = search->count + 1;
-    if (!aur_array_reserve(&bright->patches, &search->patch_capacity, wanted, sizeof *bright->patches) ||
-        !aur_array_reserve(&search->weights, &search->weight_capacity, wanted, sizeof *search->weights))
+    const size_t needed = search->count + 1;
+    if (!aur_array_reserve(&bright->patches, &search->patch_capacity, needed, sizeof *bright->patches) ||
+        !aur_array_reserve(&search->weights, &search->weight_capacity, needed, sizeof *search->weights))
         return false;
     bright->patches[search->count] = *patch;
     search->weights[search->count++] = area * (double)excess;

@@ -74,10 +74,10 @@ static bool join_cluster(layout *work, const aur_placement *placement, uint32_t 
 static bool lay_out_element(layout *work, const aur_placement *placement, uint32_t primitive) {
     const uint32_t element = placement->first + primitive;
     const double area = aur_element_area(work->scene, placement, primitive);
-    const double wanted = (double)work->hits[element] / work->photons_a_texel;
-    if (wanted < 2.0 && area < work->cell_area && !placement->curved)
+    const double target = (double)work->hits[element] / work->photons_a_texel;
+    if (target < 2.0 && area < work->cell_area && !placement->curved)
         return join_cluster(work, placement, primitive, area);
-    double side = floor(sqrt(wanted));
+    double side = floor(sqrt(target));
     side = fmin(fmax(side, 1.0), AUR_TEXELS_SIDE_MAX);
     work->texels->ranges[element] = (aur_texel_range){(uint32_t)work->texels->count, (uint32_t)side};
     return add_texels(work, (size_t)(side * side), area / (side * side));

@@ -35,7 +35,7 @@ static void corners_of(const aur_radiosity_triangle *t, aur_vector corner[3]) {
     corner[2] = aur_vector_add(t->corner, t->edge[1]);
 }
 
-static bool boxes_meet(search *s, const box *a, const box *b) {
+static bool boxes_overlap(search *s, const box *a, const box *b) {
     ++s->found->compared;
     for (size_t k = 0; k < 3; ++k)
         if (a->low[k] > b->high[k] || b->low[k] > a->high[k])
@@ -141,7 +141,7 @@ static void make_node(search *s, size_t index, size_t first, size_t count) {
 static void test_pair(search *s, const item *a, const item *b) {
     const bool ordered = a->triangle < b->triangle;
     const uint32_t low = ordered ? a->triangle : b->triangle, high = ordered ? b->triangle : a->triangle;
-    if (!boxes_meet(s, &a->bounds, &b->bounds) ||
+    if (!boxes_overlap(s, &a->bounds, &b->bounds) ||
         !coincide(&s->scene->triangles[low], &s->scene->triangles[high]))
         return;
     uint32_t *const first = s->found->triangles;
@@ -161,7 +161,8 @@ static void test_leaves(search *s, const node *a, const node *b) {
  * the same. */
 static void join(search *s, size_t a, size_t b) {
     const node *const left = &s->nodes[a], *const right = &s->nodes[b];
-    if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES || !boxes_meet(s, &left->bounds, &right->bounds))
+    if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES ||
+        !boxes_overlap(s, &left->bounds, &right->bounds))
         return;
     if (left->count <= LEAF && right->count <= LEAF) {
         test_leaves(s, left, right);

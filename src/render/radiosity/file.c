@@ -146,9 +146,9 @@ static aur_result read_solution(aur_word_reader *in, const aur_scene *scene, con
 aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const aur_radiosity_options *options,
                               aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
-    aur_radiosity_options own = {.size = sizeof own};
-    aur_radiosity_options_init(&own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_radiosity_options", error);
+    aur_radiosity_options settings = {.size = sizeof settings};
+    aur_radiosity_options_init(&settings, NULL);
+    aur_result result = aur_options_read(options, sizeof settings, &settings, "aur_radiosity_options", error);
     if (result != AUR_OK)
         return result;
     char *data = NULL;
@@ -161,7 +161,7 @@ aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const au
     if (size < MAGIC_LENGTH || memcmp(data, magic, MAGIC_LENGTH) != 0)
         result = damaged(path, "it does not begin with 'aureole-radiosity 1'", error);
     else
-        result = read_solution(&in, scene, path, &own, radiosity, error);
+        result = read_solution(&in, scene, path, &settings, radiosity, error);
     free(data);
     if (result != AUR_OK) {
         aur_radiosity_destroy(*radiosity);

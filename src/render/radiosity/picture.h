@@ -37,8 +37,8 @@ typedef struct aur_radiosity_image {
     uint64_t seed;
 } aur_radiosity_image;
 
-/* Fills exitance and pattern; `rule` is read for set, points and weights. The image is to be released in
- * every case. */
+/* Fills exitance and pattern; `rule` supplies set, points and weights. The image must be released in every
+ * case. */
 aur_result aur_radiosity_image_prepare(const aur_rule_options *rule, aur_radiosity_image *image,
                                        aur_error *error);
 void aur_radiosity_image_release(aur_radiosity_image *image);
@@ -56,8 +56,8 @@ typedef struct aur_radiosity_surface_point {
 bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray ray, aur_hit hit,
                        aur_radiosity_surface_point *surface_point, aur_vector *throughput);
 
-/* The solid angle of a triangle, three corners of three coordinates, seen from a point without obstruction,
- * and a direction in it drawn uniformly by u, v in [0,1). 0 when it is seen edge on. */
+/* The solid angle of a triangle, three corners of three coordinates, as seen unoccluded from a point, and a
+ * direction in it drawn uniformly by u, v in [0,1). 0 if it is seen edge on. */
 double aur_spherical_triangle(const double corner[9], const double from[3], double u, double v,
                               double direction[3]);
 

@@ -170,7 +170,7 @@ bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray 
     const bool mirrored = (scene->triangles[index].flags & AUR_RADIOSITY_MIRROR) != 0;
     *throughput = (aur_vector){1.0f, 1.0f, 1.0f};
     if (mirrored) {
-        if (aur_radiosity_reflect(scene, false, hash, &ray, &hit, throughput) != AUR_RADIOSITY_MET)
+        if (aur_radiosity_reflect(scene, false, hash, &ray, &hit, throughput) != AUR_RADIOSITY_HIT)
             return false;
         index = aur_radiosity_triangle_at(scene, &hit);
     }

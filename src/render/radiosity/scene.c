@@ -151,7 +151,7 @@ static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t varia
     return AUR_OK;
 }
 
-/* Warns of the part of a shape's material that radiosity leaves out, and of an albedo of 1. */
+/* Warns of the part of a shape's material that radiosity ignores, and of an albedo of 1. */
 static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity_scene *made,
                        const aur_warnings *warnings) {
     const aur_location location = aur_scene_shape_location(scene, shape);
@@ -262,7 +262,7 @@ aur_radiosity_end aur_radiosity_reflect(const aur_radiosity_scene *scene, bool p
             return AUR_RADIOSITY_NONE;
         const uint32_t triangle = aur_radiosity_triangle_at(scene, hit);
         if ((scene->triangles[triangle].flags & AUR_RADIOSITY_MIRROR) == 0)
-            return AUR_RADIOSITY_MET;
+            return AUR_RADIOSITY_HIT;
     }
     return AUR_RADIOSITY_TRAPPED;
 }

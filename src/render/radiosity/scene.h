@@ -72,7 +72,7 @@ aur_vector aur_radiosity_emitted(const aur_radiosity_scene *scene, uint32_t tria
  * reflectance; `particle` selects power instead of radiance. NONE: the ray leaves the scene; TRAPPED: after
  * AUR_RADIOSITY_HOPS mirrors, or absorbed by one. */
 typedef enum aur_radiosity_end {
-    AUR_RADIOSITY_MET,
+    AUR_RADIOSITY_HIT,
     AUR_RADIOSITY_NONE,
     AUR_RADIOSITY_TRAPPED
 } aur_radiosity_end;

@@ -29,7 +29,7 @@ static aur_location location_of(const aur_radiosity_scene *scene, uint32_t trian
     return aur_scene_shape_location(scene->scene, scene->triangles[triangle].shape);
 }
 
-static aur_result look_for_coincidences(aur_radiosity *radiosity, aur_error *error) {
+static aur_result warn_of_coincidences(aur_radiosity *radiosity, aur_error *error) {
     const aur_radiosity_scene *const scene = &radiosity->scene;
     aur_radiosity_coincidence found;
     const aur_result result = aur_radiosity_find_coincidences(scene, &found, error);
@@ -62,23 +62,23 @@ static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *e
     if (result == AUR_OK)
         result = aur_radiosity_tallies_create(options->randomizations, made->scene.patch_count,
                                               &made->tallies, error);
-    return result == AUR_OK ? look_for_coincidences(made, error) : result;
+    return result == AUR_OK ? warn_of_coincidences(made, error) : result;
 }
 
 aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
                                 aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
-    aur_radiosity_options wanted = {.size = sizeof wanted};
-    aur_radiosity_options_init(&wanted, NULL);
-    aur_result result = aur_options_read(options, sizeof wanted, &wanted, "aur_radiosity_options", error);
+    aur_radiosity_options local = {.size = sizeof local};
+    aur_radiosity_options_init(&local, NULL);
+    aur_result result = aur_options_read(options, sizeof local, &local, "aur_radiosity_options", error);
     if (result == AUR_OK)
-        result = check_options(&wanted, error);
+        result = check_options(&local, error);
     if (result != AUR_OK)
         return result;
     aur_radiosity *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
-    made->options = wanted;
+    made->options = local;
     result = make(made, scene, error);
     if (result != AUR_OK) {
         aur_radiosity_destroy(made);
@@ -132,13 +132,13 @@ static bool begins_with_zero(const aur_pointset *set) {
 static aur_result make_set(const aur_radiosity *radiosity, size_t r, uint64_t count, aur_pointset **set,
                            aur_error *error) {
     const aur_radiosity_options *const options = &radiosity->options;
-    const aur_pointset_options wanted = {
-        .size = sizeof wanted,
+    const aur_pointset_options local = {
+        .size = sizeof local,
         .count = count,
         .dimension = 2 * options->bounces + 4,
         .scramble = options->scramble,
         .seed = options->randomizations > 1 ? aur_hash3(options->seed, 0x72616e646f6d, r) : options->seed};
-    return aur_pointset_create(radiosity->sequence, &wanted, set, error);
+    return aur_pointset_create(radiosity->sequence, &local, set, error);
 }
 
 /* Refuses randomisations that are all the same, because the set is not scrambled: the second points of two of

@@ -31,7 +31,7 @@ static inline uint64_t aur_radiosity_paths_of(const aur_radiosity *radiosity, si
 
 /* The power that a patch receives, RGB watts, over all randomisations. */
 void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]);
-/* That over pi and the patch's area: times the albedo it is the radiance that is reflected. */
+/* The patch's power over pi and its area: times the albedo it is the reflected radiance. */
 AUR_INTERNAL aur_vector aur_radiosity_exitance(const aur_radiosity *radiosity, size_t patch);
 /* The standard error of the power; NaN with one randomisation. */
 void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]);

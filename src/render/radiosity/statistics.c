@@ -36,8 +36,8 @@ void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, dou
             squares += value * value;
         }
         const double n = (double)count;
-        const bool known = count > 1 && radiosity->paths >= count;
-        error[c] = known ? sqrt(fmax(0.0, squares - sum * sum / n) / (n - 1.0) / n) : NAN;
+        const bool estimated = count > 1 && radiosity->paths >= count;
+        error[c] = estimated ? sqrt(fmax(0.0, squares - sum * sum / n) / (n - 1.0) / n) : NAN;
     }
 }
 
@@ -165,7 +165,7 @@ aur_result aur_radiosity_get_results(const aur_radiosity *radiosity, size_t capa
 
 aur_result aur_radiosity_get_description(const aur_radiosity *radiosity,
                                          aur_radiosity_description *description, aur_error *error) {
-    aur_radiosity_description own;
-    aur_radiosity_summarize(radiosity, &own);
-    return aur_description_write(&own, sizeof own, description, "aur_radiosity_description", error);
+    aur_radiosity_description filled;
+    aur_radiosity_summarize(radiosity, &filled);
+    return aur_description_write(&filled, sizeof filled, description, "aur_radiosity_description", error);
 }

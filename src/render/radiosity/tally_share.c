@@ -61,7 +61,7 @@ aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallie
     if (io == NULL)
         return AUR_OK;
     aur_bytes bytes = {0};
-    const uint64_t own = rays_of(count, tallies);
+    const uint64_t before = rays_of(count, tallies);
     sum total = {count, tallies};
     for (size_t i = 0; i < count; ++i)
         put(&tallies[i], &bytes);
@@ -80,7 +80,7 @@ aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallie
             get(&reader, &tallies[i]);
         free(all);
     }
-    aur_rays_traced += rays_of(count, tallies) - own;
+    aur_rays_traced += rays_of(count, tallies) - before;
     aur_bytes_release(&bytes);
     return result;
 }

@@ -209,7 +209,7 @@ static inline aur_ray departure(const block *b, size_t i, const aur_radiosity_tr
 }
 
 /* Traces a particle's ray, through mirrors, to the surface that receives it. False if the path has ended. */
-static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) {
+static bool trace_to_patch(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) {
     particle *const p = &b->particles[i];
     if (!aur_scene_intersect(b->walk->scene->scene, ray, hit)) {
         ++b->tally->lost;
@@ -221,7 +221,7 @@ static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) 
     aur_vector kept = {1.0f, 1.0f, 1.0f};
     const aur_radiosity_end end =
         aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &kept);
-    if (end != AUR_RADIOSITY_MET) {
+    if (end != AUR_RADIOSITY_HIT) {
         ++*(end == AUR_RADIOSITY_NONE ? &b->tally->lost : &b->tally->trapped);
         return false;
     }
@@ -237,12 +237,12 @@ static bool fly(block *b, size_t i, size_t flight) {
     particle *const p = &b->particles[i];
     aur_ray ray = departure(b, i, &scene->triangles[p->triangle]);
     aur_hit hit;
-    if (!meet(b, i, flight, &ray, &hit))
+    if (!trace_to_patch(b, i, flight, &ray, &hit))
         return false;
     const uint32_t index = aur_radiosity_triangle_at(scene, &hit);
-    const aur_radiosity_triangle *const met = &scene->triangles[index];
-    const bool front = aur_vector_dot(ray.direction, met->frame.z) < 0.0f;
-    const uint32_t patch = front ? index : met->back;
+    const aur_radiosity_triangle *const hit_triangle = &scene->triangles[index];
+    const bool front = aur_vector_dot(ray.direction, hit_triangle->frame.z) < 0.0f;
+    const uint32_t patch = front ? index : hit_triangle->back;
     if (patch == AUR_NO_PATCH) {
         ++tally->behind;
         return false;
@@ -259,7 +259,7 @@ static bool fly(block *b, size_t i, size_t flight) {
     multiply(p->power, albedo);
     if (is_last)
         aur_exact_add(&tally->rest, channels(p->power, tally));
-    p->position = aur_radiosity_point(met, hit.u, hit.v);
+    p->position = aur_radiosity_point(hit_triangle, hit.u, hit.v);
     p->triangle = index;
     p->side = front ? 1.0f : -1.0f;
     return !aur_vector_is_zero(albedo);

@@ -41,14 +41,14 @@ static aur_vector warp(double x, double y, double z, double exponent) {
 static aur_result find_directions(const aur_gather_rule_options *options, double *xyz, double *weights,
                                   aur_error *error) {
     const size_t count = options->count;
-    const aur_directions_options wanted = {.size = sizeof wanted,
-                                           .count = count,
-                                           .domain = AUR_DOMAIN_HEMISPHERE,
-                                           .map = options->map,
-                                           .seed = options->set_seed,
-                                           .warnings = options->warnings};
+    const aur_directions_options set_options = {.size = sizeof set_options,
+                                                .count = count,
+                                                .domain = AUR_DOMAIN_HEMISPHERE,
+                                                .map = options->map,
+                                                .seed = options->set_seed,
+                                                .warnings = options->warnings};
     aur_directions *directions = NULL;
-    aur_result result = aur_directions_create(options->set, &wanted, &directions, error);
+    aur_result result = aur_directions_create(options->set, &set_options, &directions, error);
     if (result == AUR_OK && !options->weighted && aur_directions_weighted(directions))
         result =
             aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -64,17 +64,17 @@ static aur_result find_directions(const aur_gather_rule_options *options, double
 /* Points of the square, two coordinates each. */
 static aur_result find_square(const aur_gather_rule_options *options, double *points, aur_error *error) {
     const size_t count = options->count;
-    const aur_pointset_options wanted = {.size = sizeof wanted,
-                                         .count = count,
-                                         .dimension = 2,
-                                         .seed = options->set_seed,
-                                         .warnings = options->warnings};
+    const aur_pointset_options set_options = {.size = sizeof set_options,
+                                              .count = count,
+                                              .dimension = 2,
+                                              .seed = options->set_seed,
+                                              .warnings = options->warnings};
     if (options->map == AUR_MAP_POLAR)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "the map 'polar' has weights, which patterns scrambled on the square do not use: "
                         "expected scramble=rotate or another map");
     aur_pointset *square = NULL;
-    aur_result result = aur_pointset_create(options->set, &wanted, &square, error);
+    aur_result result = aur_pointset_create(options->set, &set_options, &square, error);
     if (result == AUR_OK)
         result = aur_pointset_points(square, 0, count, 2 * count, points, error);
     aur_pointset_destroy(square);

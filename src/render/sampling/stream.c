@@ -94,7 +94,7 @@ static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
     return index;
 }
 
-/* Of a table. */
+/* The words of a sample from a table. */
 static void table_words(const aur_stream *stream, uint64_t hash, uint32_t words[2]) {
     const aur_sampler *const sampler = stream->sampler;
     /* Beyond its end a table starts again with another randomisation. */

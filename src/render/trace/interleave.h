@@ -23,7 +23,7 @@ static inline uint64_t aur_group_arrangement(uint64_t tile) {
 }
 
 /* Where the pixel of a group's lane lies in its block, which is number `lane`, both counted row by row. */
-static inline uint32_t aur_group_place(uint64_t hash, uint32_t group, size_t lane) {
+static inline uint32_t aur_group_pixel_index(uint64_t hash, uint32_t group, size_t lane) {
     const bool transposed = (aur_mix64(hash) >> lane & 1u) != 0;
     const uint32_t turned =
         transposed ? group % AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + group / AUR_GROUPS_A_SIDE : group;
@@ -32,7 +32,7 @@ static inline uint32_t aur_group_place(uint64_t hash, uint32_t group, size_t lan
 
 /* The pixel of a group's lane, counted row by row within the tile. */
 static inline size_t aur_group_pixel(uint64_t hash, uint32_t group, size_t lane) {
-    const uint32_t place = aur_group_place(hash, group, lane);
+    const uint32_t place = aur_group_pixel_index(hash, group, lane);
     const size_t x = place % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
     const size_t y = place / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
     return y * AUR_TILE_SIZE + x;
@@ -73,16 +73,16 @@ static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
 
 /* The lanes of a group to trace for sample `index`: all of `lanes`, or, if not all need it, only those that
  * do. */
-static inline uint32_t aur_group_lanes_wanted(const aur_tile *tile, const size_t x[AUR_PACKET_SIZE],
+static inline uint32_t aur_group_lanes_needed(const aur_tile *tile, const size_t x[AUR_PACKET_SIZE],
                                               const size_t y[AUR_PACKET_SIZE], uint32_t lanes,
                                               uint32_t index) {
     if (tile->begins == NULL)
         return lanes;
-    uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
+    uint32_t needed = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-        if ((wanted >> lane & 1u) != 0 && !aur_tile_wants(tile, x[lane], y[lane], index))
-            wanted &= ~(1u << lane);
-    return wanted;
+        if ((needed >> lane & 1u) != 0 && !aur_tile_needs(tile, x[lane], y[lane], index))
+            needed &= ~(1u << lane);
+    return needed;
 }
 
 /* The lanes of a group whose pixels are marked: bit `lane` of marks[i] is pixel i of that block. */
@@ -90,7 +90,7 @@ static inline uint32_t aur_group_lanes_marked(uint64_t hash, uint32_t group,
                                               const uint32_t marks[AUR_GROUP_COUNT]) {
     uint32_t lanes = 0;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-        lanes |= marks[aur_group_place(hash, group, lane)] & 1u << lane;
+        lanes |= marks[aur_group_pixel_index(hash, group, lane)] & 1u << lane;
     return lanes;
 }
 

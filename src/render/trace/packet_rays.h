@@ -71,5 +71,5 @@ typedef struct aur_shape_class {
     aur_vector albedo[2], albedo_on_pi[2];
 } aur_shape_class;
 
-/* One class a shape of the scene; to be freed by the caller. Errors: MEMORY. */
+/* One class per shape of the scene; freed by the caller. Errors: MEMORY. */
 aur_result aur_shape_classes_create(const aur_scene *scene, aur_shape_class **classes, aur_error *error);

@@ -49,7 +49,7 @@ static inline bool aur_candidate_wins(float weight, float *total, float *number)
     return wins;
 }
 
-/* The factor for the contribution of the selected candidate, whose weight `own` is above 0. */
-static inline float aur_candidate_scale(uint32_t count, float total, float own) {
-    return total / ((float)count * own);
+/* The factor for the contribution of the selected candidate, with `weight` above 0. */
+static inline float aur_candidate_scale(uint32_t count, float total, float weight) {
+    return total / ((float)count * weight);
 }

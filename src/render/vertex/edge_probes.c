@@ -10,7 +10,7 @@
 #include "render/trace/packet.h"
 #include "render/vertex/visible_emitters.h"
 
-enum { MOST_LOOKS = 256, LEAST_LOOKS = 4 };
+enum { MOST_PROBES = 256, LEAST_PROBES = 4 };
 
 /* --- looking */
 
@@ -38,9 +38,9 @@ static void make_pixel_rays(const aur_view *view, const aur_stream *stream, size
     float across[AUR_PACKET_SIZE], down[AUR_PACKET_SIZE];
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         float u[2] = {0.5f, 0.5f};
-        const aur_stream own = {stream->sampler, stream->pixel, stream->index + (uint32_t)k};
+        const aur_stream local = {stream->sampler, stream->pixel, stream->index + (uint32_t)k};
         if (k < count)
-            aur_stream_pair(&own, AUR_PAIR_FILTER, u);
+            aur_stream_pair(&local, AUR_PAIR_FILTER, u);
         offsets[k][0] = aur_filter_sample(view->filter, u[0]);
         offsets[k][1] = aur_filter_sample(view->filter, u[1]);
         across[k] = (float)x + 0.5f + offsets[k][0];
@@ -62,17 +62,17 @@ static aur_vector emission_at(const aur_scene *scene, const aur_packet *packet, 
 }
 
 /* Sums over the `count` camera rays of a pixel. */
-typedef struct look_sums {
+typedef struct probe_sums {
     double values[3], squares[3];
     size_t count;
     /* where pixels share samples: the tile to which `part` of each ray's hit is added; else NULL */
     aur_tile *tile;
     uint32_t index;
     float part;
-} look_sums;
+} probe_sums;
 
-static void look(const aur_view *view, const aur_stream *stream, size_t x, size_t y, size_t count,
-                 look_sums *sums) {
+static void trace_probes(const aur_view *view, const aur_stream *stream, size_t x, size_t y, size_t count,
+                         probe_sums *sums) {
     aur_packet packet;
     aur_packet_clear(&packet);
     for (size_t first = 0; first < count; first += AUR_PACKET_SIZE) {
@@ -103,20 +103,20 @@ static aur_stream stream_of(const aur_edge_probes *probes, uint64_t pixel, uint6
 }
 
 bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, size_t y, uint32_t index,
-                    aur_vector *seen) {
+                    aur_vector *mean) {
     const aur_view *const view = tile->view;
     const size_t count = probes != NULL ? probes->counts[y * view->width + x] : 0;
     if (count == 0)
         return false;
     const aur_stream stream = stream_of(probes, aur_hash3(view->seed, y, x), (uint64_t)index * count);
-    look_sums sums = {.count = 0, .index = index, .part = 1.0f / (float)count};
+    probe_sums sums = {.count = 0, .index = index, .part = 1.0f / (float)count};
     if (tile->spread != NULL)
         sums.tile = tile;
-    look(view, &stream, x, y, count, &sums);
+    trace_probes(view, &stream, x, y, count, &sums);
     if (tile->spread != NULL)
-        *seen = (aur_vector){0};
+        *mean = (aur_vector){0};
     else
-        *seen = (aur_vector){(float)(sums.values[0] / (double)count), (float)(sums.values[1] / (double)count),
+        *mean = (aur_vector){(float)(sums.values[0] / (double)count), (float)(sums.values[1] / (double)count),
                              (float)(sums.values[2] / (double)count)};
     return true;
 }
@@ -182,7 +182,7 @@ static bool is_near(const survey *s, size_t x, size_t y, double *variance) {
     return near || least < alike * most;
 }
 
-static double variance_of(const look_sums *sums) {
+static double variance_of(const probe_sums *sums) {
     const double n = (double)sums->count;
     double variance = 0.0;
     for (size_t c = 0; c < 3; ++c)
@@ -190,11 +190,11 @@ static double variance_of(const look_sums *sums) {
     return variance;
 }
 
-static double variance_seen(const survey *s, size_t x, size_t y) {
+static double measured_variance(const survey *s, size_t x, size_t y) {
     enum { RAYS = 16 };
     const aur_stream stream = stream_of(s->probes, aur_hash3(UINT64_C(0x737572766579), y, x), 0);
-    look_sums sums = {.count = 0};
-    look(s->view, &stream, x, y, RAYS, &sums);
+    probe_sums sums = {.count = 0};
+    trace_probes(s->view, &stream, x, y, RAYS, &sums);
     const double variance = variance_of(&sums);
     return isfinite(variance) ? variance : 0.0;
 }
@@ -204,7 +204,7 @@ static aur_result survey_row(void *context, size_t y) {
     for (size_t x = 0; x < s->view->width; ++x) {
         double expected;
         if (is_near(s, x, y, &expected))
-            s->deviations[y * s->view->width + x] = (float)sqrt(fmax(expected, variance_seen(s, x, y)));
+            s->deviations[y * s->view->width + x] = (float)sqrt(fmax(expected, measured_variance(s, x, y)));
     }
     return AUR_OK;
 }
@@ -216,18 +216,18 @@ static bool share_out(size_t pixels, double rays, const float *deviations, uint1
     for (size_t i = 0; i < pixels; ++i)
         sum += pow((double)deviations[i], 0.8);
     for (size_t i = 0; i < pixels && sum > 0.0; ++i) {
-        const double wanted = rays * (double)pixels * pow((double)deviations[i], 0.8) / sum;
-        size_t count = LEAST_LOOKS;
-        while ((double)count * sqrt(2.0) < wanted && count < MOST_LOOKS)
+        const double target = rays * (double)pixels * pow((double)deviations[i], 0.8) / sum;
+        size_t count = LEAST_PROBES;
+        while ((double)count * sqrt(2.0) < target && count < MOST_PROBES)
             count *= 2;
-        counts[i] = wanted * sqrt(2.0) < (double)LEAST_LOOKS ? 0 : (uint16_t)count;
+        counts[i] = target * sqrt(2.0) < (double)LEAST_PROBES ? 0 : (uint16_t)count;
         any = any || counts[i] > 0;
     }
     return any;
 }
 
-static void destroy(void *thing) {
-    aur_edge_probes *const probes = thing;
+static void destroy(void *data) {
+    aur_edge_probes *const probes = data;
     if (probes == NULL)
         return;
     aur_sampler_destroy(probes->sampler);
@@ -235,13 +235,13 @@ static void destroy(void *thing) {
     free(probes);
 }
 
-static aur_result survey_picture(const survey *s, const aur_integrator_context *context, aur_error *error) {
+static aur_result survey_image(const survey *s, const aur_integrator_context *context, aur_error *error) {
     const aur_parallel_options options = {
         .threads = context->threads, .what = "searching light edges", .flush_denormals = true};
-    survey own = *s;
-    aur_result result = aur_parallel_for(&options, s->view->height, survey_centres, &own, error);
+    survey local = *s;
+    aur_result result = aur_parallel_for(&options, s->view->height, survey_centres, &local, error);
     if (result == AUR_OK)
-        result = aur_parallel_for(&options, s->view->height, survey_row, &own, error);
+        result = aur_parallel_for(&options, s->view->height, survey_row, &local, error);
     return result;
 }
 
@@ -265,7 +265,7 @@ static aur_result find(const aur_view *view, double rays, const aur_integrator_c
         const size_t about = view->reach > 0 ? view->reach + 1 : beyond > 0 ? beyond : 1;
         const survey all = {view,    probes,    &visible, about, beyond > 0 || view->reach > 0,
                             centres, deviations};
-        result = survey_picture(&all, context, error);
+        result = survey_image(&all, context, error);
         probes->counts = calloc(pixels, sizeof *probes->counts);
         if (result == AUR_OK && probes->counts == NULL)
             result = aur_fail_memory(error);

@@ -6,12 +6,12 @@
 #include "points/base/error.h"
 #include "render/vertex/visible_emitters.h"
 
-typedef struct lamp_edges {
+typedef struct emitter_edges {
     uint16_t *probes; /* per pixel; NULL: no pixel has any */
-} lamp_edges;
+} emitter_edges;
 
-static void destroy(void *thing) {
-    lamp_edges *const edges = thing;
+static void destroy(void *data) {
+    emitter_edges *const edges = data;
     if (edges == NULL)
         return;
     free(edges->probes);
@@ -25,7 +25,7 @@ static void mark_about(const aur_view *view, size_t pixel, size_t reach, uint16_
             marked[j * view->width + i] = probes;
 }
 
-static aur_result find(const aur_view *view, uint16_t probes, lamp_edges *edges, aur_error *error) {
+static aur_result find(const aur_view *view, uint16_t probes, emitter_edges *edges, aur_error *error) {
     const size_t pixels = view->width * view->height;
     const aur_film_layout layout = {
         .width = view->width, .height = view->height, .x1 = view->width, .y1 = view->height};
@@ -59,7 +59,7 @@ aur_result aur_emitter_edges_find(const aur_view *view, uint16_t probes,
     snprintf(key, sizeof key, "lamp edges %zu %zu %s %.9g %zu %u", view->width, view->height,
              aur_filter_name(view->filter), (double)aur_filter_sample(view->filter, 0.0f), view->reach,
              (unsigned)probes);
-    lamp_edges *edges = aur_cache_find(context->cache, key);
+    emitter_edges *edges = aur_cache_find(context->cache, key);
     if (edges == NULL) {
         const uint64_t before = aur_rays_traced;
         edges = calloc(1, sizeof *edges);

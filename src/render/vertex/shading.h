@@ -12,7 +12,7 @@ static inline aur_shading aur_shading_at(const aur_surface *surface, aur_vector 
     return (aur_shading){surface, aur_frame_to_local(&surface->frame, view_world)};
 }
 
-/* As drawing lights sees the point. Where light comes through the surface, it counts from all sides. */
+/* The reference point for light sampling. On surfaces that transmit light, it counts from all sides. */
 static inline aur_light_reference aur_shading_reference(const aur_shading *shading) {
     const aur_surface *const surface = shading->surface;
     aur_light_reference reference = {.position = surface->position};

@@ -36,11 +36,11 @@ typedef struct aur_vertex_lanes {
 typedef struct aur_vertex_candidates {
     _Alignas(64) aur_lane_vectors light, origin, direction;
     aur_lane_numbers farthest;
-    aur_lane_numbers own, total; /* the weight of the selected one, and of all; 0: all are black */
+    aur_lane_numbers weight, total; /* the weight of the selected one, and of all; 0: all are black */
 } aur_vertex_candidates;
 
-/* Loops over all lanes, for each instruction set; lanes that are not plain hold something of no meaning
- * afterwards, so they are to be filled in later. The bits are the same for every instruction set. */
+/* Loops over all lanes, for each instruction set. Results of lanes that are not plain are undefined, so these
+ * must be set afterwards. Results are bit-identical for every instruction set. */
 typedef struct aur_vertex_kernels {
     /* The surface at the hits of `packet`, from corners and albedos. */
     void (*surface)(aur_vertex_lanes *lanes, const aur_packet *packet);
@@ -49,9 +49,9 @@ typedef struct aur_vertex_kernels {
     /* Sets shadow rays and unoccluded contributions. */
     void (*shadow)(aur_vertex_lanes *lanes, aur_packet *packet);
     /* Considers one more candidate, set by `shadow`; takes random numbers from lanes->selection. */
-    void (*consider)(aur_vertex_lanes *lanes, const aur_packet *packet, aur_vertex_candidates *kept);
+    void (*consider)(aur_vertex_lanes *lanes, const aur_packet *packet, aur_vertex_candidates *selected);
     /* Writes the selected ones of `count` candidates where `shadow` writes rays and contributions. */
-    void (*choose)(const aur_vertex_candidates *kept, uint32_t count, aur_vertex_lanes *lanes,
+    void (*choose)(const aur_vertex_candidates *selected, uint32_t count, aur_vertex_lanes *lanes,
                    aur_packet *packet);
     /* Adds the contributions of the lanes whose bit is set. */
     void (*add)(aur_vertex_lanes *lanes, uint32_t lit);

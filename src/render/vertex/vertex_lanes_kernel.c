@@ -82,43 +82,43 @@ static void lanes_shadow(aur_vertex_lanes *restrict lanes, aur_packet *restrict 
 }
 
 static void lanes_consider(aur_vertex_lanes *restrict lanes, const aur_packet *restrict packet,
-                           aur_vertex_candidates *restrict kept) {
+                           aur_vertex_candidates *restrict selected) {
     const struct RTCRay16 *const rays = &packet->query.ray;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const aur_vector light = aur_lane_vector(&lanes->shadow, k);
         const float brings = aur_candidate_weight(light);
         const float weight = lanes->lit[k] != 0 ? brings : 0.0f;
-        const bool wins = aur_candidate_wins(weight, &kept->total[k], &lanes->selection[k]);
-        kept->own[k] = wins ? weight : kept->own[k];
-        kept->light.x[k] = wins ? light.x : kept->light.x[k];
-        kept->light.y[k] = wins ? light.y : kept->light.y[k];
-        kept->light.z[k] = wins ? light.z : kept->light.z[k];
-        kept->origin.x[k] = wins ? rays->org_x[k] : kept->origin.x[k];
-        kept->origin.y[k] = wins ? rays->org_y[k] : kept->origin.y[k];
-        kept->origin.z[k] = wins ? rays->org_z[k] : kept->origin.z[k];
-        kept->direction.x[k] = wins ? rays->dir_x[k] : kept->direction.x[k];
-        kept->direction.y[k] = wins ? rays->dir_y[k] : kept->direction.y[k];
-        kept->direction.z[k] = wins ? rays->dir_z[k] : kept->direction.z[k];
-        kept->farthest[k] = wins ? rays->tfar[k] : kept->farthest[k];
+        const bool wins = aur_candidate_wins(weight, &selected->total[k], &lanes->selection[k]);
+        selected->weight[k] = wins ? weight : selected->weight[k];
+        selected->light.x[k] = wins ? light.x : selected->light.x[k];
+        selected->light.y[k] = wins ? light.y : selected->light.y[k];
+        selected->light.z[k] = wins ? light.z : selected->light.z[k];
+        selected->origin.x[k] = wins ? rays->org_x[k] : selected->origin.x[k];
+        selected->origin.y[k] = wins ? rays->org_y[k] : selected->origin.y[k];
+        selected->origin.z[k] = wins ? rays->org_z[k] : selected->origin.z[k];
+        selected->direction.x[k] = wins ? rays->dir_x[k] : selected->direction.x[k];
+        selected->direction.y[k] = wins ? rays->dir_y[k] : selected->direction.y[k];
+        selected->direction.z[k] = wins ? rays->dir_z[k] : selected->direction.z[k];
+        selected->farthest[k] = wins ? rays->tfar[k] : selected->farthest[k];
     }
 }
 
-static void lanes_choose(const aur_vertex_candidates *restrict kept, uint32_t count,
+static void lanes_choose(const aur_vertex_candidates *restrict selected, uint32_t count,
                          aur_vertex_lanes *restrict lanes, aur_packet *restrict packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const float own = kept->own[k];
-        const float scale = aur_candidate_scale(count, kept->total[k], own > 0.0f ? own : 1.0f);
-        lanes->lit[k] = -(int)(own > 0.0f);
-        aur_lane_set(&lanes->shadow, k, aur_vector_scale(aur_lane_vector(&kept->light, k), scale));
-        rays->org_x[k] = kept->origin.x[k];
-        rays->org_y[k] = kept->origin.y[k];
-        rays->org_z[k] = kept->origin.z[k];
+        const float weight = selected->weight[k];
+        const float scale = aur_candidate_scale(count, selected->total[k], weight > 0.0f ? weight : 1.0f);
+        lanes->lit[k] = -(int)(weight > 0.0f);
+        aur_lane_set(&lanes->shadow, k, aur_vector_scale(aur_lane_vector(&selected->light, k), scale));
+        rays->org_x[k] = selected->origin.x[k];
+        rays->org_y[k] = selected->origin.y[k];
+        rays->org_z[k] = selected->origin.z[k];
         rays->tnear[k] = 0.0f;
-        rays->dir_x[k] = kept->direction.x[k];
-        rays->dir_y[k] = kept->direction.y[k];
-        rays->dir_z[k] = kept->direction.z[k];
-        rays->tfar[k] = kept->farthest[k];
+        rays->dir_x[k] = selected->direction.x[k];
+        rays->dir_y[k] = selected->direction.y[k];
+        rays->dir_z[k] = selected->direction.z[k];
+        rays->tfar[k] = selected->farthest[k];
     }
 }
 

@@ -15,13 +15,13 @@ static float number(uint64_t seed, size_t point, uint64_t dimension) {
 }
 
 /* A point of an emitter that the camera sees, and its position in the image. */
-typedef struct seen_point {
+typedef struct visible_point {
     aur_light_sample light;
     aur_film_point film;
-} seen_point;
+} visible_point;
 
 static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed, size_t i, float choice,
-                 seen_point *point) {
+                 visible_point *point) {
     const float u[3] = {choice, number(seed, i, 1), number(seed, i, 2)};
     const aur_vector camera = aur_camera_position(scene);
     const aur_light_reference reference = {.position = camera};
@@ -58,7 +58,7 @@ static bool has_edge(const pixel_sums *sums, double variance) {
     return variance > least_contrast * square_mean && sums->weighted_squares <= finest * sums->squares;
 }
 
-static void add_point(const seen_point *point, double weight, pixel_sums *sums) {
+static void add_point(const visible_point *point, double weight, pixel_sums *sums) {
     double radiance[3];
     aur_vector_to_doubles(point->light.radiance, radiance);
     for (size_t c = 0; c < 3; ++c) {
@@ -88,11 +88,11 @@ aur_result aur_visible_emitters_find(const aur_scene *scene, const aur_film_layo
         free(sums);
         return aur_fail_memory(error);
     }
-    const uint64_t own = aur_hash2(UINT64_C(0x6c616d7073), seed);
+    const uint64_t stream_seed = aur_hash2(UINT64_C(0x6c616d7073), seed);
     for (size_t i = 0; i < points; ++i) {
-        seen_point point;
-        const float choice = ((float)i + number(own, i, 0)) / (float)points;
-        if (!draw(scene, layout, own, i, aur_smaller(choice, 1.0f - 0x1p-24f), &point))
+        visible_point point;
+        const float choice = ((float)i + number(stream_seed, i, 0)) / (float)points;
+        if (!draw(scene, layout, stream_seed, i, aur_smaller(choice, 1.0f - 0x1p-24f), &point))
             continue;
         const size_t pixel = ((size_t)point.film.y - layout->y0) * width + (size_t)point.film.x - layout->x0;
         const double weight =
@@ -112,7 +112,8 @@ aur_result aur_visible_emitters_find(const aur_scene *scene, const aur_film_layo
 }
 
 /* The largest fraction of one of the eight neighbouring pixels that sees emitters. */
-static double share_beside(const aur_visible_emitters *visible, size_t width, size_t height, size_t pixel) {
+static double neighbour_share(const aur_visible_emitters *visible, size_t width, size_t height,
+                              size_t pixel) {
     const size_t x = pixel % width, y = pixel / width;
     double most = 0.0;
     for (size_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; ++j)
@@ -127,7 +128,7 @@ void aur_visible_emitters_leave_edges(const aur_film_layout *layout, aur_visible
     if (visible->share == NULL)
         return;
     for (size_t i = 0; i < width * height; ++i)
-        if (share_beside(visible, width, height, i) >= 0.5)
+        if (neighbour_share(visible, width, height, i) >= 0.5)
             visible->variance[i] = 0.0;
 }
 

@@ -53,14 +53,14 @@ typedef struct aur_edge_probes {
 
 /* Distributes at most `rays` probe rays per sample, as the mean over the image, over the pixels in proportion
  * to the standard deviation of emitted radiance to the power 4/5: errors decrease as rays^-3/2 (Owen 1997),
- * so this minimises their sum. *looks belongs to the context's cache; NULL if no pixel has any, or the camera
- * is not a pinhole. Errors: MEMORY, CANCELLED. */
+ * so this minimises their sum. *probes belongs to the context's cache; NULL if no pixel has any, or the
+ * camera is not a pinhole. Errors: MEMORY, CANCELLED. */
 aur_result aur_edge_probes_find(const aur_view *view, double rays, const aur_integrator_context *context,
                                 const aur_edge_probes **probes, aur_error *error);
 
 /* Emitted radiance seen by sample `index` of a pixel, by probe rays. False: use the sample's camera ray. */
 bool aur_edge_probe(const aur_edge_probes *probes, aur_tile *tile, size_t x, size_t y, uint32_t index,
-                    aur_vector *seen);
+                    aur_vector *emission);
 
 /* Emitters as small as a few pixels, which the first samples of a pixel and of its neighbours may all miss.
  * Points sampled on the emitters show where their edges cross pixels, before any sample is drawn. Larger

@@ -45,7 +45,7 @@ bool aur_volume_shadow(const aur_scene *scene, bool passes, float reach, const a
 /* The state of a path. */
 typedef struct volume_walk {
     aur_medium_walk state;
-    aur_vector sum, straight; /* accumulated radiance, and its unscattered part */
+    aur_vector sum, unscattered; /* accumulated radiance, and its unscattered part */
     aur_ray ray;
     const aur_medium *medium; /* that the ray is inside; NULL: none */
     aur_bounce bounce;        /* of the ray; its pdf is in `state` */
@@ -96,7 +96,7 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, vol
     const aur_vector before = walk->sum;
     add_light(walk, emission, light_pdf);
     if (walk->depth == 1)
-        walk->straight = aur_vector_add(walk->straight, aur_vector_subtract(walk->sum, before));
+        walk->unscattered = aur_vector_add(walk->unscattered, aur_vector_subtract(walk->sum, before));
 }
 
 /* Adds a light sample seen from `from` by a ray in `medium`. `scattered` is the fraction of light scattered
@@ -201,10 +201,10 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     aur_bsdf_sample drawn;
     if (!aur_vertex_direction(&shading, AUR_VERTEX_ALL, (const float[3]){choice, u[0], u[1]}, &drawn))
         return false;
-    const bool unscattered = drawn.specular && surface->bsdf->passes && aur_is_unbent(before, drawn.light);
-    *edge = !unscattered;
+    const bool passed_through = drawn.specular && surface->bsdf->passes && aur_is_unbent(before, drawn.light);
+    *edge = !passed_through;
     walk->state.throughput = aur_vector_multiply(walk->state.throughput, drawn.weight);
-    if (unscattered) {
+    if (passed_through) {
         pass_surface(scene, surface, walk);
         return !aur_vector_is_zero(walk->state.throughput);
     }
@@ -259,7 +259,7 @@ static bool step(const aur_volume_path *data, const aur_scene *scene, volume_wal
 }
 
 aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene *scene,
-                                    const aur_camera_sample *sample, aur_vector *straight,
+                                    const aur_camera_sample *sample, aur_vector *unscattered,
                                     aur_counters *counters) {
     static const aur_vector one = {1.0f, 1.0f, 1.0f};
     const uint64_t pixel = aur_hash2(sample->stream.pixel, UINT64_C(0x6d65646961));
@@ -298,6 +298,6 @@ aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene
         walk.pairs = (const float(*)[2]) & ahead[walk.depth % 2 * AUR_PATH_PAIRS];
         walk.fresh = true;
     }
-    *straight = walk.straight;
+    *unscattered = walk.unscattered;
     return walk.sum;
 }

@@ -15,7 +15,7 @@ typedef struct aur_volume_path {
 
 /* Radiance along one camera ray, and its directly visible emission. */
 aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene *scene,
-                                    const aur_camera_sample *sample, aur_vector *straight,
+                                    const aur_camera_sample *sample, aur_vector *unscattered,
                                     aur_counters *counters);
 
 /* Light from a light sample, through media and surfaces that transmit it unscattered. */

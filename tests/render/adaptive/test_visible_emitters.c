@@ -115,8 +115,8 @@ static void knows_its_integrator(void **state) {
             fail_msg("%s: %s", cases[i].integrator, error.message);
         const aur_integrator *const made = aur_render_integrator(candidate.replicas.renders[0]);
         assert_int_equal(candidate.pattern_samples, cases[i].pattern_samples);
-        assert_true((made->lamp_looks != NULL) == cases[i].probes);
-        assert_true(made->refines_lamp_edges == (i == 3)); /* `edges` is 128 where nobody says */
+        assert_true((made->emitter_probes != NULL) == cases[i].probes);
+        assert_true(made->refines_emitter_edges == (i == 3)); /* `edges` is 128 where nobody says */
         assert_non_null(candidate.visible.share);
         aur_candidate_release(&candidate);
     }

@@ -91,7 +91,7 @@ static void marks_what_the_filter_reaches(void **state) {
         const aur_render_options options = options_of(cases[i].integrator, cases[i].filter, 1);
         aur_render *render = NULL;
         assert_int_equal(aur_render_create(renderer, &options, &render, NULL), AUR_OK);
-        const uint16_t *const probes = aur_render_integrator(render)->lamp_looks;
+        const uint16_t *const probes = aur_render_integrator(render)->emitter_probes;
         const long reach = (long)cases[i].side / 2, x0 = SIDE / 2, y0 = SIDE / 2 - 1;
         for (long p = 0; p < (long)SIDE * SIDE; ++p) {
             const bool within =

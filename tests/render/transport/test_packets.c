@@ -64,7 +64,8 @@ static void rows_and_columns_change_places_in_half_of_the_blocks(void **state) {
     for (uint64_t k = 0; k < 100; ++k) {
         const uint64_t hash = aur_group_arrangement(k);
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const uint32_t apart = aur_group_place(hash, 0, lane) ^ aur_group_place(hash, 1, lane);
+            const uint32_t apart =
+                aur_group_pixel_index(hash, 0, lane) ^ aur_group_pixel_index(hash, 1, lane);
             assert_true(apart == 1 || apart == AUR_GROUPS_A_SIDE);
             columns += apart != 1;
         }
