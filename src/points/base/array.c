@@ -13,11 +13,11 @@ bool aur_size_product(size_t a, size_t b, size_t *product) {
     return true;
 }
 
-bool aur_array_grow(void *array, size_t *capacity, size_t wanted, size_t size) {
+bool aur_array_grow(void *array, size_t *capacity, size_t required, size_t size) {
     enum { FIRST_CAPACITY = 8 };
     size_t larger = *capacity <= SIZE_MAX / 2 ? 2 * *capacity : SIZE_MAX;
     larger = larger < FIRST_CAPACITY ? FIRST_CAPACITY : larger;
-    larger = larger < wanted ? wanted : larger;
+    larger = larger < required ? required : larger;
     size_t bytes;
     if (!aur_size_product(larger, size, &bytes))
         return false;

@@ -6,20 +6,20 @@
 
 #include "points/base/error.h"
 
-/* Makes room for `wanted` elements of `size` bytes in an array of *capacity elements. `array` is the address
- * of a pointer from malloc, which may be NULL with capacity 0; it and *capacity change together. The capacity
- * at least doubles, so that appending an element takes amortised constant time. Returns false with nothing
- * changed when out of memory or if the number of bytes exceeds SIZE_MAX.
+/* Makes room for `required` elements of `size` bytes in an array of *capacity elements. `array` is the
+ * address of a pointer from malloc, which may be NULL with capacity 0; it and *capacity change together. The
+ * capacity at least doubles, so that appending an element takes amortised constant time. Returns false with
+ * nothing changed when out of memory or if the number of bytes exceeds SIZE_MAX.
  *
  *     if (!aur_array_reserve(&list->items, &list->capacity, list->count + 1, sizeof *list->items))
  *         return aur_fail_memory(error); */
-static inline bool aur_array_reserve(void *array, size_t *capacity, size_t wanted, size_t size);
+static inline bool aur_array_reserve(void *array, size_t *capacity, size_t required, size_t size);
 
-/* The same where `wanted` is more than the capacity. */
-AUR_INTERNAL bool aur_array_grow(void *array, size_t *capacity, size_t wanted, size_t size);
+/* The same where `required` is more than the capacity. */
+AUR_INTERNAL bool aur_array_grow(void *array, size_t *capacity, size_t required, size_t size);
 
-static inline bool aur_array_reserve(void *array, size_t *capacity, size_t wanted, size_t size) {
-    return wanted <= *capacity || aur_array_grow(array, capacity, wanted, size);
+static inline bool aur_array_reserve(void *array, size_t *capacity, size_t required, size_t size) {
+    return required <= *capacity || aur_array_grow(array, capacity, required, size);
 }
 
 /* a * b into *product; false, and *product untouched, when a size_t cannot hold it. */

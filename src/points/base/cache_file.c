@@ -24,12 +24,12 @@ static const char suffix[] = ".aureole",
 
 /* False if there is no such folder. */
 static bool find_folder(char folder[PATH_CAPACITY]) {
-    const char *const own = getenv("AUREOLE_CACHE");
+    const char *const chosen = getenv("AUREOLE_CACHE");
     const char *const shared = getenv("XDG_CACHE_HOME");
     const char *const home = getenv("HOME");
     int length = -1;
-    if (own != NULL)
-        length = snprintf(folder, PATH_CAPACITY, "%s", own);
+    if (chosen != NULL)
+        length = snprintf(folder, PATH_CAPACITY, "%s", chosen);
     else if (shared != NULL && shared[0] == '/')
         length = snprintf(folder, PATH_CAPACITY, "%s/aureole", shared);
     else if (home != NULL && home[0] == '/')
@@ -83,18 +83,18 @@ static char *read_here(const char *kind, const char *key, size_t *size) {
 
 /* One of several processes reads for all. */
 char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
-    const bool looks = aur_io_leads();
+    const bool reads = aur_io_leads();
     const aur_io *const io = aur_io_use(NULL);
-    char *data = looks ? read_here(kind, key, size) : NULL;
+    char *data = reads ? read_here(kind, key, size) : NULL;
     aur_io_use(io);
     bool found = data != NULL;
     (void)aur_io_agree(sizeof found, &found, NULL);
     if (io == NULL || !found)
         return data;
-    char *const own = data;
+    char *const local = data;
     if (io->share(io->user, &data, size, NULL) == AUR_OK)
         return data;
-    free(own);
+    free(local);
     return NULL;
 }
 

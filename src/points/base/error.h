@@ -35,15 +35,15 @@ AUR_INTERNAL aur_result aur_fail_memory_at(aur_error *error, aur_location locati
 /* Option structs that can grow. The first field of such a struct is `size_t size`, the caller's sizeof, so
  * that programs compiled with an older or newer header work. */
 
-/* Copies the caller's options into the library's struct of `own_size` bytes, which contains the defaults.
+/* Copies the caller's options into the library's struct of `library_size` bytes, which contains the defaults.
  * `given` may be NULL. Fields beyond the caller's struct keep their defaults. Fields beyond the library's
  * struct must be zero, since the library cannot apply them: UNSUPPORTED. A size of 0 or not a multiple of
  * sizeof(size_t) was not set: ARGUMENT. `what` names the struct in messages. */
-AUR_INTERNAL aur_result aur_options_read(const void *given, size_t own_size, void *own, const char *what,
-                                         aur_error *error);
+AUR_INTERNAL aur_result aur_options_read(const void *given, size_t library_size, void *library,
+                                         const char *what, aur_error *error);
 
 /* Fills the caller's description struct, whose `size` the caller has set, from the library's struct of
- * `own_size` bytes. Common fields are copied; fields beyond the library's struct become zero. ARGUMENT as
+ * `library_size` bytes. Common fields are copied; fields beyond the library's struct become zero. ARGUMENT as
  * above. */
-AUR_INTERNAL aur_result aur_description_write(const void *own, size_t own_size, void *given, const char *what,
-                                              aur_error *error);
+AUR_INTERNAL aur_result aur_description_write(const void *library, size_t library_size, void *given,
+                                              const char *what, aur_error *error);

@@ -267,9 +267,9 @@ static aur_result read_here(const char *path, size_t limit, bool input, char **d
                             aur_error *error) {
     const aur_location where = {.file = path};
     const bool standard = strcmp(path, "-") == 0;
-    aur_error own = {.result = AUR_OK};
+    aur_error read_error = {.result = AUR_OK};
     if (error == NULL)
-        error = &own;
+        error = &read_error;
     FILE *const stream = standard ? stdin : open_input(path, error);
     if (stream == NULL)
         return error->result;

@@ -50,9 +50,9 @@ static bool identify(const char *path, file_identity *identity) {
 
 static bool is_in(const file_set *set, const file_identity *file) {
     for (size_t i = 0; i < set->count; ++i) {
-        const file_identity *const known = &set->files[i];
-        if (known->exists == file->exists && known->device == file->device && known->inode == file->inode &&
-            strcmp(known->name, file->name) == 0)
+        const file_identity *const entry = &set->files[i];
+        if (entry->exists == file->exists && entry->device == file->device && entry->inode == file->inode &&
+            strcmp(entry->name, file->name) == 0)
             return true;
     }
     return false;
@@ -74,7 +74,7 @@ aur_result aur_file_announce_output(const char *path, aur_error *error) {
     const aur_location where = {.file = path};
     pthread_mutex_lock(&lock);
     const bool twice = is_in(&outputs, &file), read = is_in(&inputs, &file);
-    const bool kept = twice || read || add(&outputs, &file);
+    const bool recorded = twice || read || add(&outputs, &file);
     pthread_mutex_unlock(&lock);
     if (twice)
         return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
@@ -82,19 +82,19 @@ aur_result aur_file_announce_output(const char *path, aur_error *error) {
     if (read)
         return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
                            "an input of this command must not be its output: choose another file");
-    return kept ? AUR_OK : aur_fail_memory(error);
+    return recorded ? AUR_OK : aur_fail_memory(error);
 }
 
 aur_result aur_file_note_input(const char *path, const struct stat *status, aur_error *error) {
     const file_identity file = of_status(status);
     pthread_mutex_lock(&lock);
     const bool guarded = outputs.count > 0, written = guarded && is_in(&outputs, &file);
-    const bool kept = !guarded || written || add(&inputs, &file);
+    const bool recorded = !guarded || written || add(&inputs, &file);
     pthread_mutex_unlock(&lock);
     if (written)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
                            "an output of this command must not be its input: choose another file");
-    return kept ? AUR_OK : aur_fail_memory(error);
+    return recorded ? AUR_OK : aur_fail_memory(error);
 }
 
 aur_result aur_file_refuse_input(const char *path, const struct stat *status, aur_error *error) {
@@ -102,10 +102,10 @@ aur_result aur_file_refuse_input(const char *path, const struct stat *status, au
     bool read = false;
     pthread_mutex_lock(&lock);
     for (size_t i = 0; i < inputs.count; ++i) {
-        const file_identity *const known = &inputs.files[i];
-        read = read || (known->device == file.device && known->inode == file.inode &&
-                        known->changed.tv_sec == file.changed.tv_sec &&
-                        known->changed.tv_nsec == file.changed.tv_nsec);
+        const file_identity *const entry = &inputs.files[i];
+        read = read || (entry->device == file.device && entry->inode == file.inode &&
+                        entry->changed.tv_sec == file.changed.tv_sec &&
+                        entry->changed.tv_nsec == file.changed.tv_nsec);
     }
     pthread_mutex_unlock(&lock);
     return read ? aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,

@@ -9,7 +9,7 @@ static aur_result check_size(size_t size, const char *what, aur_error *error) {
                     what, size);
 }
 
-aur_result aur_options_read(const void *given, size_t own_size, void *own, const char *what,
+aur_result aur_options_read(const void *given, size_t library_size, void *library, const char *what,
                             aur_error *error) {
     if (given == NULL)
         return AUR_OK;
@@ -19,17 +19,17 @@ aur_result aur_options_read(const void *given, size_t own_size, void *own, const
     if (result != AUR_OK)
         return result;
     const unsigned char *const bytes = given;
-    for (size_t i = own_size; i < size; ++i)
+    for (size_t i = library_size; i < size; ++i)
         if (bytes[i] != 0)
             return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                             "%s: byte %zu of the struct is set, and this library, %s, knows %zu bytes", what,
-                            i, aur_version(), own_size);
-    memcpy(own, given, size < own_size ? size : own_size);
-    memcpy(own, &own_size, sizeof own_size);
+                            i, aur_version(), library_size);
+    memcpy(library, given, size < library_size ? size : library_size);
+    memcpy(library, &library_size, sizeof library_size);
     return AUR_OK;
 }
 
-aur_result aur_description_write(const void *own, size_t own_size, void *given, const char *what,
+aur_result aur_description_write(const void *library, size_t library_size, void *given, const char *what,
                                  aur_error *error) {
     size_t size;
     memcpy(&size, given, sizeof size);
@@ -37,7 +37,7 @@ aur_result aur_description_write(const void *own, size_t own_size, void *given, 
     if (result != AUR_OK)
         return result;
     memset(given, 0, size);
-    memcpy(given, own, size < own_size ? size : own_size);
+    memcpy(given, library, size < library_size ? size : library_size);
     memcpy(given, &size, sizeof size);
     return AUR_OK;
 }

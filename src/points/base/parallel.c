@@ -72,9 +72,9 @@ size_t aur_parallel_threads(size_t threads) {
     most = most < FEWEST_ALLOWED ? FEWEST_ALLOWED : most > MOST_THREADS ? MOST_THREADS : most;
     if (threads == 0) {
         /* Batch systems and test harnesses set this variable to the number of processors for this process. */
-        const char *const wish = getenv("OMP_NUM_THREADS");
+        const char *const text = getenv("OMP_NUM_THREADS");
         uint64_t wished;
-        threads = wish != NULL && aur_read_integer(wish, MOST_THREADS, &wished) != NULL && wished > 0
+        threads = text != NULL && aur_read_integer(text, MOST_THREADS, &wished) != NULL && wished > 0
                       ? (size_t)wished
                       : processors;
     }
@@ -262,14 +262,14 @@ static void begin_sharing(const aur_io *io, shared_work *work, size_t threads) {
     work->loop = io->loops->create(io->user, &options);
 }
 
-/* Starts up to `wanted` threads with signals blocked, so that the host's threads receive them. Returns the
+/* Starts up to `requested` threads with signals blocked, so that the host's threads receive them. Returns the
  * number started: results do not depend on it, so fewer are not an error. */
-static size_t start_threads(shared_work *work, size_t wanted, pthread_t *threads) {
+static size_t start_threads(shared_work *work, size_t requested, pthread_t *threads) {
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     size_t count = 0;
-    while (count < wanted && pthread_create(&threads[count], NULL, run_thread, work) == 0)
+    while (count < requested && pthread_create(&threads[count], NULL, run_thread, work) == 0)
         ++count;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return count;
@@ -283,9 +283,9 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     if (count == 0)
         return AUR_OK;
     const aur_io *const io = inside == NULL && options->share != NULL ? aur_io_here() : NULL;
-    size_t wanted = inside != NULL ? 1 : aur_parallel_threads(options->threads);
-    if (wanted > count)
-        wanted = count;
+    size_t requested = inside != NULL ? 1 : aur_parallel_threads(options->threads);
+    if (requested > count)
+        requested = count;
     shared_work work = {.options = options,
                         .count = count,
                         .function = function,
@@ -298,9 +298,9 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     if (pthread_mutex_init(&work.lock, NULL) != 0)
         return aur_fail_memory(error);
     if (io != NULL)
-        begin_sharing(io, &work, wanted);
+        begin_sharing(io, &work, requested);
     /* The thread of a job exchanges messages, and others do the items. */
-    const size_t others = work.loop != NULL ? wanted : wanted - 1;
+    const size_t others = work.loop != NULL ? requested : requested - 1;
     pthread_t threads[MOST_THREADS];
     const size_t started = others > 0 ? start_threads(&work, others, threads) : 0;
     if (work.loop != NULL)

@@ -87,8 +87,8 @@ typedef struct aur_progress_share {
 
 /* Reports the work done and the estimated remaining work; INFINITY: unknown, and the fraction does not
  * change. Returns the result of the callback, which is not NULL. */
-AUR_INTERNAL int aur_progress_tell(const aur_progress *progress, const char *what, aur_progress_share *share,
-                                   double done, double left);
+AUR_INTERNAL int aur_progress_report_work(const aur_progress *progress, const char *what,
+                                          aur_progress_share *share, double done, double left);
 
 /* The progress for parts; without a function if the whole has none. */
 AUR_INTERNAL aur_progress aur_progress_within(aur_progress_span *span);

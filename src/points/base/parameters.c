@@ -142,9 +142,9 @@ aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, co
 }
 
 const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name) {
-    const aur_names known = aur_names_of(parameters->known_count, parameters->known);
-    if (aur_names_find(known, name) == known.count && known.count < AUR_PARAMETERS_KNOWN_CAPACITY)
-        parameters->known[parameters->known_count++] = name;
+    const aur_names accepted = aur_names_of(parameters->accepted_count, parameters->accepted);
+    if (aur_names_find(accepted, name) == accepted.count && accepted.count < AUR_PARAMETERS_NAMES_CAPACITY)
+        parameters->accepted[parameters->accepted_count++] = name;
     for (size_t i = 0; i < parameters->count; ++i) {
         if (strcmp(parameters->items[i].name, name) == 0) {
             parameters->items[i].used = true;
@@ -190,7 +190,7 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
             continue;
         aur_sorted_names sorted;
         const aur_names names = aur_names_by_distance(
-            aur_names_of(parameters->known_count, parameters->known), item->name, &sorted);
+            aur_names_of(parameters->accepted_count, parameters->accepted), item->name, &sorted);
         char help[AUR_ERROR_MESSAGE_CAPACITY];
         return aur_fail_at(error, item->location, AUR_ERROR_NAME, "%s '%s' has no '%s'%s", parameters->kind,
                            parameters->plugin, item->name,

@@ -32,7 +32,7 @@ typedef struct aur_parameter {
     const char *object_kind; /* static storage: "texture", "bsdf", ... */
 } aur_parameter;
 
-enum { AUR_PARAMETERS_KNOWN_CAPACITY = 64 };
+enum { AUR_PARAMETERS_NAMES_CAPACITY = 64 };
 
 typedef struct aur_parameters {
     char *kind;   /* "bsdf", "integrator", "set", ...: for messages */
@@ -40,8 +40,8 @@ typedef struct aur_parameters {
     aur_location location;
     size_t count, capacity;
     aur_parameter *items;
-    size_t known_count;
-    const char *known[AUR_PARAMETERS_KNOWN_CAPACITY]; /* names that were looked up; string literals */
+    size_t accepted_count;
+    const char *accepted[AUR_PARAMETERS_NAMES_CAPACITY]; /* names that were looked up; string literals */
 } aur_parameters;
 
 /* `location.file` must outlive the parameters; the other strings are copied. */

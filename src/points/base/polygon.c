@@ -37,7 +37,7 @@ double aur_polygon_width(size_t count, const double (*corners)[3]) {
 }
 
 size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plane *plane, double (*cut)[3]) {
-    size_t kept = 0;
+    size_t written = 0;
     double highest = 0.0, largest = fabs(plane->offset);
     double before = count > 0 ? aur_plane_height(plane, corners[count - 1]) : 0.0;
     const double *previous = count > 0 ? corners[count - 1] : NULL;
@@ -46,11 +46,11 @@ size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plan
         if ((before < 0.0 && height > 0.0) || (before > 0.0 && height < 0.0)) {
             const double t = before / (before - height);
             for (int d = 0; d < 3; ++d)
-                cut[kept][d] = previous[d] + t * (corners[i][d] - previous[d]);
-            ++kept;
+                cut[written][d] = previous[d] + t * (corners[i][d] - previous[d]);
+            ++written;
         }
         if (height >= 0.0)
-            memcpy(cut[kept++], corners[i], sizeof cut[0]);
+            memcpy(cut[written++], corners[i], sizeof cut[0]);
         highest = height > highest ? height : highest;
         for (int d = 0; d < 3; ++d) {
             const double size = fabs(corners[i][d]);
@@ -60,5 +60,5 @@ size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plan
         previous = corners[i];
     }
     /* Points above the plane by no more than the rounding error of heights are in it. */
-    return kept >= 3 && highest > 2e-15 * largest ? kept : 0;
+    return written >= 3 && highest > 2e-15 * largest ? written : 0;
 }

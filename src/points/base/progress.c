@@ -12,17 +12,17 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     return span->whole.function(span->whole.user, what, span->reported, STEPS);
 }
 
-int aur_progress_tell(const aur_progress *progress, const char *what, aur_progress_share *s, double done,
-                      double left) {
+int aur_progress_report_work(const aur_progress *progress, const char *what, aur_progress_share *s,
+                             double done, double left) {
     const uint64_t whole = UINT64_C(1) << 40;
     const double more = fmax(done - s->done, 0.0), all = more + fmax(left, 0.0);
     s->done += more;
     s->share += all > 0.0 ? (1.0 - s->share) * more / all : 0.0;
-    const bool known = left < INFINITY;
+    const bool finite = left < INFINITY;
     const double most = 1.0 - 1e-9; /* the work is not over */
     return progress->function(progress->user, what,
-                              known ? (uint64_t)((double)whole * fmin(s->share, most)) : 0,
-                              known ? whole : 0);
+                              finite ? (uint64_t)((double)whole * fmin(s->share, most)) : 0,
+                              finite ? whole : 0);
 }
 
 aur_progress aur_progress_within(aur_progress_span *span) {

@@ -29,17 +29,17 @@ static aur_isa limited(aur_isa processor, const char *limit) {
 
 /* The cached result, or -1 before the first call: the environment is read once, since kernels are chosen
  * often. Threads that call it first at the same time compute the same value. */
-static atomic_int known = -1;
+static atomic_int cached = -1;
 
 void aur_isa_ask_again(void) {
-    atomic_store(&known, -1);
+    atomic_store(&cached, -1);
 }
 
 aur_isa aur_isa_available(void) {
-    int isa = atomic_load_explicit(&known, memory_order_relaxed);
+    int isa = atomic_load_explicit(&cached, memory_order_relaxed);
     if (isa < 0) {
         isa = (int)limited(processor_isa(), getenv("AUREOLE_ISA"));
-        atomic_store_explicit(&known, isa, memory_order_relaxed);
+        atomic_store_explicit(&cached, isa, memory_order_relaxed);
     }
     return (aur_isa)isa;
 }

@@ -215,9 +215,9 @@ static inline void aur_lanes_store2(double *to, aur_reals x, aur_reals y, bool s
  * number of lanes set. */
 static inline size_t aur_lanes_keep(double *to, aur_words mask, aur_reals values) {
 #if defined(__AVX512F__)
-    const __mmask8 kept = _mm512_movepi64_mask((__m512i)mask);
-    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(kept, (__m512d)values));
-    return (size_t)__builtin_popcount(kept);
+    const __mmask8 selected = _mm512_movepi64_mask((__m512i)mask);
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(selected, (__m512d)values));
+    return (size_t)__builtin_popcount(selected);
 #else
     /* For each mask the halves of its set lanes. */
     static const uint8_t halves[16][8] = {{0},
@@ -236,10 +236,11 @@ static inline size_t aur_lanes_keep(double *to, aur_words mask, aur_reals values
                                           {0, 1, 4, 5, 6, 7},
                                           {2, 3, 4, 5, 6, 7},
                                           {0, 1, 2, 3, 4, 5, 6, 7}};
-    const unsigned kept = (unsigned)_mm256_movemask_pd((__m256d)mask);
-    const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)halves[kept]));
+    const unsigned selected = (unsigned)_mm256_movemask_pd((__m256d)mask);
+    const __m256i order =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)halves[selected]));
     _mm256_storeu_pd(to, (__m256d)_mm256_permutevar8x32_epi32((__m256i)values, order));
-    return (size_t)__builtin_popcount(kept);
+    return (size_t)__builtin_popcount(selected);
 #endif
 }
 

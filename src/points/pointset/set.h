@@ -41,8 +41,8 @@ enum {
 /* One row of the table of square sets. */
 typedef struct aur_square_set {
     aur_set_description description;
-    const void *own; /* private data that distinguishes kinds with the same prepare() and fill(); or NULL */
-    unsigned scramblings; /* bits 1 << aur_scramble: the supported scramblings */
+    const void *kind_data; /* private to kinds that share prepare() and fill(); or NULL */
+    unsigned scramblings;  /* bits 1 << aur_scramble: the supported scramblings */
     /* Reads the keys and prepares set->data (NULL: no keys and no data). Size, dimension, scrambling, seed
      * and net_base are set and within the limits above; a key or a file may change them. */
     aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, aur_error *error);

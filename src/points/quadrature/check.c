@@ -15,12 +15,12 @@ aur_result aur_check_directions(size_t count, const double *xyz, aur_error *erro
     return AUR_OK;
 }
 
-aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *own,
+aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *copy,
                                     aur_error *error) {
-    const aur_result result = aur_options_read(given, sizeof *own, own, "aur_weights_options", error);
-    if (result == AUR_OK && !(own->regularization >= 0.0 && isfinite(own->regularization)))
+    const aur_result result = aur_options_read(given, sizeof *copy, copy, "aur_weights_options", error);
+    if (result == AUR_OK && !(copy->regularization >= 0.0 && isfinite(copy->regularization)))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the regularisation must be at least 0 and finite, not %g",
-                        own->regularization);
+                        copy->regularization);
     return result;
 }
 

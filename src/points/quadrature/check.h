@@ -13,8 +13,8 @@ aur_result aur_check_directions(size_t count, const double *xyz, aur_error *erro
 /* The default set. */
 static const char aur_set_default[] = "spherical-fibonacci";
 
-/* Copies the caller's options, which may be NULL, over the defaults in *own. */
-aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *own,
+/* Copies the caller's options, which may be NULL, over the defaults in *copy. */
+aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *copy,
                                     aur_error *error);
 
 /* The options->count points of a set, and their weights unless NULL; the set must have that number. */

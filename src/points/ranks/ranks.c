@@ -143,9 +143,9 @@ static bool accept(aur_ranks *ranks, aur_message *message) {
 
 bool aur_ranks_receive(aur_ranks *ranks, size_t from, aur_message *message) {
     while (!aur_ranks_have_failed(ranks)) {
-        if (ranks->kept_count > 0) { /* rank 0's, on other ranks, which receive only from rank 0 */
-            *message = ranks->kept[0];
-            memmove(ranks->kept, ranks->kept + 1, --ranks->kept_count * sizeof *ranks->kept);
+        if (ranks->queue_count > 0) { /* rank 0's, on other ranks, which receive only from rank 0 */
+            *message = ranks->queue[0];
+            memmove(ranks->queue, ranks->queue + 1, --ranks->queue_count * sizeof *ranks->queue);
         } else if (!aur_ranks_receive_any(ranks, from, message)) {
             return false;
         }
@@ -163,9 +163,9 @@ static void listen_to_root(aur_ranks *ranks) {
     /* Rank 0 may have left regularly: the expected message is then still in transit. */
     if (message.kind == AUR_MESSAGE_LEAVE && message.step <= ranks->step) {
         (void)accept(ranks, &message);
-    } else if (aur_array_reserve(&ranks->kept, &ranks->kept_capacity, ranks->kept_count + 1,
-                                 sizeof *ranks->kept)) {
-        ranks->kept[ranks->kept_count++] = message;
+    } else if (aur_array_reserve(&ranks->queue, &ranks->queue_capacity, ranks->queue_count + 1,
+                                 sizeof *ranks->queue)) {
+        ranks->queue[ranks->queue_count++] = message;
     } else {
         aur_ranks_fail(ranks, "rank %zu is out of memory", ranks->transport.rank);
         free(message.data);
@@ -269,15 +269,15 @@ void aur_ranks_agree(size_t size, void *data) {
     aur_ranks *const here = aur_ranks_here();
     if (here == NULL)
         return;
-    char *own = data;
-    size_t own_size = size;
-    if (aur_ranks_broadcast(here, &own, &own_size, NULL) != AUR_OK || here->transport.rank == 0)
+    char *local = data;
+    size_t local_size = size;
+    if (aur_ranks_broadcast(here, &local, &local_size, NULL) != AUR_OK || here->transport.rank == 0)
         return;
-    if (own_size == size)
-        memcpy(data, own, size);
+    if (local_size == size)
+        memcpy(data, local, size);
     else
         aur_ranks_fail(here, "rank 0 does something else than rank %zu", here->transport.rank);
-    free(own);
+    free(local);
 }
 
 static bool take_parts(aur_ranks *ranks, size_t from, aur_bytes *bytes) {

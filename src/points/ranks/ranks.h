@@ -57,11 +57,11 @@ typedef struct aur_message {
 typedef struct aur_ranks {
     aur_transport transport;
     uint64_t step;
-    aur_error error;   /* the first failure; its result is AUR_OK if none */
-    size_t left;       /* ranks that announced that they leave */
-    bool lost;         /* a rank does not answer any more */
-    aur_message *kept; /* queued messages of rank 0, which was ahead */
-    size_t kept_count, kept_capacity;
+    aur_error error;    /* the first failure; its result is AUR_OK if none */
+    size_t left;        /* ranks that announced that they leave */
+    bool lost;          /* a rank does not answer any more */
+    aur_message *queue; /* queued messages of rank 0, which was ahead */
+    size_t queue_count, queue_capacity;
     uint64_t sent, received;
     double message_seconds;
     aur_io io;

@@ -12,9 +12,9 @@ size_t aur_ranks_started(void) {
     /* Slurm sets its count for every task, so it is used only if Slurm also configured communication between
      * tasks. */
     static const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
-    const size_t known = getenv("PMIX_RANK") != NULL || getenv("PMI_RANK") != NULL ? 3 : 2;
+    const size_t variable_count = getenv("PMIX_RANK") != NULL || getenv("PMI_RANK") != NULL ? 3 : 2;
     uint64_t count = 0;
-    for (size_t i = 0; i < known; ++i) {
+    for (size_t i = 0; i < variable_count; ++i) {
         const char *const text = getenv(counts[i]);
         if (text != NULL && aur_read_integer(text, INT32_MAX, &count) != NULL && count > 1)
             return (size_t)count;
@@ -50,7 +50,7 @@ typedef struct greeting {
 } greeting;
 
 typedef struct welcome {
-    const greeting *own;
+    const greeting *local;
     char refused[AUR_ERROR_MESSAGE_CAPACITY];
 } welcome;
 
@@ -62,26 +62,26 @@ static aur_result compare_greeting(void *context, size_t rank, size_t size, cons
     memcpy(&other, data, sizeof other);
     if (w->refused[0] != '\0')
         return AUR_OK;
-    if (strcmp(other.version, w->own->version) != 0)
+    if (strcmp(other.version, w->local->version) != 0)
         snprintf(w->refused, sizeof w->refused, "rank %zu on %s is aureole %s, rank 0 is %s", rank,
-                 other.host, other.version, w->own->version);
-    else if (strcmp(other.isa, w->own->isa) != 0 || strcmp(other.rays, w->own->rays) != 0)
+                 other.host, other.version, w->local->version);
+    else if (strcmp(other.isa, w->local->isa) != 0 || strcmp(other.rays, w->local->rays) != 0)
         snprintf(w->refused, sizeof w->refused,
                  "rank %zu on %s uses %s, rank 0 on %s %s: images differ in the last bits: set "
                  "AUREOLE_ISA=avx2 for all",
-                 rank, other.host, strcmp(other.isa, w->own->isa) != 0 ? other.isa : other.rays, w->own->host,
-                 strcmp(other.isa, w->own->isa) != 0 ? w->own->isa : w->own->rays);
+                 rank, other.host, strcmp(other.isa, w->local->isa) != 0 ? other.isa : other.rays,
+                 w->local->host, strcmp(other.isa, w->local->isa) != 0 ? w->local->isa : w->local->rays);
     return AUR_OK;
 }
 
 static aur_result greet(aur_ranks *ranks, aur_error *error) {
-    greeting own = {0};
-    snprintf(own.version, sizeof own.version, "%s", aur_version());
-    snprintf(own.isa, sizeof own.isa, "%s", aur_isa_name(aur_isa_available()));
-    snprintf(own.rays, sizeof own.rays, "%s", aur_isa_name(aur_isa_of_rays()));
-    gethostname(own.host, sizeof own.host - 1);
-    welcome w = {.own = &own};
-    const aur_result result = aur_ranks_gather(ranks, sizeof own, &own, compare_greeting, &w, error);
+    greeting local = {0};
+    snprintf(local.version, sizeof local.version, "%s", aur_version());
+    snprintf(local.isa, sizeof local.isa, "%s", aur_isa_name(aur_isa_available()));
+    snprintf(local.rays, sizeof local.rays, "%s", aur_isa_name(aur_isa_of_rays()));
+    gethostname(local.host, sizeof local.host - 1);
+    welcome w = {.local = &local};
+    const aur_result result = aur_ranks_gather(ranks, sizeof local, &local, compare_greeting, &w, error);
     if (result != AUR_OK)
         return result;
     aur_ranks_agree(sizeof w.refused, w.refused);
@@ -175,17 +175,17 @@ int aur_ranks_leave(int status, const char *said, aur_error *error) {
         ranks->transport.abort(ranks->transport.state, status);
     /* A rank that waits for rank 0 sees from the step number whether all work was done; if not, no rank may
      * wait for this one. */
-    const size_t own = ranks->transport.rank, count = ranks->transport.count;
+    const size_t local = ranks->transport.rank, count = ranks->transport.count;
     const bool failed = aur_ranks_have_failed(ranks);
     aur_ranks_begin(ranks);
     for (size_t to = 0; to < count; ++to)
-        if (to != own && (own == 0 || to == 0 || failed))
+        if (to != local && (local == 0 || to == 0 || failed))
             aur_ranks_send(ranks, to, AUR_MESSAGE_LEAVE, (uint64_t)status, 0, strlen(said), said);
     status = see_off(ranks, status, error);
     ranks->transport.finish(ranks->transport.state);
-    for (size_t i = 0; i < ranks->kept_count; ++i)
-        free(ranks->kept[i].data);
-    free(ranks->kept);
+    for (size_t i = 0; i < ranks->queue_count; ++i)
+        free(ranks->queue[i].data);
+    free(ranks->queue);
     free(ranks);
     return status;
 }
@@ -200,15 +200,15 @@ static aur_result take_description(void *context, size_t rank, size_t size, cons
 
 void aur_ranks_describe(aur_rank_description *descriptions) {
     aur_ranks *const ranks = aur_ranks_here();
-    aur_rank_description own = {.cpu_seconds = aur_ranks_seconds(CLOCK_PROCESS_CPUTIME_ID)};
-    gethostname(own.host, sizeof own.host - 1);
+    aur_rank_description local = {.cpu_seconds = aur_ranks_seconds(CLOCK_PROCESS_CPUTIME_ID)};
+    gethostname(local.host, sizeof local.host - 1);
     if (ranks != NULL) {
-        own.sent = ranks->sent;
-        own.received = ranks->received;
-        own.message_seconds = ranks->message_seconds;
+        local.sent = ranks->sent;
+        local.received = ranks->received;
+        local.message_seconds = ranks->message_seconds;
     }
     if (aur_ranks_rank() == 0)
-        descriptions[0] = own;
+        descriptions[0] = local;
     if (ranks != NULL)
-        aur_ranks_gather(ranks, sizeof own, &own, take_description, descriptions, NULL);
+        aur_ranks_gather(ranks, sizeof local, &local, take_description, descriptions, NULL);
 }

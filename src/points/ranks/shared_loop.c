@@ -25,29 +25,29 @@ struct aur_shared_loop {
     size_t rank_count;
     pthread_mutex_t lock; /* guards the fields below, except those of the communicating thread */
     pthread_cond_t wake_threads, wake_messages;
-    size_t next, end;     /* items that this rank may begin; rank 0: items not yet assigned */
-    size_t running, idle; /* threads */
-    bool alone;           /* no worker threads: the communicating thread runs items itself */
-    bool over;            /* no more items will come */
-    aur_bytes results;    /* of this rank's items, to be sent to rank 0 */
-    size_t given_back;    /* items assigned to this rank and not begun */
-    unsigned char *known; /* [count]: this rank has the item's result */
-    uint64_t *rays;       /* [count]: of each item with a result */
+    size_t next, end;          /* items that this rank may begin; rank 0: items not yet assigned */
+    size_t running, idle;      /* threads */
+    bool alone;                /* no worker threads: the communicating thread runs items itself */
+    bool over;                 /* no more items will come */
+    aur_bytes results;         /* of this rank's items, to be sent to rank 0 */
+    size_t given_back;         /* items assigned to this rank and not begun */
+    unsigned char *has_result; /* [count]: this rank has the item's result */
+    uint64_t *rays;            /* [count]: of each item with a result */
     /* Only for the communicating thread. */
-    size_t *outstanding;   /* rank 0, [ranks]: items assigned to each rank */
-    uint64_t foreign_rays; /* of items that other ranks ran */
-    bool asked, told;      /* a request for items is pending; a stop was sent or received */
+    size_t *outstanding;      /* rank 0, [ranks]: items assigned to each rank */
+    uint64_t foreign_rays;    /* of items that other ranks ran */
+    bool requested, stopping; /* a request for items is pending; a stop was sent or received */
 };
 
 static aur_shared_loop *create(void *user, const aur_shared_loop_options *options) {
     aur_ranks *const ranks = user;
     aur_shared_loop *const loop = calloc(1, sizeof *loop);
-    unsigned char *const known = calloc(options->count, 1);
+    unsigned char *const has_result = calloc(options->count, 1);
     uint64_t *const rays = calloc(options->count, sizeof *rays);
     size_t *const outstanding = calloc(aur_ranks_count(), sizeof *outstanding);
-    if (loop == NULL || known == NULL || rays == NULL || outstanding == NULL) {
+    if (loop == NULL || has_result == NULL || rays == NULL || outstanding == NULL) {
         free(loop);
-        free(known);
+        free(has_result);
         free(rays);
         free(outstanding);
         aur_ranks_fail(ranks, "rank %zu is out of memory", aur_ranks_rank());
@@ -57,7 +57,7 @@ static aur_shared_loop *create(void *user, const aur_shared_loop_options *option
                               .options = *options,
                               .is_root = aur_ranks_rank() == 0,
                               .rank_count = aur_ranks_count(),
-                              .known = known,
+                              .has_result = has_result,
                               .rays = rays,
                               .outstanding = outstanding};
     loop->end = loop->is_root ? options->count : 0;
@@ -78,7 +78,7 @@ static void destroy(aur_shared_loop *loop) {
     pthread_mutex_destroy(&loop->lock);
     aur_bytes_release(&loop->results);
     free(loop->outstanding);
-    free(loop->known);
+    free(loop->has_result);
     free(loop->rays);
     free(loop);
 }
@@ -146,9 +146,9 @@ static void get_entries(aur_shared_loop *loop, const aur_message *message) {
         aur_bytes_reader one = {.at = all.at, .end = all.at + e.size};
         all.at += e.size;
         aur_result result = (aur_result)e.result;
-        if (has_found(result) && !loop->known[e.index]) {
+        if (has_found(result) && !loop->has_result[e.index]) {
             const aur_result taken = unpack(loop, (size_t)e.index, &one);
-            loop->known[e.index] = taken == AUR_OK;
+            loop->has_result[e.index] = taken == AUR_OK;
             loop->rays[e.index] = e.rays;
             loop->foreign_rays += e.rays;
             result = taken != AUR_OK ? taken : result;
@@ -190,7 +190,7 @@ static void done(aur_shared_loop *loop, size_t index, aur_result result, uint64_
     --loop->running;
     if (!loop->is_root)
         put_entry(loop, index, result, &loop->results);
-    loop->known[index] = has_found(result);
+    loop->has_result[index] = has_found(result);
     if (loop->running == 0)
         pthread_cond_signal(&loop->wake_messages);
     pthread_mutex_unlock(&loop->lock);
@@ -271,8 +271,8 @@ static void messages_as_root(aur_shared_loop *loop, bool (*one)(void *work)) {
     long pause = 0;
     while (!is_finished(loop) && !aur_ranks_have_failed(loop->ranks)) {
         aur_message message;
-        if (atomic_load(loop->options.stop) && !loop->told) {
-            loop->told = true;
+        if (atomic_load(loop->options.stop) && !loop->stopping) {
+            loop->stopping = true;
             stopped = now();
             for (size_t r = 1; r < loop->rank_count; ++r)
                 aur_ranks_send(loop->ranks, r, AUR_MESSAGE_STOP, 0, 0, 0, NULL);
@@ -284,7 +284,7 @@ static void messages_as_root(aur_shared_loop *loop, bool (*one)(void *work)) {
         } else if (one == NULL || !one(loop->options.work)) {
             wait_a_little(loop, &pause);
         }
-        if (loop->told && now() - stopped > patience && !is_finished(loop))
+        if (loop->stopping && now() - stopped > patience && !is_finished(loop))
             aur_ranks_lose(loop->ranks);
     }
 }
@@ -300,7 +300,7 @@ static void report_to_root(aur_shared_loop *loop, bool stops) {
     }
     const size_t given_back = loop->given_back;
     loop->given_back = 0;
-    const bool wants = !stops && !loop->asked && loop->next == loop->end &&
+    const bool wants = !stops && !loop->requested && loop->next == loop->end &&
                        (loop->idle > 0 || loop->running < loop->options.threads);
     pthread_mutex_unlock(&loop->lock);
     if (results.failed)
@@ -310,14 +310,14 @@ static void report_to_root(aur_shared_loop *loop, bool stops) {
     aur_bytes_release(&results);
     if (wants && !aur_ranks_have_failed(loop->ranks))
         aur_ranks_send(loop->ranks, 0, AUR_MESSAGE_WANT, 0, 0, 0, NULL);
-    loop->asked = loop->asked || wants;
+    loop->requested = loop->requested || wants;
 }
 
 /* Returns whether the loop goes on. */
 static bool hear_root(aur_shared_loop *loop, const aur_message *message) {
     switch (message->kind) {
     case AUR_MESSAGE_ITEMS:
-        loop->asked = false;
+        loop->requested = false;
         pthread_mutex_lock(&loop->lock);
         loop->next = (size_t)message->a;
         loop->end = (size_t)(message->a + message->b);
@@ -325,7 +325,7 @@ static bool hear_root(aur_shared_loop *loop, const aur_message *message) {
         pthread_mutex_unlock(&loop->lock);
         return true;
     case AUR_MESSAGE_STOP:
-        loop->told = true;
+        loop->stopping = true;
         atomic_store(loop->options.stop, true);
         return true;
     case AUR_MESSAGE_END:
@@ -349,10 +349,10 @@ static void messages_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
             pthread_mutex_unlock(&loop->lock);
         }
         report_to_root(loop, stops);
-        if (stops && !loop->told)
+        if (stops && !loop->stopping)
             aur_ranks_send(loop->ranks, 0, AUR_MESSAGE_STOP,
                            (uint64_t)(int64_t)loop->options.outcome(loop->options.work), 0, 0, NULL);
-        loop->told = loop->told || stops;
+        loop->stopping = loop->stopping || stops;
         if (aur_ranks_receive(loop->ranks, 0, &message)) {
             goes_on = hear_root(loop, &message);
             free(message.data);
@@ -385,7 +385,7 @@ static void exchange_messages(aur_shared_loop *loop, bool (*one)(void *work)) {
 static void spread_results(aur_shared_loop *loop) {
     aur_bytes bytes = {0};
     for (size_t i = 0; i < loop->options.count; ++i) {
-        if (loop->known[i])
+        if (loop->has_result[i])
             put_entry(loop, i, AUR_OK, &bytes);
         if (bytes.failed)
             break;

@@ -85,8 +85,8 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     const double part = prepares || total == 0 ? 0.0 : (double)done / (double)total;
     const aur_spent spent = aur_adaptive_spent(adaptive);
     const bool renders = !adaptive->races && adaptive->candidate.rounds > 0;
-    return aur_progress_tell(&adaptive->progress, renders ? "rendering" : "planning", &adaptive->share,
-                             (double)spent.all.rays, rays_left(adaptive, &spent, part));
+    return aur_progress_report_work(&adaptive->progress, renders ? "rendering" : "planning", &adaptive->share,
+                                    (double)spent.all.rays, rays_left(adaptive, &spent, part));
 }
 
 /* --- making */

@@ -48,13 +48,13 @@ static void test_share(void **state) {
     const aur_progress progress = {keep_both, &seen};
     aur_progress_share known = {0}, s = {0};
     for (int i = 1; i <= 10; ++i) {
-        aur_progress_tell(&progress, "all", &known, i, 10 - i);
+        aur_progress_report_work(&progress, "all", &known, i, 10 - i);
         assert_near((double)seen.done / (double)seen.total, i / 10.0, 1e-11);
     }
     const double lefts[] = {INFINITY, 100.0, 99.0, 10.0, 500.0, 3.0, INFINITY, 40.0};
     for (size_t i = 0; i < sizeof lefts / sizeof lefts[0]; ++i) {
         const double before = s.share;
-        aur_progress_tell(&progress, "some", &s, (double)i + 1.0, lefts[i]);
+        aur_progress_report_work(&progress, "some", &s, (double)i + 1.0, lefts[i]);
         if (lefts[i] == INFINITY) {
             assert_true(s.share == before && seen.done == 0 && seen.total == 0);
             continue;
@@ -62,7 +62,7 @@ static void test_share(void **state) {
         assert_near((1.0 - s.share) / (s.share - before), lefts[i], 1e-9 * lefts[i]);
         assert_near((double)seen.done / (double)seen.total, s.share, 1e-11);
     }
-    aur_progress_tell(&progress, "some", &s, 9.0, 0.0);
+    aur_progress_report_work(&progress, "some", &s, 9.0, 0.0);
     assert_true(seen.done == seen.total);
 }
 

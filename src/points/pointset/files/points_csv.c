@@ -34,9 +34,9 @@ static char *skip_separator(char *text) {
 
 static bool grow(reader *r) {
     aur_matrix *const matrix = r->matrix;
-    size_t wanted;
-    return aur_size_product(matrix->row_count + 1, matrix->column_count, &wanted) &&
-           aur_array_reserve(&matrix->values, &r->value_capacity, wanted, sizeof *matrix->values) &&
+    size_t needed;
+    return aur_size_product(matrix->row_count + 1, matrix->column_count, &needed) &&
+           aur_array_reserve(&matrix->values, &r->value_capacity, needed, sizeof *matrix->values) &&
            aur_array_reserve(&matrix->lines, &r->line_capacity, matrix->row_count + 1, sizeof *matrix->lines);
 }
 

@@ -41,9 +41,9 @@ static bool is_of_directions(aur_domain domain) {
     return domain == AUR_DOMAIN_HEMISPHERE || domain == AUR_DOMAIN_SPHERE || domain == AUR_DOMAIN_AXES;
 }
 
-/* `wanted` is the requested domain, or NULL: it decides between the two meanings of x,y. */
-static aur_result by_header(const char *path, const aur_matrix *matrix, const aur_domain *wanted, meaning *m,
-                            aur_error *error) {
+/* The requested domain, or NULL, decides between the two meanings of x,y. */
+static aur_result by_header(const char *path, const aur_matrix *matrix, const aur_domain *requested,
+                            meaning *m, aur_error *error) {
     char header[sizeof matrix->header];
     memcpy(header, matrix->header, sizeof header);
     const size_t length = strlen(header);
@@ -63,7 +63,7 @@ static aur_result by_header(const char *path, const aur_matrix *matrix, const au
     else if (strcmp(header, "w,x,y,z") == 0)
         m->domain = AUR_DOMAIN_ROTATIONS;
     else if (strcmp(header, "x,y") == 0)
-        m->domain = wanted != NULL && is_flat(*wanted) ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_DISK;
+        m->domain = requested != NULL && is_flat(*requested) ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_DISK;
     else if (strcmp(header, "u") == 0 || is_cube_header(header, m->dimension))
         m->domain = m->dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE;
     else
@@ -95,16 +95,16 @@ static aur_result by_declaration(const char *path, const aur_matrix *matrix, mea
 /* Without names two columns are u,v, three are unit vectors, four are unit vectors with weights. Any other
  * number are coordinates on the cube, and so are three or four columns of an array that are not unit vectors.
  * If rotations are requested, four columns are quaternions, and a fifth has their weights. */
-static void by_columns(const aur_matrix *matrix, const aur_domain *wanted, meaning *m) {
+static void by_columns(const aur_matrix *matrix, const aur_domain *requested, meaning *m) {
     const size_t columns = matrix->column_count;
     *m = (meaning){AUR_DOMAIN_CUBE, columns, false};
-    if (wanted != NULL && *wanted == AUR_DOMAIN_ROTATIONS && (columns == 4 || columns == 5)) {
+    if (requested != NULL && *requested == AUR_DOMAIN_ROTATIONS && (columns == 4 || columns == 5)) {
         *m = (meaning){AUR_DOMAIN_ROTATIONS, 4, columns == 5};
         return;
     }
     if (columns == 2)
         m->domain = AUR_DOMAIN_SQUARE;
-    const bool flat = wanted != NULL && is_flat(*wanted);
+    const bool flat = requested != NULL && is_flat(*requested);
     const bool unit = columns >= 3 && matrix->row_count > 0 && aur_is_unit(matrix->values);
     if (!flat && ((columns == 3 && (unit || matrix->lines != NULL)) || (columns == 4 && unit)))
         *m = (meaning){AUR_DOMAIN_SPHERE, 3, columns == 4};
@@ -159,21 +159,21 @@ static const char *off_domain(const meaning *m, const double *row) {
 
 /* Whether points of the file's domain are valid on the requested one. */
 static aur_result check_domain(const char *path, const aur_matrix *matrix, const meaning *m,
-                               aur_domain wanted, aur_error *error) {
-    if (m->domain == wanted || (m->domain == AUR_DOMAIN_SPHERE && is_of_directions(wanted)) ||
-        (m->domain == AUR_DOMAIN_SQUARE && wanted == AUR_DOMAIN_CUBE))
+                               aur_domain requested, aur_error *error) {
+    if (m->domain == requested || (m->domain == AUR_DOMAIN_SPHERE && is_of_directions(requested)) ||
+        (m->domain == AUR_DOMAIN_SQUARE && requested == AUR_DOMAIN_CUBE))
         return AUR_OK;
     const bool header = matrix->header[0] != '\0';
     return aur_fail_at(
         error, (aur_location){.file = path, .line = header}, AUR_ERROR_UNSUPPORTED,
         "%s%s%s points are on the %s, not on the %s%s%s", header ? "the header '" : "its", matrix->header,
-        header ? "' says that the" : "", aur_domain_name(m->domain), aur_domain_name(wanted),
+        header ? "' says that the" : "", aur_domain_name(m->domain), aur_domain_name(requested),
         is_flat(m->domain) ? ": to map them there, name them file:" : "", is_flat(m->domain) ? path : "");
 }
 
 /* The requested domain, else the declared one, or NULL. */
-static const aur_domain *known_domain(const aur_matrix *matrix, const aur_domain *wanted) {
-    return wanted == NULL && matrix->declared ? &matrix->domain : wanted;
+static const aur_domain *expected_domain(const aur_matrix *matrix, const aur_domain *requested) {
+    return requested == NULL && matrix->declared ? &matrix->domain : requested;
 }
 
 /* Checks that a comment and the columns agree. */
@@ -183,30 +183,30 @@ static bool contradicts(const aur_matrix *matrix, const meaning *m) {
            !(is_of_directions(matrix->domain) && m->domain == AUR_DOMAIN_SPHERE);
 }
 
-static aur_result find_meaning(const char *path, const aur_matrix *matrix, const aur_domain *wanted,
+static aur_result find_meaning(const char *path, const aur_matrix *matrix, const aur_domain *requested,
                                meaning *m, aur_error *error) {
     if (matrix->row_count == 0)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "no points");
     aur_result result = AUR_OK;
     if (matrix->header[0] != '\0') {
-        result = by_header(path, matrix, known_domain(matrix, wanted), m, error);
+        result = by_header(path, matrix, expected_domain(matrix, requested), m, error);
     } else if (matrix->declared) {
         result = by_declaration(path, matrix, m, error);
     } else {
-        result = wanted == NULL || !is_flat(*wanted) ? refuse_columns(path, matrix, error) : AUR_OK;
-        by_columns(matrix, wanted, m);
+        result = requested == NULL || !is_flat(*requested) ? refuse_columns(path, matrix, error) : AUR_OK;
+        by_columns(matrix, requested, m);
     }
     if (result == AUR_OK && contradicts(matrix, m))
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
                            "a comment says that the points are of the domain '%s', and the header '%s'",
                            aur_domain_name(matrix->domain), matrix->header);
-    return result == AUR_OK && wanted != NULL ? check_domain(path, matrix, m, *wanted, error) : result;
+    return result == AUR_OK && requested != NULL ? check_domain(path, matrix, m, *requested, error) : result;
 }
 
 /* Checks each row and copies it. */
-static aur_result copy_rows(const char *path, const aur_domain *wanted, const aur_matrix *matrix,
+static aur_result copy_rows(const char *path, const aur_domain *requested, const aur_matrix *matrix,
                             const meaning *m, aur_points *points, aur_error *error) {
-    const aur_domain *const known = known_domain(matrix, wanted);
+    const aur_domain *const expected = expected_domain(matrix, requested);
     bool below_horizon = false;
     for (size_t r = 0; r < matrix->row_count; ++r) {
         const double *const row = matrix->values + r * matrix->column_count;
@@ -216,7 +216,7 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
             return aur_fail_at(error, where, AUR_ERROR_FORMAT, "%s", wrong);
         if (wrong != NULL)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT, "point %zu: %s", r + 1, wrong);
-        if (known != NULL && *known == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
+        if (expected != NULL && *expected == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT,
                                "point %zu has z = %g, below the hemisphere z >= 0", r + 1, row[2]);
         memcpy(points->coordinates + r * m->dimension, row, m->dimension * sizeof *row);
@@ -225,24 +225,24 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
         below_horizon |= m->domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
     }
     if (m->domain == AUR_DOMAIN_SPHERE)
-        points->view.domain = known != NULL   ? *known
-                              : below_horizon ? AUR_DOMAIN_SPHERE
-                                              : AUR_DOMAIN_HEMISPHERE;
+        points->view.domain = expected != NULL ? *expected
+                              : below_horizon  ? AUR_DOMAIN_SPHERE
+                                               : AUR_DOMAIN_HEMISPHERE;
     points->view.guessed =
-        known == NULL && (points->view.domain == AUR_DOMAIN_HEMISPHERE ||
-                          (matrix->header[0] == '\0' && (m->dimension == 3 || m->dimension == 4) &&
-                           m->domain == AUR_DOMAIN_CUBE && are_unit(matrix, false)));
+        expected == NULL && (points->view.domain == AUR_DOMAIN_HEMISPHERE ||
+                             (matrix->header[0] == '\0' && (m->dimension == 3 || m->dimension == 4) &&
+                              m->domain == AUR_DOMAIN_CUBE && are_unit(matrix, false)));
     return AUR_OK;
 }
 
-aur_result aur_points_interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
+aur_result aur_points_interpret(const char *path, const aur_domain *requested, aur_matrix *matrix,
                                 aur_points **points, aur_error *error) {
     meaning m = {0};
-    aur_result result = find_meaning(path, matrix, wanted, &m, error);
+    aur_result result = find_meaning(path, matrix, requested, &m, error);
     if (result == AUR_OK)
         result = aur_points_create(m.domain, matrix->row_count, m.dimension, m.weights, points, error);
     if (result == AUR_OK)
-        result = copy_rows(path, wanted, matrix, &m, *points, error);
+        result = copy_rows(path, requested, matrix, &m, *points, error);
     if (result != AUR_OK) {
         aur_points_destroy(*points);
         *points = NULL;
@@ -264,7 +264,7 @@ static const char *foreign_format(size_t size, const char *data) {
 }
 
 /* `data`, which is modified, is followed by a zero byte. */
-static aur_result parse_points(const char *name, size_t size, char *data, const aur_domain *wanted,
+static aur_result parse_points(const char *name, size_t size, char *data, const aur_domain *requested,
                                aur_points **points, aur_error *error) {
     const char *const foreign = foreign_format(size, data);
     if (foreign != NULL)
@@ -274,13 +274,13 @@ static aur_result parse_points(const char *name, size_t size, char *data, const 
     aur_result result = aur_npy_recognize(data, size) ? aur_npy_parse(name, data, size, &matrix, error)
                                                       : aur_csv_parse(name, data, size, &matrix, error);
     if (result == AUR_OK)
-        result = aur_points_interpret(name, wanted, &matrix, points, error);
+        result = aur_points_interpret(name, requested, &matrix, points, error);
     free(matrix.values);
     free(matrix.lines);
     return result;
 }
 
-static aur_result read_points(const char *path, const aur_domain *wanted, aur_points **points,
+static aur_result read_points(const char *path, const aur_domain *requested, aur_points **points,
                               aur_error *error) {
     *points = NULL;
     char *data;
@@ -288,7 +288,7 @@ static aur_result read_points(const char *path, const aur_domain *wanted, aur_po
     aur_result result = aur_file_read(path, file_limit, &data, &size, error);
     if (result != AUR_OK)
         return result;
-    result = parse_points(path, size, data, wanted, points, error);
+    result = parse_points(path, size, data, requested, points, error);
     free(data);
     return result;
 }

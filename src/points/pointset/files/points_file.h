@@ -18,7 +18,7 @@ typedef struct aur_matrix {
 
 /* Interprets the rows as aur_points_read does; takes ownership of `lines`. Errors: FORMAT, UNSUPPORTED,
  * MEMORY. */
-aur_result aur_points_interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
+aur_result aur_points_interpret(const char *path, const aur_domain *requested, aur_matrix *matrix,
                                 aur_points **points, aur_error *error);
 
 /* Reads a comment "domain: NAME", or "domain: NAME; weights"; other comments are ignored. */

@@ -217,8 +217,8 @@ aur_result aur_points_write(const char *path, aur_points_format format, const au
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown format %d", (int)format);
     aur_points_write_options options = {.size = sizeof options};
     aur_points_write_options_init(&options, NULL);
-    aur_points_origin own = {.size = sizeof own};
-    aur_points_origin_init(&own, NULL);
+    aur_points_origin copy = {.size = sizeof copy};
+    aur_points_origin_init(&copy, NULL);
     aur_file_writer writer;
     aur_points_view view;
     const aur_points_view *const points = &view;
@@ -228,20 +228,20 @@ aur_result aur_points_write(const char *path, aur_points_format format, const au
     if (result == AUR_OK)
         result = check_options(format, &options, error);
     if (result == AUR_OK)
-        result = aur_options_read(options.origin, sizeof own, &own, "aur_points_origin", error);
+        result = aur_options_read(options.origin, sizeof copy, &copy, "aur_points_origin", error);
     if (result == AUR_OK)
         result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)
         return result;
-    const aur_points_origin *const known = options.origin != NULL ? &own : NULL;
+    const aur_points_origin *const given_origin = options.origin != NULL ? &copy : NULL;
     if (format == AUR_POINTS_CSV)
         write_csv(points, &options, writer.stream);
     else if (format == AUR_POINTS_JSON)
-        write_json(points, known, writer.stream);
+        write_json(points, given_origin, writer.stream);
     else if (format == AUR_POINTS_NPY)
         write_npy(points, options.single, writer.stream);
     else
-        result = write_ply(points, known, options.single, writer.stream, error);
+        result = write_ply(points, given_origin, options.single, writer.stream, error);
     if (result != AUR_OK) {
         aur_file_abandon(&writer);
         return result;

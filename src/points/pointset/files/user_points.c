@@ -63,25 +63,25 @@ static aur_result replace(const aur_set_callback *callback, aur_error *error) {
 }
 
 aur_result aur_set_register(const aur_set_callback *callback, aur_error *error) {
-    aur_set_callback own = {.size = sizeof own};
-    const aur_result read = aur_options_read(callback, sizeof own, &own, "aur_set_callback", error);
+    aur_set_callback copy = {.size = sizeof copy};
+    const aur_result read = aur_options_read(callback, sizeof copy, &copy, "aur_set_callback", error);
     if (read != AUR_OK)
         return read;
-    if (!is_plain_name(own.name))
+    if (!is_plain_name(copy.name))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the name of a set must be letters, digits, '-', '_' and '.', not '%s'",
-                        own.name != NULL ? own.name : "");
-    if (aur_domain_name(own.domain) == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain %d", (int)own.domain);
+                        copy.name != NULL ? copy.name : "");
+    if (aur_domain_name(copy.domain) == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain %d", (int)copy.domain);
     pthread_mutex_lock(&table_lock);
-    const aur_result result = replace(&own, error);
+    const aur_result result = replace(&copy, error);
     pthread_mutex_unlock(&table_lock);
     return result;
 }
 
-static size_t coordinates_of(aur_domain domain, size_t asked) {
+static size_t coordinates_of(aur_domain domain, size_t requested) {
     static const size_t dimensions[] = {2, 0, 2, 3, 3, 3, 4};
-    return dimensions[domain] != 0 ? dimensions[domain] : asked != 0 ? asked : 2;
+    return dimensions[domain] != 0 ? dimensions[domain] : requested != 0 ? requested : 2;
 }
 
 /* Calls the function, and copies its points and weights into rows. */

@@ -18,11 +18,12 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *er
     while (digits < 63 && UINT64_C(1) << digits < set->size)
         ++digits;
     for (size_t d = 0; d < set->dimension; ++d) {
-        uint64_t own[AUR_DIGITAL_COLUMNS];
-        aur_sobol_matrix(d, own);
+        uint64_t matrix[AUR_DIGITAL_COLUMNS];
+        aur_sobol_matrix(d, matrix);
         for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
             matrices[d][k] =
-                d == 0 ? own[k] : aur_digital_word(own, k < digits ? matrices[d - 1][k] >> (64 - digits) : 0);
+                d == 0 ? matrix[k]
+                       : aur_digital_word(matrix, k < digits ? matrices[d - 1][k] >> (64 - digits) : 0);
     }
     set->data = matrices;
     return AUR_OK;

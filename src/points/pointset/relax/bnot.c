@@ -18,7 +18,7 @@ const aur_square_set aur_set_bnot = {
                     .dimensions = {2, 2},
                     .maximum_size = 1 << 20},
     .scramblings = AUR_SCRAMBLES_SHIFT,
-    .own = &(const aur_relaxation){VERSION, relax},
+    .kind_data = &(const aur_relaxation){VERSION, relax},
     .prepare = aur_prepare_relaxed,
     .fill = aur_fill_table,
 };

@@ -130,7 +130,7 @@ const aur_square_set aur_set_owen_tree = {
                     .best_sizes = AUR_SIZES_POWERS,
                     .size_base = 2},
     .scramblings = AUR_SCRAMBLES_SHIFT,
-    .own = &(const aur_relaxation){VERSION, relax},
+    .kind_data = &(const aur_relaxation){VERSION, relax},
     .prepare = aur_prepare_relaxed,
     .fill = aur_fill_table,
 };

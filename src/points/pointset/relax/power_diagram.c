@@ -119,16 +119,16 @@ static void clip_by_site(const aur_power_diagram *d, size_t site, uint32_t other
 }
 
 /* Whether the cell was clipped by this image already. */
-static bool is_known(size_t known_count, const uint32_t *known, uint32_t other, aur_point2 to) {
-    for (size_t k = 0; k < known_count; ++k)
-        if (known[k] == other)
+static bool is_clipped(size_t clipped_count, const uint32_t *clipped, uint32_t other, aur_point2 to) {
+    for (size_t k = 0; k < clipped_count; ++k)
+        if (clipped[k] == other)
             return fabs(to.x) < 0.5 && fabs(to.y) < 0.5;
     return false;
 }
 
 /* Clips by all images of the sites of one grid cell, which may be outside the fundamental square. */
 static void clip_by_cell(const aur_power_diagram *d, size_t site, ptrdiff_t column, ptrdiff_t row,
-                         size_t known_count, const uint32_t *known, polygon *p) {
+                         size_t clipped_count, const uint32_t *clipped, polygon *p) {
     const ptrdiff_t side = (ptrdiff_t)d->grid.side;
     const ptrdiff_t turns_x = column >= 0 ? column < side ? 0 : column / side : -((side - 1 - column) / side);
     const ptrdiff_t turns_y = row >= 0 ? row < side ? 0 : row / side : -((side - 1 - row) / side);
@@ -137,7 +137,7 @@ static void clip_by_cell(const aur_power_diagram *d, size_t site, ptrdiff_t colu
         const uint32_t other = d->grid.sites[k];
         const aur_point2 to = {d->sites[other].x + (double)turns_x - d->sites[site].x,
                                d->sites[other].y + (double)turns_y - d->sites[site].y};
-        if (!is_known(known_count, known, other, to))
+        if (!is_clipped(clipped_count, clipped, other, to))
             clip_by_site(d, site, other, to, p);
     }
 }
@@ -150,19 +150,20 @@ static void compute_cell(const search *s, size_t site) {
                  .reach = 2.0,
                  .vertices = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}},
                  .neighbours = {no_neighbour, no_neighbour, no_neighbour, no_neighbour}};
-    uint32_t known[AUR_POWER_EDGES];
-    size_t known_count = 0;
+    uint32_t clipped[AUR_POWER_EDGES];
+    size_t clipped_count = 0;
     if (d->warm && d->count >= WARM_COUNT) {
-        known_count = cell->edge_count;
-        for (size_t k = 0; k < known_count; ++k) {
-            known[k] = cell->neighbours[k];
-            clip_by_site(d, site, known[k], aur_wrapped_difference(d->sites[known[k]], d->sites[site]), &p);
+        clipped_count = cell->edge_count;
+        for (size_t k = 0; k < clipped_count; ++k) {
+            clipped[k] = cell->neighbours[k];
+            clip_by_site(d, site, clipped[k], aur_wrapped_difference(d->sites[clipped[k]], d->sites[site]),
+                         &p);
         }
     }
     const double side = (double)d->grid.side;
     const ptrdiff_t column = (ptrdiff_t)(d->sites[site].x * side);
     const ptrdiff_t row = (ptrdiff_t)(d->sites[site].y * side);
-    clip_by_cell(d, site, column, row, known_count, known, &p);
+    clip_by_cell(d, site, column, row, clipped_count, clipped, &p);
     for (ptrdiff_t ring = 1; p.count > 0; ++ring) {
         /* Sites of this ring are at least this far; their edges are beyond the cell when distance^2 + w - w'
          * >= 2 distance reach, which grows with the distance from `reach` on. */
@@ -172,12 +173,12 @@ static void compute_cell(const search *s, size_t site) {
             distance * distance + d->weights[site] - s->largest_weight >= 2.0 * distance * reach)
             break;
         for (ptrdiff_t k = -ring; k <= ring; ++k) {
-            clip_by_cell(d, site, column + k, row - ring, known_count, known, &p);
-            clip_by_cell(d, site, column + k, row + ring, known_count, known, &p);
+            clip_by_cell(d, site, column + k, row - ring, clipped_count, clipped, &p);
+            clip_by_cell(d, site, column + k, row + ring, clipped_count, clipped, &p);
         }
         for (ptrdiff_t k = -ring + 1; k < ring; ++k) {
-            clip_by_cell(d, site, column - ring, row + k, known_count, known, &p);
-            clip_by_cell(d, site, column + ring, row + k, known_count, known, &p);
+            clip_by_cell(d, site, column - ring, row + k, clipped_count, clipped, &p);
+            clip_by_cell(d, site, column + ring, row + k, clipped_count, clipped, &p);
         }
     }
     finish(&p, cell);

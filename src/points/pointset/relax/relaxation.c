@@ -43,7 +43,7 @@ void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sit
 
 aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
-    const aur_relaxation *const how = set->kind->own;
+    const aur_relaxation *const how = set->kind->kind_data;
     const char *const name = set->kind->description.row.name;
     const size_t bytes = (size_t)set->size * sizeof(aur_point2);
     char key[128];

@@ -39,7 +39,7 @@ bool aur_site_grid_create(aur_site_grid *grid, size_t count); /* false: out of m
 void aur_site_grid_destroy(aur_site_grid *grid);
 void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sites);
 
-/* Parameters of a relaxation: kind->own of a set whose prepare() is aur_prepare_relaxed. */
+/* Parameters of a relaxation: kind->kind_data of a set whose prepare() is aur_prepare_relaxed. */
 typedef struct aur_relaxation {
     unsigned version; /* changes with the points */
     /* Writes `count` points. */

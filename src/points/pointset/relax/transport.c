@@ -34,7 +34,7 @@ typedef struct transport {
     aur_power_diagram diagram;
     aur_point2 *sites;
     double *weights;
-    double *step, *residual, *direction, *image, *trial; /* vectors of the solver */
+    double *step, *residual, *direction, *image, *candidate; /* vectors of the solver */
     laplacian matrix;
 } transport;
 
@@ -84,8 +84,8 @@ static void solve(transport *t) {
         t->step[i] = 0.0;
         t->residual[i] = 1.0 / (double)n - t->diagram.cells[i].area;
         const double scale = t->matrix.diagonal[i];
-        t->trial[i] = scale > 0.0 ? 1.0 / scale : 0.0;
-        t->direction[i] = t->trial[i] * t->residual[i];
+        t->candidate[i] = scale > 0.0 ? 1.0 / scale : 0.0;
+        t->direction[i] = t->candidate[i] * t->residual[i];
     }
     const double begin = dot(n, t->residual, t->residual);
     double old = dot(n, t->residual, t->direction);
@@ -101,13 +101,13 @@ static void solve(transport *t) {
             const double residual = t->residual[i] - length * t->image[i];
             t->residual[i] = residual;
             left += residual * residual;
-            now += residual * residual * t->trial[i];
+            now += residual * residual * t->candidate[i];
         }
         if (left <= solver_tolerance * solver_tolerance * begin)
             break;
         const double turn = now / old;
         for (size_t i = 0; i < n; ++i)
-            t->direction[i] = t->trial[i] * t->residual[i] + turn * t->direction[i];
+            t->direction[i] = t->candidate[i] * t->residual[i] + turn * t->direction[i];
         old = now;
     }
 }
@@ -142,17 +142,17 @@ static bool newton_step(transport *t) {
     const double floor_area = 0.5 * fmin(least_area(&t->diagram), 1.0 / (double)n);
     const double before = norm_of_missing(&t->diagram);
     solve(t);
-    memcpy(t->trial, t->weights, n * sizeof *t->trial);
+    memcpy(t->candidate, t->weights, n * sizeof *t->candidate);
     double length = 1.0;
     for (unsigned k = 0; k < HALVINGS; ++k, length *= 0.5) {
         for (size_t i = 0; i < n; ++i)
-            t->weights[i] = t->trial[i] + length * t->step[i];
+            t->weights[i] = t->candidate[i] + length * t->step[i];
         aur_power_diagram_compute(&t->diagram);
         if (least_area(&t->diagram) >= floor_area &&
             norm_of_missing(&t->diagram) <= (1.0 - 0.5 * length) * before + 1e-18)
             return true;
     }
-    memcpy(t->weights, t->trial, n * sizeof *t->trial);
+    memcpy(t->weights, t->candidate, n * sizeof *t->candidate);
     aur_power_diagram_compute(&t->diagram);
     return false;
 }
@@ -226,7 +226,7 @@ aur_result aur_transport_relax(uint64_t seed, unsigned rounds, size_t count, aur
         t.residual = vectors + 2 * count;
         t.direction = vectors + 3 * count;
         t.image = vectors + 4 * count;
-        t.trial = vectors + 5 * count;
+        t.candidate = vectors + 5 * count;
         t.matrix.diagonal = vectors + 6 * count;
         t.diagram.weights = t.weights;
         iterate(&t, rounds);

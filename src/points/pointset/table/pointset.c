@@ -78,10 +78,10 @@ static aur_result parse(const char *text, aur_parameters *keys, aur_error *error
 aur_result aur_pointset_create(const char *text, const aur_pointset_options *options, aur_pointset **pointset,
                                aur_error *error) {
     *pointset = NULL;
-    aur_pointset_options own = {.size = sizeof own};
-    aur_pointset_options_init(0, &own, NULL);
+    aur_pointset_options copy = {.size = sizeof copy};
+    aur_pointset_options_init(0, &copy, NULL);
     aur_parameters keys;
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_pointset_options", error);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_pointset_options", error);
     if (result == AUR_OK)
         result = parse(text, &keys, error);
     if (result != AUR_OK)
@@ -91,11 +91,11 @@ aur_result aur_pointset_create(const char *text, const aur_pointset_options *opt
         aur_parameters_release(&keys);
         return aur_fail_memory(error);
     }
-    set->size = own.count;
-    set->dimension = own.dimension;
-    set->scramble = own.scramble;
-    set->seed = own.seed;
-    set->options = &own;
+    set->size = copy.count;
+    set->dimension = copy.dimension;
+    set->scramble = copy.scramble;
+    set->seed = copy.seed;
+    set->options = &copy;
     result = make(set, &keys, error);
     set->options = NULL;
     aur_parameters_release(&keys);

@@ -80,9 +80,9 @@ static aur_result generate(const work *w, size_t count, size_t replicate, aur_er
 }
 
 static aur_result reserve(work *w, size_t count, aur_error *error) {
-    size_t wanted;
-    if (!aur_size_product(count, w->options->dimension + 1, &wanted) ||
-        !aur_array_reserve(&w->points, &w->capacity, wanted, sizeof *w->points))
+    size_t needed;
+    if (!aur_size_product(count, w->options->dimension + 1, &needed) ||
+        !aur_array_reserve(&w->points, &w->capacity, needed, sizeof *w->points))
         return aur_fail_memory(error);
     w->weights = w->points + count * w->options->dimension;
     return AUR_OK;
@@ -187,21 +187,21 @@ static aur_result estimate(work *w, aur_error *error) {
 
 aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,
                         aur_estimated *results, aur_estimate_report *report, aur_error *error) {
-    aur_estimate_options own = {.size = sizeof own};
-    aur_estimate_options_init(0, 0, &own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_estimate_options", error);
+    aur_estimate_options copy = {.size = sizeof copy};
+    aur_estimate_options_init(0, 0, &copy, NULL);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_estimate_options", error);
     if (result == AUR_OK)
-        result = check(&own, error);
+        result = check(&copy, error);
     if (result != AUR_OK)
         return result;
-    const size_t count = own.replicates * own.values;
-    work w = {.options = &own, .functional = functional, .user = user, .report = {.size = sizeof w.report}};
+    const size_t count = copy.replicates * copy.values;
+    work w = {.options = &copy, .functional = functional, .user = user, .report = {.size = sizeof w.report}};
     w.values = calloc(2 * count, sizeof *w.values);
     if (w.values == NULL)
         return aur_fail_memory(error);
-    w.levels = (aur_levels){.replicates = own.replicates, .values = own.values, .sums = w.values + count};
+    w.levels = (aur_levels){.replicates = copy.replicates, .values = copy.values, .sums = w.values + count};
     result = estimate(&w, error);
-    for (size_t v = 0; v < own.values && result == AUR_OK; ++v)
+    for (size_t v = 0; v < copy.values && result == AUR_OK; ++v)
         results[v] = estimated(&w, v);
     free(w.values);
     free(w.points);

@@ -22,7 +22,7 @@ typedef struct factor {
     double *rows;                 /* of count each: row l^2 is order 0, l^2 + 2m - 1 and l^2 + 2m order m */
     double *lower;                /* of capacity each */
     double *diagonal;             /* reciprocals of the diagonal of the independent rows */
-    size_t *kept;                 /* their numbers */
+    size_t *independent;          /* the numbers of independent rows */
     double *y;                    /* the solution of lower y = right */
     double *roots;                /* of the weights to approximate */
     double *gram, *right, *best;
@@ -88,7 +88,7 @@ static bool add_degree(factor *f, size_t l) {
     fill_degree(f, l);
     const size_t first = l * l, last = (l + 1) * (l + 1);
     for (size_t column = 0; column < f->rank; ++column)
-        fill_column(f, column, f->kept[column], first, last - first);
+        fill_column(f, column, f->independent[column], first, last - first);
     for (size_t r = first; r < last; ++r) {
         const double *const row = row_at(f, r);
         double *const lower = f->lower + r * f->capacity;
@@ -103,7 +103,7 @@ static bool add_degree(factor *f, size_t l) {
         }
         f->diagonal[f->rank] = 1.0 / sqrt(rest);
         f->y[f->rank] = missing * f->diagonal[f->rank];
-        f->kept[f->rank] = r;
+        f->independent[f->rank] = r;
         if (r + 1 < last)
             fill_column(f, f->rank, r, r + 1, last - r - 1);
         ++f->rank;
@@ -114,7 +114,7 @@ static bool add_degree(factor *f, size_t l) {
 /* Adds the weights of the solution y of the first `rank` rows; y is overwritten. */
 static void add_solution(const factor *f, size_t rank, double *y, double *weights) {
     for (size_t k = rank; k-- > 0;) {
-        const double *const lower = f->lower + f->kept[k] * f->capacity;
+        const double *const lower = f->lower + f->independent[k] * f->capacity;
         const double value = y[k] * f->diagonal[k];
         y[k] = value;
         for (size_t j = 0; j < k; ++j)
@@ -122,7 +122,7 @@ static void add_solution(const factor *f, size_t rank, double *y, double *weight
     }
     memset(f->gram, 0, f->count * sizeof *f->gram);
     for (size_t k = 0; k < rank; ++k) {
-        const double *const row = row_at(f, f->kept[k]), value = y[k];
+        const double *const row = row_at(f, f->independent[k]), value = y[k];
         for (size_t i = 0; i < f->count; ++i)
             f->gram[i] += value * row[i];
     }
@@ -136,8 +136,9 @@ static void refine(const factor *f, size_t rank, double *weights) {
     for (size_t i = 0; i < f->count; ++i)
         part[i] = f->roots[i] > 0.0 ? weights[i] / f->roots[i] : 0.0;
     for (size_t k = 0; k < rank; ++k) {
-        const double *const lower = f->lower + f->kept[k] * f->capacity;
-        const double right = (f->kept[k] == 0 ? 1.0 : 0.0) - dot(f, f->count, row_at(f, f->kept[k]), part);
+        const double *const lower = f->lower + f->independent[k] * f->capacity;
+        const double right =
+            (f->independent[k] == 0 ? 1.0 : 0.0) - dot(f, f->count, row_at(f, f->independent[k]), part);
         f->right[k] = (right - dot(f, k, lower, f->right)) * f->diagonal[k];
     }
     add_solution(f, rank, f->right, weights);
@@ -156,7 +157,7 @@ static bool allocate(factor *f, size_t degree, aur_error *error) {
     f->diagonal = f->lower + row_count * f->capacity;
     f->y = f->diagonal + f->capacity;
     f->right = f->y + f->capacity;
-    f->kept = (size_t *)(void *)(f->right + f->capacity);
+    f->independent = (size_t *)(void *)(f->right + f->capacity);
     f->roots = f->right + 2 * f->capacity;
     f->best = f->roots + f->count;
     f->gram = f->best + f->count; /* of a degree's rows, or of the points */

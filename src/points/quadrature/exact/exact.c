@@ -83,7 +83,7 @@ static bool hidden(const aur_exact_options *o, const double *direction) {
 static size_t share(size_t count, size_t dimension, const double *points, const aur_exact_options *o,
                     place *order, double *near) {
     const double *const given = o->near;
-    size_t used = 0, places = 0;
+    size_t used = 0, distinct = 0;
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
         if (!hidden(o, points + dimension * i) && (given == NULL || given[i] > 0.0))
@@ -94,7 +94,7 @@ static size_t share(size_t count, size_t dimension, const double *points, const 
         }
         for (size_t k = first; k < next; ++k)
             near[order[k].index] = 1.0 / (double)(next - first);
-        ++places;
+        ++distinct;
     }
     for (size_t i = 0; i < count; ++i) {
         near[i] = given != NULL && !hidden(o, points + dimension * i) ? given[i] : near[i];
@@ -102,7 +102,7 @@ static size_t share(size_t count, size_t dimension, const double *points, const 
     }
     for (size_t i = 0; i < count; ++i)
         near[i] /= sum;
-    return places;
+    return distinct;
 }
 
 static aur_result check_near(size_t count, const aur_exact_options *o, aur_error *error) {
@@ -161,7 +161,7 @@ static size_t room_bound(const aur_exact_system *system, size_t bound) {
 /* A search for the largest degree by solving for a sequence of degrees. */
 typedef struct ladder {
     const aur_exact_system *system;
-    double *best, *trial;
+    double *best, *candidate;
     aur_exact_found *found;
     aur_error *error;
     aur_result result;
@@ -205,8 +205,8 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     ladder *const l = user;
     const double left = work_left(l, (double)done);
     (void)total;
-    return aur_progress_tell(&l->progress, what, &l->share,
-                             l->done + functions_of((double)l->degree) * (double)done, left);
+    return aur_progress_report_work(&l->progress, what, &l->share,
+                                    l->done + functions_of((double)l->degree) * (double)done, left);
 }
 
 static bool climbs(ladder *l, size_t degree) {
@@ -215,7 +215,8 @@ static bool climbs(ladder *l, size_t degree) {
     if (l->failed[degree])
         return false;
     if (l->result == AUR_OK)
-        l->result = aur_exact_iterate(l->system, degree, AUR_EXACT_SEARCH_STEPS, l->trial, &found, l->error);
+        l->result =
+            aur_exact_iterate(l->system, degree, AUR_EXACT_SEARCH_STEPS, l->candidate, &found, l->error);
     const bool good = l->result == AUR_OK && found.exact && found.least > 0.0;
     const double steps = (double)found.iterations;
     l->hard = l->hard || (l->done == 0.0 && degree > 0 && !good);
@@ -229,9 +230,9 @@ static bool climbs(ladder *l, size_t degree) {
     }
     if (!good)
         return false;
-    double *const trial = l->trial;
-    l->trial = l->best;
-    l->best = trial;
+    double *const candidate = l->candidate;
+    l->candidate = l->best;
+    l->best = candidate;
     *l->found = found;
     return true;
 }
@@ -245,7 +246,7 @@ static aur_result search(const aur_exact_system *system, size_t bound, double *w
     if (storage == NULL)
         return aur_fail_memory(error);
     ladder l = {.best = storage,
-                .trial = storage + count,
+                .candidate = storage + count,
                 .found = found,
                 .error = error,
                 .progress = system->progress,
@@ -471,21 +472,21 @@ static aur_result weigh_symmetric(size_t count, const double *xyz, const aur_exa
 
 aur_result aur_weights_exact(size_t count, const double *points, const aur_exact_options *options,
                              size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
-    aur_exact_options own = {.size = sizeof own};
-    aur_exact_options_init(AUR_DOMAIN_SPHERE, &own, NULL);
+    aur_exact_options copy = {.size = sizeof copy};
+    aur_exact_options_init(AUR_DOMAIN_SPHERE, &copy, NULL);
     double lowest = -1.0;
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_exact_options", error);
     if (result == AUR_OK)
         result = aur_check_capacity(count, capacity, error);
-    if (result == AUR_OK && (own.domain == AUR_DOMAIN_AXES || own.group != NULL))
-        return weigh_symmetric(count, points, &own, weights, report, error);
-    if (result == AUR_OK && aur_exact_space_has(own.domain))
-        return weigh_space(count, points, &own, weights, report, error);
+    if (result == AUR_OK && (copy.domain == AUR_DOMAIN_AXES || copy.group != NULL))
+        return weigh_symmetric(count, points, &copy, weights, report, error);
+    if (result == AUR_OK && aur_exact_space_has(copy.domain))
+        return weigh_space(count, points, &copy, weights, report, error);
     if (result == AUR_OK)
-        result = check_options(&own, &lowest, error);
+        result = check_options(&copy, &lowest, error);
     if (result == AUR_OK)
-        result = check_points(count, points, &own, lowest, error);
-    return result == AUR_OK ? weigh(count, points, &own, lowest, NULL, weights, report, error) : result;
+        result = check_points(count, points, &copy, lowest, error);
+    return result == AUR_OK ? weigh(count, points, &copy, lowest, NULL, weights, report, error) : result;
 }
 
 aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error) {

@@ -59,8 +59,7 @@ typedef struct aur_spot {
 } aur_spot;
 
 typedef struct aur_fast_kernel {
-    /* Adds the weights of the spots, none of whose windows lies apart from them, to the rows `from` to `to`.
-     */
+    /* Adds the weights of the spots, whose windows all overlap the rows, to the rows `from` to `to`. */
     void (*spread)(size_t count, const aur_spot *spots, const double *weights, size_t from, size_t to,
                    size_t stride, double *grid);
     void (*gather)(size_t count, const aur_spot *spots, size_t stride, const double *grid, double *values);

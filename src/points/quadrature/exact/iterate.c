@@ -200,8 +200,8 @@ size_t aur_exact_functions(const aur_exact_system *system, size_t degree) {
 bool aur_exact_factoring_stops(const aur_progress *progress, aur_exact_factoring *factoring, size_t at,
                                size_t end) {
     const double done = pow((double)at, 4.0), left = end > 0 ? pow((double)end, 4.0) - done : INFINITY;
-    return progress->function != NULL &&
-           aur_progress_tell(progress, "factoring", &factoring->share, factoring->earlier + done, left) != 0;
+    return progress->function != NULL && aur_progress_report_work(progress, "factoring", &factoring->share,
+                                                                  factoring->earlier + done, left) != 0;
 }
 
 bool aur_exact_positive(const aur_exact_system *system, const double *weights, aur_exact_found *found) {

@@ -130,8 +130,8 @@ static void judge_replicates(aur_integration *work, size_t value) {
     const double error = sqrt(pooled(variance, work->integral.levels));
     work->found[value] = (aur_estimated){all.mean, error, work->quantile * error};
     for (size_t s = 0; s < work->strata; ++s) {
-        const aur_moments own = moments_of(work, s);
-        work->shares[s] += pow(aur_moments_standard_error(&own), 2.0);
+        const aur_moments moments = moments_of(work, s);
+        work->shares[s] += pow(aur_moments_standard_error(&moments), 2.0);
     }
 }
 
@@ -244,9 +244,9 @@ static bool compare(aur_integration *work) {
     for (size_t v = 0; v < work->values; ++v) {
         const aur_estimated *const found = &work->found[v];
         const double change = integral->levels > 0 ? fabs(found->value - work->before[v]) : INFINITY;
-        const double own = fmax(found->half_width, 0.25 * change);
-        met = met && own <= (work->options.separate ? target_of(work, v) : joint);
-        integral->error = fmax(integral->error, own);
+        const double value_error = fmax(found->half_width, 0.25 * change);
+        met = met && value_error <= (work->options.separate ? target_of(work, v) : joint);
+        integral->error = fmax(integral->error, value_error);
         if (v == 0)
             integral->difference = change;
     }

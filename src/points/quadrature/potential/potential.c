@@ -120,10 +120,10 @@ aur_result aur_potential_create(const aur_density *density, double smoothness, a
     if (created == NULL)
         return aur_fail_memory(error);
     created->rule = aur_kernel_rule_make(smoothness);
-    aur_density *const own = &created->density;
-    result = aur_options_read(density, sizeof *own, own, "aur_density", error);
-    if (aur_is_default_axis(own->axis))
-        own->axis[2] = 1.0;
+    aur_density *const copy = &created->density;
+    result = aur_options_read(density, sizeof *copy, copy, "aur_density", error);
+    if (aur_is_default_axis(copy->axis))
+        copy->axis[2] = 1.0;
     if (result == AUR_OK)
         result = create(created, error);
     if (result == AUR_OK)
@@ -231,8 +231,8 @@ aur_result aur_potential_density(const aur_potential *potential, size_t count, c
 
 aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,
                                  aur_error *error) {
-    aur_density own = {.size = sizeof own};
-    aur_density_init(&own, NULL);
+    aur_density copy = {.size = sizeof copy};
+    aur_density_init(&copy, NULL);
     const bool sphere = domain == AUR_DOMAIN_SPHERE, ggx = lobe->kind == AUR_LOBE_GGX;
     if (lobe->kind == AUR_LOBE_VISIBLE)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -246,11 +246,11 @@ aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_de
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,
             "densities are on the hemisphere or the sphere: points of the square need a map first");
-    own.kind = sphere ? AUR_DENSITY_SPHERE : ggx ? AUR_DENSITY_GGX : AUR_DENSITY_COSINE_POWER;
-    own.exponent = lobe->exponent;
-    own.alpha = lobe->alpha;
-    own.view_degrees = lobe->view_degrees;
-    return aur_description_write(&own, sizeof own, density, "aur_density", error);
+    copy.kind = sphere ? AUR_DENSITY_SPHERE : ggx ? AUR_DENSITY_GGX : AUR_DENSITY_COSINE_POWER;
+    copy.exponent = lobe->exponent;
+    copy.alpha = lobe->alpha;
+    copy.view_degrees = lobe->view_degrees;
+    return aur_description_write(&copy, sizeof copy, density, "aur_density", error);
 }
 
 aur_result aur_density_init(aur_density *density, aur_error *error) {

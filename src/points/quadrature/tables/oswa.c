@@ -41,9 +41,9 @@ static aur_result prepare_pattern(aur_oswa *oswa, size_t which, double *columns,
         oswa->kernel[which][i * n + i] = rule->top + oswa->weights.regularization;
     }
     if (oswa->published_z != NULL)
-        aur_potential_table_evaluate(oswa->published_z, exponent, n, split.z, oswa->own[which]);
+        aur_potential_table_evaluate(oswa->published_z, exponent, n, split.z, oswa->self_z[which]);
     else
-        aur_potential_evaluate(oswa->whole[which], n, pattern, oswa->own[which]);
+        aur_potential_evaluate(oswa->whole[which], n, pattern, oswa->self_z[which]);
     return AUR_OK;
 }
 
@@ -65,7 +65,7 @@ static aur_result create_pattern(aur_oswa *oswa, size_t which, bool solves, aur_
         return aur_fail_memory(error);
     oswa->uniform[which] = storage;
     oswa->pattern[which] = storage + 3 * n;
-    oswa->own[which] = storage + 9 * n;
+    oswa->self_z[which] = storage + 9 * n;
     oswa->kernel[which] = storage + 10 * n;
     /* The second pattern has a separate seed, different from those of other pairs. */
     const aur_directions_options directions = {
@@ -101,19 +101,19 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
     return AUR_OK;
 }
 
-aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
+aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *copy,
                                  aur_weights_options *weights, aur_error *error) {
-    own->size = sizeof(aur_oswa_options);
-    aur_oswa_options_init(0, 0, own, NULL);
+    copy->size = sizeof(aur_oswa_options);
+    aur_oswa_options_init(0, 0, copy, NULL);
     weights->size = sizeof(aur_weights_options);
     aur_weights_options_init(weights, NULL);
-    aur_result result = aur_options_read(given, sizeof *own, own, "aur_oswa_options", error);
+    aur_result result = aur_options_read(given, sizeof *copy, copy, "aur_oswa_options", error);
     if (result == AUR_OK)
-        result = aur_weights_options_read(own->weights, weights, error);
-    own->set = own->set != NULL ? own->set : aur_set_default;
-    own->smoothness = own->smoothness != 0.0 ? own->smoothness : 1.5;
-    own->weights = weights;
-    return result == AUR_OK ? check(own, error) : result;
+        result = aur_weights_options_read(copy->weights, weights, error);
+    copy->set = copy->set != NULL ? copy->set : aur_set_default;
+    copy->smoothness = copy->smoothness != 0.0 ? copy->smoothness : 1.5;
+    copy->weights = weights;
+    return result == AUR_OK ? check(copy, error) : result;
 }
 
 static aur_result create(aur_oswa *oswa, const aur_oswa_options *given, bool solves, aur_error *error) {
@@ -301,7 +301,7 @@ static void fill_z(const aur_oswa *oswa, const aur_oswa_angle *angle, size_t whi
     const size_t n = oswa->count[which];
     const double axis[3] = {-sin(angle->view.radians), 0.0, cos(angle->view.radians)};
     double *const other = which == 0 ? mirror_z : z;
-    memcpy(which == 0 ? z : mirror_z, oswa->own[which], n * sizeof *z);
+    memcpy(which == 0 ? z : mirror_z, oswa->self_z[which], n * sizeof *z);
     for (size_t i = 0; i < n; ++i)
         cosines[i] = which == 0 ? aur_dot3(xyz + 3 * i, axis) : xyz[3 * i + 2];
     if (oswa->published_z != NULL)
@@ -334,22 +334,22 @@ static void fill_matrix(const aur_oswa *oswa, const double *xyz, double *columns
 
 /* Removes samples from the system, in place; returns the number remaining. */
 static size_t drop(size_t n, const bool *taken, double *matrix, double *right, size_t columns) {
-    size_t kept = 0;
+    size_t remaining = 0;
     for (size_t i = 0; i < n; ++i)
-        kept += taken[i];
-    for (size_t i = 0, row = 0; i < n && kept < n; ++i) {
+        remaining += taken[i];
+    for (size_t i = 0, row = 0; i < n && remaining < n; ++i) {
         if (!taken[i])
             continue;
         for (size_t j = 0, column = 0; j <= i; ++j)
             if (taken[j])
-                matrix[row * kept + column++] = matrix[i * n + j];
+                matrix[row * remaining + column++] = matrix[i * n + j];
         ++row;
     }
-    for (size_t k = 0; k < columns && kept < n; ++k)
+    for (size_t k = 0; k < columns && remaining < n; ++k)
         for (size_t i = 0, row = 0; i < n; ++i)
             if (taken[i])
-                right[k * kept + row++] = right[k * n + i];
-    return kept;
+                right[k * remaining + row++] = right[k * n + i];
+    return remaining;
 }
 
 /* The general solver without precomputed blocks: for GGX, and for systems that are positive definite only
@@ -408,13 +408,13 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     const bool constrained = oswa->weights.sum_constraint;
     for (size_t i = 0; i < n; ++i)
         right[2 * n + i] = 1.0;
-    const size_t kept = drop(n, taken, matrix, right, 3);
-    if (aur_solve_positive(kept, matrix, constrained ? 3 : 2, right, NULL, NULL) != AUR_OK)
+    const size_t remaining = drop(n, taken, matrix, right, 3);
+    if (aur_solve_positive(remaining, matrix, constrained ? 3 : 2, right, NULL, NULL) != AUR_OK)
         return solve_plainly(oswa, angle, xyz, weights, error);
     for (size_t k = 0; k < 2; ++k) {
-        double *const solution = right + k * kept;
+        double *const solution = right + k * remaining;
         if (constrained)
-            aur_hold_sum(kept, solution, right + 2 * kept);
+            aur_hold_sum(remaining, solution, right + 2 * remaining);
         size_t at = 0;
         for (size_t i = 0; i < n; ++i) {
             weights[k * n + i] = taken[i] ? solution[at] : 0.0;

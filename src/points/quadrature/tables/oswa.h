@@ -19,14 +19,14 @@ struct aur_oswa {
     double *uniform[2];      /* uniform directions of the hemisphere; owns the memory of the next three */
     double *pattern[2];      /* warped, about +z; GGX: unused. For a pattern without samples all are NULL */
     double *kernel[2];       /* count * count, lower triangle: the constant blocks; GGX: [1] is NULL */
-    double *own[2];          /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
+    double *self_z[2];       /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
     aur_potential *whole[2]; /* of each lobe about +z, unclipped; GGX: [1] is NULL */
     aur_potential_table *published_z; /* NULL: z is exact */
 };
 
-/* Checks the caller's options and copies them, with all defaults filled in, to *own, whose set is the
- * caller's and whose weights are *weights. */
-aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
+/* Checks the caller's options and copies them, with all defaults filled in, to *copy. Its `set` remains the
+ * caller's string; its `weights` points to *weights. */
+aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *copy,
                                  aur_weights_options *weights, aur_error *error);
 
 /* Without `solves` only the patterns, which suffice for reading a table of weights. */

@@ -212,13 +212,13 @@ static void mix_roughnesses(const aur_weight_table *table, size_t lobe, size_t r
         shares[2 * k + 1] = share * part;
     }
     for (size_t i = 0; i < table->size; ++i) {
-        float weight = 0.0f, known = 0.0f;
+        float weight = 0.0f, shown = 0.0f;
         const bool visible = i < first || aur_oswa_height(table->oswa, view, turns[1], i - first) >= 0.0;
         for (size_t k = 0; k < 4 && visible; ++k) {
             weight += shares[k] * rows[k][i];
-            known += rows[k][i] != 0.0f ? shares[k] : 0.0f;
+            shown += rows[k][i] != 0.0f ? shares[k] : 0.0f;
         }
-        weights[i] = known > 0.0f ? weight / known : 0.0f;
+        weights[i] = shown > 0.0f ? weight / shown : 0.0f;
         sum += weights[i];
     }
     for (size_t i = 0; i < table->size && sum > 0.0f; ++i)

@@ -196,8 +196,8 @@ static aur_result build_masses(const aur_weight_table *table, size_t roughness, 
 }
 
 /* The rows at angle number `place % angle_count` of one roughness. */
-static aur_result build_angle(const aur_weight_table *table, size_t place, aur_error *error) {
-    const size_t index = place % table->angle_count, roughness = place / table->angle_count;
+static aur_result build_angle(const aur_weight_table *table, size_t item, aur_error *error) {
+    const size_t index = item % table->angle_count, roughness = item / table->angle_count;
     const size_t doubles = aur_oswa_scratch(table->oswa);
     double *const scratch = malloc((doubles + 2 * table->size) * sizeof *scratch + 2 * table->size);
     if (scratch == NULL)
@@ -238,9 +238,9 @@ static aur_result build_one(void *context, size_t index) {
 }
 
 /* The results of an angle of one roughness, piece by piece: its masses, and its rows of each rotation. */
-static void each_piece(const aur_weight_table *table, size_t place,
+static void each_piece(const aur_weight_table *table, size_t item,
                        void (*move)(void *bytes, size_t size, void *data), void *bytes) {
-    const size_t index = place % table->angle_count, roughness = place / table->angle_count;
+    const size_t index = item % table->angle_count, roughness = item / table->angle_count;
     const bool last = index + 1 == table->angle_count;
     move(bytes, (last ? 1 : AUR_WEIGHT_TABLE_MASS_STEPS) * sizeof *table->masses,
          table->masses + roughness * aur_weight_table_mass_count(table) +
@@ -266,13 +266,13 @@ static void get(void *bytes, size_t size, void *data) {
     aur_bytes_get(bytes, size, data);
 }
 
-static bool pack_angle(void *context, size_t place, aur_bytes *bytes) {
-    each_piece(((const build *)context)->table, place, put, bytes);
+static bool pack_angle(void *context, size_t item, aur_bytes *bytes) {
+    each_piece(((const build *)context)->table, item, put, bytes);
     return true;
 }
 
-static aur_result unpack_angle(void *context, size_t place, aur_bytes_reader *bytes) {
-    each_piece(((const build *)context)->table, place, get, bytes);
+static aur_result unpack_angle(void *context, size_t item, aur_bytes_reader *bytes) {
+    each_piece(((const build *)context)->table, item, get, bytes);
     return bytes->failed ? AUR_ERROR_INTERNAL : AUR_OK;
 }
 

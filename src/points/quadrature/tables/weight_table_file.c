@@ -292,19 +292,20 @@ static aur_result read_header(reader *in, size_t size, header *h) {
 
 /* Fails with the first option that differs from the expected one. */
 static aur_result compare(reader *in, const header *has, const aur_oswa_options *expected) {
-    header wanted = {.version = VERSION};
-    const aur_result result = aur_oswa_options_read(expected, &wanted.options, &wanted.weights, in->error);
+    header required = {.version = VERSION};
+    const aur_result result =
+        aur_oswa_options_read(expected, &required.options, &required.weights, in->error);
     if (result != AUR_OK)
         return result;
     for (size_t i = 0; i < LINE_COUNT; ++i) {
         char a[VALUE_CAPACITY], b[VALUE_CAPACITY];
         const char *const quote = lines[i].type == TEXT ? "'" : "";
         if (lines[i].what != NULL &&
-            strcmp(value_text(&lines[i], has, 17, a), value_text(&lines[i], &wanted, 17, b)) != 0)
+            strcmp(value_text(&lines[i], has, 17, a), value_text(&lines[i], &required, 17, b)) != 0)
             return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
                                "the table was built with another %s: %s%s%s, not %s%s%s", lines[i].what,
                                quote, value_text(&lines[i], has, 6, a), quote, quote,
-                               value_text(&lines[i], &wanted, 6, b), quote);
+                               value_text(&lines[i], &required, 6, b), quote);
     }
     return AUR_OK;
 }

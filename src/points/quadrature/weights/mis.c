@@ -20,12 +20,12 @@ static double drawn_density(const aur_strategy *strategy, const double direction
 
 /* The MIS weight of the strategy divided by its pdf: h/(n q). */
 static double share(aur_mis_heuristic heuristic, size_t strategy_count, const aur_strategy *strategies,
-                    size_t own, const double direction[3]) {
+                    size_t drawn_by, const double direction[3]) {
     double all = 0.0, mine = 0.0;
     for (size_t t = 0; t < strategy_count; ++t) {
         const double drawn = (double)strategies[t].count * drawn_density(&strategies[t], direction);
         all += heuristic == AUR_MIS_POWER ? drawn * drawn : drawn;
-        mine = t == own ? drawn : mine;
+        mine = t == drawn_by ? drawn : mine;
     }
     return (heuristic == AUR_MIS_POWER ? mine : 1.0) / all;
 }
@@ -65,9 +65,9 @@ aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, c
         for (size_t i = 0; i < strategies[t].count; ++i, ++at) {
             const double *const u = xyz + 3 * at;
             double value;
-            const aur_result known = aur_potential_density(target, 1, u, &value, error);
-            if (known != AUR_OK)
-                return known;
+            const aur_result evaluated = aur_potential_density(target, 1, u, &value, error);
+            if (evaluated != AUR_OK)
+                return evaluated;
             weights[at] = value == 0.0 ? 0.0 : value * share(heuristic, strategy_count, strategies, t, u);
             if (!isfinite(weights[at]))
                 return aur_fail(error, AUR_ERROR_ARGUMENT,

@@ -12,7 +12,7 @@
 #include "points/quadrature/potential/potential.h"
 
 /* Samples whose kernel values differ by less than the rounding of the matrix are coincident. */
-static const double same_place = 1e-13;
+static const double coincident = 1e-13;
 
 typedef struct weights_system {
     aur_weights_options options;
@@ -59,7 +59,7 @@ static aur_result allocate(weights_system *system, size_t count, aur_error *erro
 static bool assemble(weights_system *system) {
     const size_t n = system->count;
     const aur_columns columns = aur_columns_split(n, system->xyz, system->columns);
-    const double limit = system->rule->top * (1.0 - same_place);
+    const double limit = system->rule->top * (1.0 - coincident);
     bool shared = false;
     system->pair_sum = 0.0;
     for (size_t i = 0; i < n; ++i) {
@@ -95,7 +95,7 @@ static bool assemble(weights_system *system) {
  * the objective. The first sample represents its group. */
 static void merge(weights_system *system) {
     const size_t n = system->count;
-    const double limit = system->rule->top * (1.0 - same_place);
+    const double limit = system->rule->top * (1.0 - coincident);
     size_t *const first = system->first;
     size_t groups = 0;
     for (size_t i = 0; i < n; ++i) {
@@ -193,16 +193,16 @@ aur_result aur_weights_solve(size_t count, const double *xyz, size_t potential_c
                              const aur_potential *const *potentials, const aur_weights_options *options,
                              size_t capacity, double *weights, aur_weights_report *reports, double *condition,
                              aur_error *error) {
-    aur_weights_options own = {.size = sizeof own};
-    aur_weights_options_init(&own, NULL);
-    aur_result result = aur_weights_options_read(options, &own, error);
+    aur_weights_options copy = {.size = sizeof copy};
+    aur_weights_options_init(&copy, NULL);
+    aur_result result = aur_weights_options_read(options, &copy, error);
     if (result == AUR_OK)
         result = check(count, xyz, potential_count, potentials, error);
     if (result == AUR_OK)
         result = aur_check_capacity(count, capacity / potential_count, error);
     if (result != AUR_OK)
         return result;
-    weights_system system = {.options = own,
+    weights_system system = {.options = copy,
                              .potential_count = potential_count,
                              .potentials = potentials,
                              .rule = &potentials[0]->rule};
@@ -211,7 +211,7 @@ aur_result aur_weights_solve(size_t count, const double *xyz, size_t potential_c
         result = prepare(&system, count, xyz, error);
     if (result == AUR_OK)
         result = aur_solve_positive(system.group_count, system.matrix,
-                                    potential_count + (own.sum_constraint ? 1 : 0), system.right, condition,
+                                    potential_count + (copy.sum_constraint ? 1 : 0), system.right, condition,
                                     error);
     if (result == AUR_OK)
         memset(weights, 0, potential_count * count * sizeof *weights);
@@ -240,19 +240,20 @@ static aur_result weigh(const aur_directions_options *points, const aur_weights_
 
 aur_result aur_rule_make(const aur_rule_options *options, size_t capacity, double *xyz, double *weights,
                          aur_error *error) {
-    aur_rule_options own = {.set = NULL};
+    aur_rule_options copy = {.set = NULL};
     aur_directions_options points = {.size = sizeof points};
     aur_directions_options_init(0, AUR_DOMAIN_HEMISPHERE, &points, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_rule_options", error);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_rule_options", error);
     if (result == AUR_OK)
-        result = aur_options_read(own.points, sizeof points, &points, "aur_directions_options", error);
+        result = aur_options_read(copy.points, sizeof points, &points, "aur_directions_options", error);
     if (result == AUR_OK && points.count == 0)
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "a rule needs at least one sample");
     if (result == AUR_OK)
         result = aur_check_capacity((size_t)points.count, capacity / 3, error);
     if (result == AUR_OK)
-        result = aur_points_of_set(own.set != NULL ? own.set : aur_set_default, &points, xyz, weights, error);
-    return result == AUR_OK && own.optimal ? weigh(&points, own.weights, xyz, weights, error) : result;
+        result =
+            aur_points_of_set(copy.set != NULL ? copy.set : aur_set_default, &points, xyz, weights, error);
+    return result == AUR_OK && copy.optimal ? weigh(&points, copy.weights, xyz, weights, error) : result;
 }
 
 aur_result aur_rule_options_init(const aur_directions_options *points, aur_rule_options *options,

@@ -34,9 +34,9 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
                                 double *value, aur_error *error) {
     if (count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a worst-case error needs at least one point");
-    aur_worst_case_options own = {.size = sizeof own};
-    aur_worst_case_options_init(&own, NULL);
-    aur_result result = aur_options_read(given, sizeof own, &own, "aur_worst_case_options", error);
+    aur_worst_case_options copy = {.size = sizeof copy};
+    aur_worst_case_options_init(&copy, NULL);
+    aur_result result = aur_options_read(given, sizeof copy, &copy, "aur_worst_case_options", error);
     if (result == AUR_OK)
         result = aur_check_directions(count, xyz, error);
     if (result != AUR_OK)
@@ -56,10 +56,10 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
                     storage + 5 * count};
     const aur_parallel_share share = {
         .slices = {{sum.blocks, sizeof *sum.blocks, block_count * sizeof *sum.blocks}}};
-    const aur_parallel_options options = {.threads = own.threads,
+    const aur_parallel_options options = {.threads = copy.threads,
                                           .share = &share,
                                           .what = "worst-case error",
-                                          .progress = own.progress,
+                                          .progress = copy.progress,
                                           .triangular = true};
     result = aur_parallel_for(&options, block_count, add_block, &sum, error);
     if (result == AUR_OK) {

@@ -156,10 +156,10 @@ static bool cut_by(polyhedron *p, const double *q, const double *y, double squar
 static aur_result cell_radius(const cells *work, size_t index, polyhedron *p, double *radius) {
     const size_t count = work->points->count;
     const double *const q = aur_point_at(work->points, index);
-    for (size_t wanted = FIRST_NEIGHBOURS;; wanted *= 4) {
-        aur_found *const found = malloc(wanted * sizeof *found);
+    for (size_t requested = FIRST_NEIGHBOURS;; requested *= 4) {
+        aur_found *const found = malloc(requested * sizeof *found);
         bool made = found != NULL && start(p);
-        const size_t near = made ? aur_tree_find(work->tree, q, wanted, found) : 0;
+        const size_t near = made ? aur_tree_find(work->tree, q, requested, found) : 0;
         for (size_t n = 0; n < near && made; ++n) {
             /* The opposite cuts nothing off; a coincident rotation shares the cell. */
             if (found[n].square > 1e-28 && found[n].square < 4.0 - 1e-12)

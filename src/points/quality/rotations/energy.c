@@ -83,11 +83,11 @@ aur_result aur_rotation_energy(const aur_measure_request *request, double *squar
     double sum = 0.0;
     const aur_result result = aur_rotation_pair_sum(request, both_distances, 0.0, &sum, error);
     const double mass = mass_of(request->points);
-    double own = 0.0;
+    double self_sum = 0.0;
     for (size_t i = 0; i < request->points->count / 2; ++i) {
         const double weight = aur_weight_at(request->points, i) / mass;
-        own += weight * weight;
+        self_sum += weight * weight;
     }
-    *square = fmax(64.0 / (15.0 * AUR_PI) - sum - own, 0.0);
+    *square = fmax(64.0 / (15.0 * AUR_PI) - sum - self_sum, 0.0);
     return result;
 }

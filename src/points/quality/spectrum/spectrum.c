@@ -90,9 +90,9 @@ static aur_result fill_row(void *context, size_t kx) {
 }
 
 static aur_result make_periodogram(const aur_measure_request *request, periodogram *p, aur_error *error) {
-    const double wanted = ceil(2.0 * sqrt((double)request->points->count));
+    const double target = ceil(2.0 * sqrt((double)request->points->count));
     double limit;
-    aur_result result = aur_measure_number(request, 1.0, 16384.0, fmin(wanted, 16384.0), &limit, error);
+    aur_result result = aur_measure_number(request, 1.0, 16384.0, fmin(target, 16384.0), &limit, error);
     if (result != AUR_OK)
         return result;
     *p = (periodogram){request->points, (size_t)limit, NULL};

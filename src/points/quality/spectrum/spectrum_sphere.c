@@ -114,9 +114,9 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
     static const char *const columns[] = {"degree", "power"};
     const bool fast = aur_gridded_allowed(request);
     const double most = fast ? AUR_BASIS_DEGREE_MAX : LARGEST_DEGREE;
-    const double wanted = fmin(ceil(4.0 * sqrt((double)request->points->count)), most);
+    const double target = fmin(ceil(4.0 * sqrt((double)request->points->count)), most);
     double number;
-    aur_result result = aur_measure_number(request, 1.0, LARGEST_DEGREE, wanted, &number, error);
+    aur_result result = aur_measure_number(request, 1.0, LARGEST_DEGREE, target, &number, error);
     if (result != AUR_OK)
         return result;
     const size_t limit = (size_t)number;

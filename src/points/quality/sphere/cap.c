@@ -65,8 +65,8 @@ static size_t bin_of(double angle, size_t bins) {
 }
 
 static void raise_best(_Atomic double *best, double value) {
-    double known = atomic_load_explicit(best, memory_order_relaxed);
-    while (value > known && !atomic_compare_exchange_weak(best, &known, value))
+    double best_so_far = atomic_load_explicit(best, memory_order_relaxed);
+    while (value > best_so_far && !atomic_compare_exchange_weak(best, &best_so_far, value))
         ;
 }
 

@@ -60,11 +60,11 @@ static aur_result try_centres(void *context, size_t index) {
 }
 
 static aur_result cap_bound(const aur_measure_request *request, double *value, aur_error *error) {
-    double wanted;
-    aur_result result = aur_measure_number(request, 1.0, 1e9, 4096.0, &wanted, error);
+    double target;
+    aur_result result = aur_measure_number(request, 1.0, 1e9, 4096.0, &target, error);
     if (result != AUR_OK)
         return result;
-    const size_t count = (size_t)wanted;
+    const size_t count = (size_t)target;
     const size_t items = (count + CENTRES_PER_ITEM - 1) / CENTRES_PER_ITEM;
     aur_axes axes;
     centres work = {&axes, count, aur_arena_allocate(request->arena, items * sizeof *work.best)};

@@ -71,10 +71,10 @@ typedef struct cell_work {
 } cell_work;
 
 /* Cuts the cell of a point by its neighbours `near`; *coincident is the number of coincident points. */
-static bool cut_cell(const cells *work, const cell_frame *frame, cell_work *own, size_t *coincident) {
+static bool cut_cell(const cells *work, const cell_frame *frame, cell_work *scratch, size_t *coincident) {
     const aur_points_view *const points = work->grid->points;
-    aur_cell *const cell = &own->cell;
-    if (!aur_cell_begin(cell, own->near.count + 1 + TANGENTS))
+    aur_cell *const cell = &scratch->cell;
+    if (!aur_cell_begin(cell, scratch->near.count + 1 + TANGENTS))
         return false;
     static const double up[3] = {0.0, 0.0, 1.0};
     if (work->rim != NULL)
@@ -82,8 +82,8 @@ static bool cut_cell(const cells *work, const cell_frame *frame, cell_work *own,
     else if (points->domain == AUR_DOMAIN_HEMISPHERE)
         cut(cell, frame, up, fmax(frame->point[2], 0.0));
     *coincident = 1;
-    for (size_t n = 0; n < own->near.count; ++n) {
-        const aur_neighbour *const item = &own->near.items[n];
+    for (size_t n = 0; n < scratch->near.count; ++n) {
+        const aur_neighbour *const item = &scratch->near.items[n];
         const double *const y = points->coordinates + 3 * item->index;
         if (item->square < 1e-28) {
             ++*coincident;
@@ -106,9 +106,9 @@ static void keep_corners(const cells *work, size_t index, const cell_frame *fram
 }
 
 /* The area is NAN if a cell of a cap is not a polygon. */
-static bool find_figures(const cells *work, const cell_frame *frame, cell_work *own, size_t coincident,
+static bool find_figures(const cells *work, const cell_frame *frame, cell_work *scratch, size_t coincident,
                          aur_voronoi_cell *found) {
-    const aur_cell *const cell = &own->cell;
+    const aur_cell *const cell = &scratch->cell;
     if (work->rim == NULL) {
         *found =
             (aur_voronoi_cell){aur_cell_area(cell) / (double)coincident, aur_cell_radius(cell), cell->count};
@@ -117,28 +117,29 @@ static bool find_figures(const cells *work, const cell_frame *frame, cell_work *
     *found = (aur_voronoi_cell){.area = NAN};
     if (cell->count < 3)
         return true;
-    if (!aur_array_reserve(&own->corners, &own->corner_capacity, cell->count, sizeof *own->corners))
+    if (!aur_array_reserve(&scratch->corners, &scratch->corner_capacity, cell->count,
+                           sizeof *scratch->corners))
         return false;
     for (size_t i = 0; i < cell->count; ++i)
-        direction_of(frame, cell->sides[i].corner, own->corners[i]);
+        direction_of(frame, cell->sides[i].corner, scratch->corners[i]);
     const aur_cap_part part =
-        aur_cap_part_of(work->rim, frame->point, cell->count, (const double(*)[3])own->corners);
+        aur_cap_part_of(work->rim, frame->point, cell->count, (const double(*)[3])scratch->corners);
     *found = (aur_voronoi_cell){part.area / (double)coincident, part.radius, part.sides};
     return true;
 }
 
-static aur_result find_cell(const cells *work, size_t index, cell_work *own) {
+static aur_result find_cell(const cells *work, size_t index, cell_work *scratch) {
     const cell_frame frame = frame_at(work->grid->points->coordinates + 3 * index);
     for (double angle = 3.0 * work->grid->spacing;; angle *= 2.0) {
-        const aur_result result = aur_sphere_grid_near(work->grid, index, angle, &own->near);
+        const aur_result result = aur_sphere_grid_near(work->grid, index, angle, &scratch->near);
         size_t coincident;
-        if (result != AUR_OK || !cut_cell(work, &frame, own, &coincident))
+        if (result != AUR_OK || !cut_cell(work, &frame, scratch, &coincident))
             return AUR_ERROR_MEMORY;
-        if (2.0 * aur_cell_radius(&own->cell) > angle && angle < AUR_PI)
+        if (2.0 * aur_cell_radius(&scratch->cell) > angle && angle < AUR_PI)
             continue;
         if (work->rows != NULL)
-            keep_corners(work, index, &frame, &own->cell);
-        else if (!find_figures(work, &frame, own, coincident, &work->result[index]))
+            keep_corners(work, index, &frame, &scratch->cell);
+        else if (!find_figures(work, &frame, scratch, coincident, &work->result[index]))
             return AUR_ERROR_MEMORY;
         return AUR_OK;
     }
@@ -146,14 +147,14 @@ static aur_result find_cell(const cells *work, size_t index, cell_work *own) {
 
 static aur_result find_cells(void *context, size_t item) {
     const cells *const work = context;
-    cell_work own = {0};
+    cell_work scratch = {0};
     aur_result result = AUR_OK;
     for (size_t i = item * CELLS_PER_ITEM;
          i < (item + 1) * CELLS_PER_ITEM && i < work->count && result == AUR_OK; ++i)
-        result = find_cell(work, i, &own);
-    aur_cell_release(&own.cell);
-    free(own.near.items);
-    free(own.corners);
+        result = find_cell(work, i, &scratch);
+    aur_cell_release(&scratch.cell);
+    free(scratch.near.items);
+    free(scratch.corners);
     return result;
 }
 

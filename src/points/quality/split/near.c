@@ -9,13 +9,13 @@
 enum { BANDS_WITHIN = 3, POINTS_PER_ITEM = 512 };
 
 /* The position of a point, for sorting. */
-typedef struct place {
+typedef struct position {
     double phi, theta;
     size_t band, index;
-} place;
+} position;
 
 static int in_order(const void *a, const void *b) {
-    const place *const p = a, *const q = b;
+    const position *const p = a, *const q = b;
     if (p->band != q->band)
         return p->band < q->band ? -1 : 1;
     if (p->phi != q->phi)
@@ -28,16 +28,16 @@ static size_t band_of(const aur_near_points *near, double theta) {
     return band < (double)near->band_count ? (size_t)band : near->band_count - 1;
 }
 
-static void fill(const aur_points_view *points, const place *places, aur_near_points *near) {
+static void fill(const aur_points_view *points, const position *positions, aur_near_points *near) {
     for (size_t k = 0; k < points->count; ++k) {
-        const double *const x = points->coordinates + 3 * places[k].index;
-        near->theta[k] = places[k].theta;
-        near->phi[k] = places[k].phi;
+        const double *const x = points->coordinates + 3 * positions[k].index;
+        near->theta[k] = positions[k].theta;
+        near->phi[k] = positions[k].phi;
         near->x[k] = x[0];
         near->y[k] = x[1];
         near->z[k] = x[2];
-        near->w[k] = aur_weight_at(points, places[k].index);
-        ++near->first[places[k].band + 1];
+        near->w[k] = aur_weight_at(points, positions[k].index);
+        ++near->first[positions[k].band + 1];
     }
     for (size_t b = 0; b < near->band_count; ++b)
         near->first[b + 1] += near->first[b];
@@ -51,9 +51,9 @@ aur_result aur_near_points_create(const aur_points_view *points, double reach, a
     near->width = AUR_PI / (double)near->band_count;
     near->first = aur_arena_allocate(arena, (near->band_count + 1) * sizeof *near->first);
     near->theta = aur_arena_allocate(arena, 6 * padded * sizeof *near->theta);
-    place *const places = malloc(count * sizeof *places);
-    if (near->first == NULL || near->theta == NULL || places == NULL) {
-        free(places);
+    position *const positions = malloc(count * sizeof *positions);
+    if (near->first == NULL || near->theta == NULL || positions == NULL) {
+        free(positions);
         return aur_fail_memory(error);
     }
     near->phi = near->theta + padded;
@@ -64,11 +64,11 @@ aur_result aur_near_points_create(const aur_points_view *points, double reach, a
     for (size_t i = 0; i < count; ++i) {
         const double *const x = points->coordinates + 3 * i;
         const double theta = atan2(hypot(x[0], x[1]), x[2]);
-        places[i] = (place){atan2(x[1], x[0]), theta, band_of(near, theta), i};
+        positions[i] = (position){atan2(x[1], x[0]), theta, band_of(near, theta), i};
     }
-    qsort(places, count, sizeof *places, in_order);
-    fill(points, places, near);
-    free(places);
+    qsort(positions, count, sizeof *positions, in_order);
+    fill(points, positions, near);
+    free(positions);
     return AUR_OK;
 }
 

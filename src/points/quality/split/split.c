@@ -240,14 +240,14 @@ aur_result aur_split_pairs(const aur_measure_request *request, double exponent, 
         smooth += p.coefficients[l] * (powers[l] / (m.sum * m.sum));
         largest += fabs(p.coefficients[l]);
     }
-    const double own = aur_split_smooth(&p.kernel, 0.0) * m.squares / (m.sum * m.sum);
+    const double self_term = aur_split_smooth(&p.kernel, 0.0) * m.squares / (m.sum * m.sum);
     rest *= 2.0 / (m.sum * m.sum);
     *mean = (aur_split_mean){.mean = exponent < 2.0 ? whole_coefficient(exponent, 0, 0.0) : 0.0};
-    mean->excess = smooth - own + rest - p.mean_of_rest + (exponent < 2.0 ? 0.0 : p.coefficients[0]);
+    mean->excess = smooth - self_term + rest - p.mean_of_rest + (exponent < 2.0 ? 0.0 : p.coefficients[0]);
     /* The error bound: truncation, the transform by Cauchy's inequality, and rounding. */
     const double error_of_sums = AUR_WINDOW_ERROR * sqrt(spread);
     mean->bound = spread * (p.beyond + p.kernel.rest) +
                   error_of_sums * (2.0 * sqrt(fabs(smooth) * largest) + error_of_sums * largest) +
-                  4.0 * DBL_EPSILON * (fabs(smooth) + fabs(own) + fabs(rest) + fabs(p.mean_of_rest));
+                  4.0 * DBL_EPSILON * (fabs(smooth) + fabs(self_term) + fabs(rest) + fabs(p.mean_of_rest));
     return AUR_OK;
 }

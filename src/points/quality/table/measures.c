@@ -42,13 +42,13 @@ static aur_result find_row(const char *metric, const aur_measure_row **row, cons
         return result;
     *row = (const aur_measure_row *)rows[index];
     *parameter = metric[length] == ':' ? metric + length + 1 : NULL;
-    const char *const wanted = (*row)->description.parameter;
-    if (*parameter != NULL && wanted == NULL)
+    const char *const syntax = (*row)->description.parameter;
+    if (*parameter != NULL && syntax == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' takes no parameter, not '%s'", name,
                         *parameter);
-    if (wanted != NULL && wanted[0] == ':' && (*parameter == NULL || (*parameter)[0] == '\0'))
+    if (syntax != NULL && syntax[0] == ':' && (*parameter == NULL || (*parameter)[0] == '\0'))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs a parameter: %s%s", name, name,
-                        wanted);
+                        syntax);
     return AUR_OK;
 }
 
@@ -134,20 +134,20 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
                           const aur_measure_options *options, prepared *p, aur_error *error) {
     aur_points_view *const points = &p->points;
     *p = (prepared){.request = {.points = points, .arena = &p->arena, .bound = &p->bound}};
-    aur_measure_options *const own = &p->request.options;
-    own->size = sizeof(aur_measure_options);
-    aur_measure_options_init(own, NULL);
-    aur_result result = aur_options_read(options, sizeof *own, own, "aur_measure_options", error);
-    if (result == AUR_OK && !(own->accuracy >= 0.0 && own->accuracy < 1.0))
+    aur_measure_options *const filled = &p->request.options;
+    filled->size = sizeof(aur_measure_options);
+    aur_measure_options_init(filled, NULL);
+    aur_result result = aur_options_read(options, sizeof *filled, filled, "aur_measure_options", error);
+    if (result == AUR_OK && !(filled->accuracy >= 0.0 && filled->accuracy < 1.0))
         result =
             aur_fail(error, AUR_ERROR_ARGUMENT,
-                     "the accuracy must be 0 (exact) or a relative error below 1, not %g", own->accuracy);
+                     "the accuracy must be 0 (exact) or a relative error below 1, not %g", filled->accuracy);
     if (result == AUR_OK)
         result = find_row(metric, &p->row, &p->request.parameter, error);
     if (result == AUR_OK)
         result = aur_points_view_read(given, points, error);
     if (result == AUR_OK)
-        result = aur_measure_check(p->row, points, own, error);
+        result = aur_measure_check(p->row, points, filled, error);
     if (result != AUR_OK)
         return result;
     p->request.variant = p->row->variant;

@@ -57,12 +57,12 @@ aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domai
     if (domain != AUR_DOMAIN_HEMISPHERE && (ggx || density->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "areas of cells of the whole sphere and of axes are for the uniform lobe");
-    aur_measure_options own = {.size = sizeof own};
-    aur_measure_options_init(&own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_measure_options", error);
+    aur_measure_options copy = {.size = sizeof copy};
+    aur_measure_options_init(&copy, NULL);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_measure_options", error);
     if (result != AUR_OK)
         return result;
-    if (own.cap_degrees > 0.0 && (ggx || density->exponent != 0.0))
+    if (copy.cap_degrees > 0.0 && (ggx || density->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe is for the whole hemisphere, not for a cap");
     if (capacity < count)
         return aur_fail(error, AUR_ERROR_CAPACITY, "there is room for %zu weights, not for %zu", capacity,

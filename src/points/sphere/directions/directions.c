@@ -108,14 +108,14 @@ static aur_result refuse_scramble(const char *set, aur_scramble scramble, aur_er
 
 static aur_result open_square(const char *set, const aur_directions_options *options, uint64_t count,
                               aur_scramble scramble, aur_directions *directions, aur_error *error) {
-    const aur_pointset_options wanted = {.size = sizeof wanted,
-                                         .count = count,
-                                         .dimension = 2,
-                                         .scramble = scramble,
-                                         .seed = options->seed,
-                                         .warnings = options->warnings};
+    const aur_pointset_options requested = {.size = sizeof requested,
+                                            .count = count,
+                                            .dimension = 2,
+                                            .scramble = scramble,
+                                            .seed = options->seed,
+                                            .warnings = options->warnings};
     directions->weighted = directions->weighted || directions->map == AUR_MAP_POLAR;
-    const aur_result result = aur_pointset_create(set, &wanted, &directions->square, error);
+    const aur_result result = aur_pointset_create(set, &requested, &directions->square, error);
     if (result == AUR_OK)
         directions->size = aur_pointset_size(directions->square);
     return result;
@@ -189,17 +189,17 @@ static aur_result open_set(const char *set, const aur_directions_options *option
 aur_result aur_directions_create(const char *set, const aur_directions_options *options,
                                  aur_directions **directions, aur_error *error) {
     *directions = NULL;
-    aur_directions_options own = {.size = sizeof own};
-    aur_directions_options_init(0, AUR_DOMAIN_HEMISPHERE, &own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_directions_options", error);
+    aur_directions_options copy = {.size = sizeof copy};
+    aur_directions_options_init(0, AUR_DOMAIN_HEMISPHERE, &copy, NULL);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_directions_options", error);
     if (result == AUR_OK)
-        result = check_options(&own, error);
+        result = check_options(&copy, error);
     if (result != AUR_OK)
         return result;
     aur_directions *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
-    result = open_set(set, &own, made, error);
+    result = open_set(set, &copy, made, error);
     if (result != AUR_OK) {
         aur_directions_destroy(made);
         return result;

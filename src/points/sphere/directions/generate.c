@@ -83,14 +83,14 @@ static aur_result generate_flat(const job *j, size_t dimension, bool weighted, a
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
                         "set '%s' lives on the sphere: ask for the disk, the hemisphere or the sphere",
                         j->set);
-    const aur_pointset_options wanted = {.size = sizeof wanted,
-                                         .count = j->size,
-                                         .dimension = dimension,
-                                         .scramble = j->options->scramble,
-                                         .seed = j->options->seed,
-                                         .warnings = j->options->warnings};
+    const aur_pointset_options requested = {.size = sizeof requested,
+                                            .count = j->size,
+                                            .dimension = dimension,
+                                            .scramble = j->options->scramble,
+                                            .seed = j->options->seed,
+                                            .warnings = j->options->warnings};
     aur_pointset *pointset;
-    aur_result result = aur_pointset_create(j->set, &wanted, &pointset, j->error);
+    aur_result result = aur_pointset_create(j->set, &requested, &pointset, j->error);
     if (result != AUR_OK)
         return result;
     dimension = aur_pointset_dimension(pointset);
@@ -168,13 +168,13 @@ static aur_result generate_directions(const job *j, aur_points **points) {
 }
 
 static aur_result generate_rotations(const job *j, aur_points **points) {
-    const aur_rotations_options wanted = {.size = sizeof wanted,
-                                          .count = j->size,
-                                          .scramble = j->options->scramble,
-                                          .seed = j->options->seed,
-                                          .warnings = j->options->warnings};
+    const aur_rotations_options requested = {.size = sizeof requested,
+                                             .count = j->size,
+                                             .scramble = j->options->scramble,
+                                             .seed = j->options->seed,
+                                             .warnings = j->options->warnings};
     aur_rotations *rotations;
-    aur_result result = aur_rotations_create(j->set, &wanted, &rotations, j->error);
+    aur_result result = aur_rotations_create(j->set, &requested, &rotations, j->error);
     if (result != AUR_OK)
         return result;
     result = allocate(j, aur_rotations_size(rotations), 4, false, points);

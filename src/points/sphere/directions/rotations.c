@@ -39,13 +39,13 @@ static aur_result open_set(const char *set, const aur_rotations_options *options
                         aur_scramble_name(scramble) != NULL ? aur_scramble_name(scramble) : "?");
     if (rotations->native != NULL)
         return aur_native_open(rotations->native, set, &request, &rotations->native_data, error);
-    const aur_pointset_options wanted = {.size = sizeof wanted,
-                                         .count = options->count,
-                                         .dimension = 3,
-                                         .scramble = scramble,
-                                         .seed = options->seed,
-                                         .warnings = options->warnings};
-    result = aur_pointset_create(set, &wanted, &rotations->cube, error);
+    const aur_pointset_options requested = {.size = sizeof requested,
+                                            .count = options->count,
+                                            .dimension = 3,
+                                            .scramble = scramble,
+                                            .seed = options->seed,
+                                            .warnings = options->warnings};
+    result = aur_pointset_create(set, &requested, &rotations->cube, error);
     if (result != AUR_OK)
         return result;
     rotations->size = aur_pointset_size(rotations->cube);
@@ -58,15 +58,15 @@ static aur_result open_set(const char *set, const aur_rotations_options *options
 aur_result aur_rotations_create(const char *set, const aur_rotations_options *options,
                                 aur_rotations **rotations, aur_error *error) {
     *rotations = NULL;
-    aur_rotations_options own = {.size = sizeof own};
-    aur_rotations_options_init(0, &own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_rotations_options", error);
+    aur_rotations_options copy = {.size = sizeof copy};
+    aur_rotations_options_init(0, &copy, NULL);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_rotations_options", error);
     if (result != AUR_OK)
         return result;
     aur_rotations *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
-    result = open_set(set, &own, made, error);
+    result = open_set(set, &copy, made, error);
     if (result == AUR_OK)
         *rotations = made;
     else

@@ -68,15 +68,16 @@ aur_result aur_native_open(const aur_native_set *native, const char *set, const 
 
 aur_result aur_set_check_name(const char *set, aur_error *error) {
     const aur_names all = aur_names_of_table(&aur_set_table);
-    char wanted[NAME_CAPACITY];
+    char requested[NAME_CAPACITY];
     const size_t length = strcspn(set, ":");
-    snprintf(wanted, sizeof wanted, "%.*s", (int)(length < sizeof wanted ? length : sizeof wanted - 1), set);
-    if (aur_names_find(all, wanted) < all.count)
+    snprintf(requested, sizeof requested, "%.*s",
+             (int)(length < sizeof requested ? length : sizeof requested - 1), set);
+    if (aur_names_find(all, requested) < all.count)
         return AUR_OK;
-    const char *const nearest = aur_names_nearest(all, wanted);
+    const char *const nearest = aur_names_nearest(all, requested);
     if (nearest != NULL)
-        return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s'; did you mean '%s'?", wanted, nearest);
-    return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s': 'aureole sets' lists them", wanted);
+        return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s'; did you mean '%s'?", requested, nearest);
+    return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s': 'aureole sets' lists them", requested);
 }
 
 /* Writes large sizes as 2^k, 2^k-1 and 2^k-2. */

@@ -55,7 +55,7 @@ typedef struct candidates {
     uint64_t *indices;
 } candidates;
 
-static void offer(const aur_sphere_lattice *lattice, const double *q, double index, candidates *kept) {
+static void offer(const aur_sphere_lattice *lattice, const double *q, double index, candidates *nearest) {
     const uint64_t j = (uint64_t)index;
     const double down = (index + 0.5) * lattice->step;
     const double radius = sqrt(down * (2.0 - down));
@@ -65,20 +65,20 @@ static void offer(const aur_sphere_lattice *lattice, const double *q, double ind
     const double y = radius * sine - q[1];
     const double z = (1.0 - down) - q[2];
     const double distance = x * x + y * y + z * z;
-    size_t at = kept->count;
-    while (at > 0 && (distance < kept->distances[at - 1] ||
-                      (distance == kept->distances[at - 1] && j < kept->indices[at - 1])))
+    size_t at = nearest->count;
+    while (at > 0 && (distance < nearest->distances[at - 1] ||
+                      (distance == nearest->distances[at - 1] && j < nearest->indices[at - 1])))
         --at;
-    if (at == kept->capacity)
+    if (at == nearest->capacity)
         return;
-    if (kept->count < kept->capacity)
-        ++kept->count;
-    for (size_t i = kept->count - 1; i > at; --i) {
-        kept->distances[i] = kept->distances[i - 1];
-        kept->indices[i] = kept->indices[i - 1];
+    if (nearest->count < nearest->capacity)
+        ++nearest->count;
+    for (size_t i = nearest->count - 1; i > at; --i) {
+        nearest->distances[i] = nearest->distances[i - 1];
+        nearest->indices[i] = nearest->indices[i - 1];
     }
-    kept->distances[at] = distance;
-    kept->indices[at] = j;
+    nearest->distances[at] = distance;
+    nearest->indices[at] = j;
 }
 
 /* An interval of real numbers, and its part in a lattice row. */
@@ -96,7 +96,7 @@ static interval steps_within(interval range, double start, double pace) {
 
 /* All points with index and azimuth in a box; the azimuth range is modulo a turn and less than one turn. */
 static void offer_box(const aur_sphere_lattice *lattice, const double *q, interval index, interval turns,
-                      int64_t k, candidates *kept) {
+                      int64_t k, candidates *nearest) {
     const double f0 = aur_sphere_lattice_vectors[0][k];
     const double f1 = aur_sphere_lattice_vectors[0][k + 1];
     const double e0 = aur_sphere_lattice_vectors[1][k];
@@ -112,13 +112,13 @@ static void offer_box(const aur_sphere_lattice *lattice, const double *q, interv
         for (double i = ceil(fmax(by_index.low, by_turns.low)); i <= end; i += 1.0) {
             const double j = i * f0 + row * f1;
             if (j >= 0.0 && j < lattice->limit)
-                offer(lattice, q, j, kept);
+                offer(lattice, q, j, nearest);
         }
     }
 }
 
 /* All points within `angle` radians, and some more. */
-static void offer_cap(const aur_sphere_lattice *lattice, const double *q, double angle, candidates *kept) {
+static void offer_cap(const aur_sphere_lattice *lattice, const double *q, double angle, candidates *nearest) {
     const double across = sqrt(q[0] * q[0] + q[1] * q[1]);
     const double theta = atan2(across, q[2]);
     const double top = sin(fmax(theta - angle, 0.0) / 2.0);
@@ -129,27 +129,27 @@ static void offer_cap(const aur_sphere_lattice *lattice, const double *q, double
     const double sine = sin(angle);
     if (angle >= AUR_PI / 2.0 || theta <= angle || theta >= AUR_PI - angle || sine >= 0.999 * across) {
         for (double j = index.low; j <= index.high; j += 1.0)
-            offer(lattice, q, j, kept);
+            offer(lattice, q, j, nearest);
         return;
     }
     const double centre = atan2(q[1], q[0]) / (2.0 * AUR_PI);
     const double half = asin(sine / across) / (2.0 * AUR_PI) + 1e-12;
     offer_box(lattice, q, index, (interval){centre - half, centre + half},
-              (int64_t)aur_sphere_lattice_zone(lattice->whole, (aur_reals){across * across})[0], kept);
+              (int64_t)aur_sphere_lattice_zone(lattice->whole, (aur_reals){across * across})[0], nearest);
 }
 
 /* Starts with a cap that contains the requested number on average, and enlarges it until the last selected
  * point is inside. */
-static void find_neighbours(const aur_sphere_lattice *lattice, const double *q, candidates *kept) {
-    double wanted = (double)kept->capacity;
-    wanted += 3.0 + 2.0 * sqrt(wanted);
-    for (;; wanted *= 2.0) {
+static void find_neighbours(const aur_sphere_lattice *lattice, const double *q, candidates *nearest) {
+    double requested = (double)nearest->capacity;
+    requested += 3.0 + 2.0 * sqrt(requested);
+    for (;; requested *= 2.0) {
         /* A cap of chord r contains r^2/4 of all points. */
-        const double chord = 2.0 * sqrt(wanted / lattice->whole);
-        kept->count = 0;
-        offer_cap(lattice, q, chord < 2.0 ? 2.0 * asin(chord / 2.0) : AUR_PI, kept);
+        const double chord = 2.0 * sqrt(requested / lattice->whole);
+        nearest->count = 0;
+        offer_cap(lattice, q, chord < 2.0 ? 2.0 * asin(chord / 2.0) : AUR_PI, nearest);
         if (chord >= 2.0 ||
-            (kept->count == kept->capacity && kept->distances[kept->count - 1] <= chord * chord))
+            (nearest->count == nearest->capacity && nearest->distances[nearest->count - 1] <= chord * chord))
             return;
     }
 }
@@ -168,8 +168,8 @@ aur_result aur_fibonacci_neighbours(const aur_fibonacci_set *set, const double d
         result = check_capacity(count, capacity, error);
     if (result != AUR_OK || count == 0)
         return result;
-    candidates kept = {.capacity = count, .indices = indices};
-    find_neighbours(&lattice, direction, &kept);
+    candidates nearest = {.capacity = count, .indices = indices};
+    find_neighbours(&lattice, direction, &nearest);
     return AUR_OK;
 }
 
@@ -194,8 +194,8 @@ aur_result aur_fibonacci_nearest(const aur_fibonacci_set *set, size_t count, con
                 indices[done + i] = (uint64_t)found[i];
                 continue;
             }
-            candidates kept = {.capacity = 1, .indices = indices + done + i};
-            find_neighbours(&lattice, xyz + 3 * (done + i), &kept);
+            candidates nearest = {.capacity = 1, .indices = indices + done + i};
+            find_neighbours(&lattice, xyz + 3 * (done + i), &nearest);
         }
     }
     return AUR_OK;

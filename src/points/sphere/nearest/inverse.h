@@ -54,6 +54,6 @@ aur_result aur_tree_create(size_t dimension, size_t count, size_t stride, const 
                            aur_tree **tree, aur_error *error);
 void aur_tree_destroy(aur_tree *tree); /* NULL is allowed */
 
-/* The `wanted` points nearest to `query`, or all if there are fewer, nearest first, ties by index; returns
+/* The `requested` points nearest to `query`, or all if there are fewer, nearest first, ties by index; returns
  * their number. */
-size_t aur_tree_find(const aur_tree *tree, const double *query, size_t wanted, aur_found *found);
+size_t aur_tree_find(const aur_tree *tree, const double *query, size_t requested, aur_found *found);

@@ -101,24 +101,24 @@ static double distance_of(aur_domain domain, double square) {
 static void keep(const batch *b, size_t query, size_t count, const aur_found *found) {
     const size_t points = b->nearest->count;
     size_t *const indices = b->indices + query * b->neighbours;
-    size_t kept = 0;
-    for (size_t f = 0; f < count && kept < b->neighbours; ++f) {
+    size_t selected = 0;
+    for (size_t f = 0; f < count && selected < b->neighbours; ++f) {
         const size_t index = found[f].index % points;
-        bool known = false;
-        for (size_t k = 0; k < kept && b->nearest->ends == 2; ++k)
-            known |= indices[k] == index;
-        if (known)
+        bool duplicate = false;
+        for (size_t k = 0; k < selected && b->nearest->ends == 2; ++k)
+            duplicate |= indices[k] == index;
+        if (duplicate)
             continue;
         if (b->distances != NULL)
-            b->distances[query * b->neighbours + kept] = distance_of(b->nearest->domain, found[f].square);
-        indices[kept++] = index;
+            b->distances[query * b->neighbours + selected] = distance_of(b->nearest->domain, found[f].square);
+        indices[selected++] = index;
     }
 }
 
 static aur_result find_some(void *context, size_t item) {
     const batch *const b = context;
-    const size_t wanted = b->neighbours > 1 ? b->nearest->ends * b->neighbours : 1;
-    aur_found *const found = malloc(wanted * sizeof *found);
+    const size_t requested = b->neighbours > 1 ? b->nearest->ends * b->neighbours : 1;
+    aur_found *const found = malloc(requested * sizeof *found);
     if (found == NULL)
         return AUR_ERROR_MEMORY;
     for (size_t q = item * QUERIES_PER_ITEM; q < (item + 1) * QUERIES_PER_ITEM && q < b->count; ++q) {
@@ -127,7 +127,7 @@ static aur_result find_some(void *context, size_t item) {
             b->refused[item] = q + 1;
             break;
         }
-        keep(b, q, aur_tree_find(b->nearest->tree, query, wanted, found), found);
+        keep(b, q, aur_tree_find(b->nearest->tree, query, requested, found), found);
     }
     free(found);
     return AUR_OK;
@@ -135,22 +135,22 @@ static aur_result find_some(void *context, size_t item) {
 
 aur_result aur_nearest_find(const aur_nearest *nearest, const aur_nearest_options *options, size_t count,
                             const double *queries, size_t *indices, double *distances, aur_error *error) {
-    aur_nearest_options own = {.size = sizeof own};
-    aur_nearest_options_init(&own, NULL);
-    aur_result result = aur_options_read(options, sizeof own, &own, "aur_nearest_options", error);
+    aur_nearest_options copy = {.size = sizeof copy};
+    aur_nearest_options_init(&copy, NULL);
+    aur_result result = aur_options_read(options, sizeof copy, &copy, "aur_nearest_options", error);
     if (result != AUR_OK)
         return result;
-    own.neighbours += own.neighbours == 0;
-    if (own.neighbours > nearest->count)
+    copy.neighbours += copy.neighbours == 0;
+    if (copy.neighbours > nearest->count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu neighbours requested, but there are only %zu points",
-                        own.neighbours, nearest->count);
+                        copy.neighbours, nearest->count);
     const size_t items = (count + QUERIES_PER_ITEM - 1) / QUERIES_PER_ITEM;
     batch b = {
-        nearest, own.neighbours, count, queries, indices, distances, calloc(items + 1, sizeof *b.refused)};
+        nearest, copy.neighbours, count, queries, indices, distances, calloc(items + 1, sizeof *b.refused)};
     if (b.refused == NULL)
         return aur_fail_memory(error);
     const aur_parallel_options parallel = {
-        .threads = own.threads, .what = "finding neighbours", .progress = own.progress};
+        .threads = copy.threads, .what = "finding neighbours", .progress = copy.progress};
     result = aur_parallel_for(&parallel, items, find_some, &b, error);
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         if (b.refused[i] != 0)

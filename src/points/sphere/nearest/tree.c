@@ -53,9 +53,9 @@ static void select_half(size_t *order, size_t stride, const double *along, size_
                 --j;
             if (i >= j)
                 break;
-            const size_t kept = order[i];
+            const size_t swapped = order[i];
             order[i++] = order[j];
-            order[j--] = kept;
+            order[j--] = swapped;
         }
         const size_t cut = j + 1;
         if (middle < cut)
@@ -117,13 +117,13 @@ void aur_tree_destroy(aur_tree *tree) {
 typedef struct search {
     const aur_tree *tree;
     const double *query;
-    size_t wanted, count;
+    size_t requested, count;
     aur_found *found; /* in order */
 } search;
 
 static void offer(search *s, aur_found point) {
     size_t at = s->count;
-    if (at == s->wanted) {
+    if (at == s->requested) {
         const aur_found worst = s->found[at - 1];
         if (point.square > worst.square || (point.square == worst.square && point.index > worst.index))
             return;
@@ -140,7 +140,7 @@ static void offer(search *s, aur_found point) {
     s->found[at] = point;
 }
 
-static void look_at(search *s, size_t first, size_t last) {
+static void visit(search *s, size_t first, size_t last) {
     const aur_tree *const tree = s->tree;
     for (size_t i = first; i < last; ++i) {
         double square = 0.0;
@@ -156,7 +156,7 @@ static void look_at(search *s, size_t first, size_t last) {
 static void descend(search *s, size_t node, size_t level, size_t first, size_t last,
                     double apart[MOST_DIMENSIONS], double square) {
     if (level == s->tree->level_count) {
-        look_at(s, first, last);
+        visit(s, first, last);
         return;
     }
     const struct split *const split = &s->tree->splits[node];
@@ -170,7 +170,7 @@ static void descend(search *s, size_t node, size_t level, size_t first, size_t l
     const double before = apart[split->axis];
     const double beyond = square - before * before + side * side;
     /* Ties may have a smaller index; the slack prevents missing a point by rounding. */
-    if (s->count == s->wanted && beyond * (1.0 - 1e-12) > s->found[s->count - 1].square)
+    if (s->count == s->requested && beyond * (1.0 - 1e-12) > s->found[s->count - 1].square)
         return;
     apart[split->axis] = side;
     if (right)
@@ -180,10 +180,10 @@ static void descend(search *s, size_t node, size_t level, size_t first, size_t l
     apart[split->axis] = before;
 }
 
-size_t aur_tree_find(const aur_tree *tree, const double *query, size_t wanted, aur_found *found) {
-    search s = {tree, query, wanted, 0, found};
+size_t aur_tree_find(const aur_tree *tree, const double *query, size_t requested, aur_found *found) {
+    search s = {tree, query, requested, 0, found};
     double apart[MOST_DIMENSIONS] = {0.0};
-    if (wanted > 0)
+    if (requested > 0)
         descend(&s, 0, 0, 0, tree->count, apart, 0.0);
     return s.count;
 }

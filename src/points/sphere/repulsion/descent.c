@@ -47,26 +47,26 @@ static double energy_and_gradient(descent *d) {
     return energy;
 }
 
-/* The direction of L-BFGS from the last `kept` steps; `next` - 1 is the newest. */
-static void choose_direction(descent *d, size_t kept, size_t next) {
+/* The direction of L-BFGS from the last `stored` steps; `next` - 1 is the newest. */
+static void choose_direction(descent *d, size_t stored, size_t next) {
     const size_t size = 3 * d->stride;
     double factors[MEMORY];
     for (size_t i = 0; i < size; ++i)
         d->direction[i] = -d->gradient[i];
-    for (size_t k = 0; k < kept; ++k) {
+    for (size_t k = 0; k < stored; ++k) {
         const size_t m = (next + MEMORY - 1 - k) % MEMORY;
         factors[m] = d->curvature[m] * dot(size, d->steps + m * size, d->direction);
         for (size_t i = 0; i < size; ++i)
             d->direction[i] -= factors[m] * d->changes[m * size + i];
     }
-    if (kept > 0) {
+    if (stored > 0) {
         const size_t m = (next + MEMORY - 1) % MEMORY;
         const double *const change = d->changes + m * size;
         const double scale = 1.0 / (d->curvature[m] * dot(size, change, change));
         for (size_t i = 0; i < size; ++i)
             d->direction[i] *= scale;
     }
-    for (size_t k = kept; k-- > 0;) {
+    for (size_t k = stored; k-- > 0;) {
         const size_t m = (next + MEMORY - 1 - k) % MEMORY;
         const double factor = factors[m] - d->curvature[m] * dot(size, d->changes + m * size, d->direction);
         for (size_t i = 0; i < size; ++i)
@@ -125,20 +125,20 @@ static bool search(descent *d, double slope, bool first, double *energy) {
 static double descend(descent *d) {
     const size_t size = 3 * d->stride;
     double energy = energy_and_gradient(d);
-    size_t kept = 0, next = 0;
+    size_t stored = 0, next = 0;
     for (int iteration = 0; iteration < ITERATIONS; ++iteration) {
-        choose_direction(d, kept, next);
+        choose_direction(d, stored, next);
         double slope = dot(size, d->gradient, d->direction);
         if (!(slope < 0.0)) {
-            kept = 0;
+            stored = 0;
             choose_direction(d, 0, next);
             slope = dot(size, d->gradient, d->direction);
         }
         const double before = energy;
-        if (!(slope < 0.0) || !search(d, slope, kept == 0, &energy)) {
-            if (kept == 0)
+        if (!(slope < 0.0) || !search(d, slope, stored == 0, &energy)) {
+            if (stored == 0)
                 break;
-            kept = 0;
+            stored = 0;
             continue;
         }
         if (before - energy <= least_fall * energy)
@@ -152,7 +152,7 @@ static double descend(descent *d) {
         if (product > 0.0) {
             d->curvature[next] = 1.0 / product;
             next = (next + 1) % MEMORY;
-            kept += kept < MEMORY;
+            stored += stored < MEMORY;
         }
     }
     return energy;

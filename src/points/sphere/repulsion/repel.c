@@ -56,9 +56,9 @@ aur_result aur_repel(const aur_shells *shells, aur_charges *charges, double *ene
 }
 
 static void exchange(double *values, size_t a, size_t b) {
-    const double kept = values[a];
+    const double saved = values[a];
     values[a] = values[b];
-    values[b] = kept;
+    values[b] = saved;
 }
 
 aur_result aur_order_charges(aur_charges *charges, size_t first, size_t count, aur_error *error) {

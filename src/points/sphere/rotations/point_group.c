@@ -143,7 +143,7 @@ static bool is_better(const double image[3], const double u[3]) {
 }
 
 size_t aur_point_group_select(const aur_point_group *group, size_t count, double *xyz, double *weights) {
-    size_t kept = 0;
+    size_t selected = 0;
     for (size_t i = 0; i < count; ++i) {
         const double *const u = xyz + 3 * i;
         bool first = true;
@@ -157,8 +157,8 @@ size_t aur_point_group_select(const aur_point_group *group, size_t count, double
         if (!first)
             continue;
         if (weights != NULL)
-            weights[kept] = weights[i] * (double)group->order / (double)fixed;
-        memmove(xyz + 3 * kept++, u, 3 * sizeof *u);
+            weights[selected] = weights[i] * (double)group->order / (double)fixed;
+        memmove(xyz + 3 * selected++, u, 3 * sizeof *u);
     }
-    return kept;
+    return selected;
 }

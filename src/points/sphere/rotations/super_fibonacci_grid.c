@@ -77,11 +77,11 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
                     "set 'super-fibonacci-grid': %llu points leave a grid incomplete: sizes of base %llu are "
                     "even at 1, 2, 4, 8, ... times the base",
                     (unsigned long long)request->count, (unsigned long long)g.size);
-    grid *const kept = malloc(sizeof *kept);
-    if (kept == NULL)
+    grid *const stored = malloc(sizeof *stored);
+    if (stored == NULL)
         return aur_fail_memory(error);
-    *kept = g;
-    *data = kept;
+    *stored = g;
+    *data = stored;
     return AUR_OK;
 }
 

@@ -107,7 +107,7 @@ aur_result aur_symmetry_reduce(aur_symmetry symmetry, size_t count, double *wxyz
 size_t aur_symmetry_select(aur_symmetry symmetry, size_t count, double *wxyz) {
     double group[4 * AUR_SYMMETRY_ORDER_MAX];
     const size_t order = aur_symmetry_group(symmetry, group);
-    size_t kept = 0;
+    size_t selected = 0;
     for (size_t i = 0; i < count && order > 0; ++i) {
         double q[4];
         memcpy(q, wxyz + 4 * i, sizeof q);
@@ -117,7 +117,7 @@ size_t aur_symmetry_select(aur_symmetry symmetry, size_t count, double *wxyz) {
         for (size_t k = 1; k < order && inside; ++k)
             inside = fabs(aur_dot4(q, group + 4 * k)) <= q[0] + boundary;
         if (inside)
-            memcpy(wxyz + 4 * kept++, q, sizeof q);
+            memcpy(wxyz + 4 * selected++, q, sizeof q);
     }
-    return kept;
+    return selected;
 }

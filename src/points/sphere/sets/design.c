@@ -21,11 +21,11 @@ static const double arrived = 1e-13, largest_mean = 1e-14;
 
 typedef struct design {
     size_t degree, count, equations;
-    double *points, *trial; /* count unit vectors each */
+    double *points, *candidate; /* count unit vectors each */
     double *jacobian; /* equations rows: derivatives of a mean by moves of all points east, then north */
-    double *system, *inverse, *work;    /* of aur_cholesky */
-    double *means, *trial_means, *step; /* equations, equations, 2 count */
-    double *rows;                       /* count numbers each, of `rows_here` */
+    double *system, *inverse, *work;        /* of aur_cholesky */
+    double *means, *candidate_means, *step; /* equations, equations, 2 count */
+    double *rows;                           /* count numbers each, of `rows_here` */
 } design;
 
 /* For all points: Legendre's functions of one order without their factor r^m, their slopes, and the
@@ -153,17 +153,17 @@ static bool try_step(design *d, double damping) {
         d->system[k * size + k] += damping * trace / (double)size;
     if (!cholesky->factor(size, d->system, d->inverse, d->work))
         return false;
-    memcpy(d->trial_means, d->means, size * sizeof *d->means);
-    cholesky->solve(size, d->system, d->inverse, 1, d->trial_means);
+    memcpy(d->candidate_means, d->means, size * sizeof *d->means);
+    cholesky->solve(size, d->system, d->inverse, 1, d->candidate_means);
     memset(d->step, 0, 2 * n * sizeof *d->step);
     for (size_t k = 0; k < size; ++k)
         for (size_t i = 0; i < 2 * n; ++i)
-            d->step[i] -= d->trial_means[k] * d->jacobian[k * 2 * n + i];
+            d->step[i] -= d->candidate_means[k] * d->jacobian[k * 2 * n + i];
     for (size_t i = 0; i < n; ++i) {
         const double *const p = d->points + 3 * i;
         const double radius = radius_of(p);
         const double east = d->step[i], north = d->step[n + i];
-        double *const to = d->trial + 3 * i;
+        double *const to = d->candidate + 3 * i;
         to[0] = p[0] - east * p[1] / radius - north * p[2] * p[0] / radius;
         to[1] = p[1] + east * p[0] / radius - north * p[2] * p[1] / radius;
         to[2] = p[2] + north * radius;
@@ -197,10 +197,10 @@ static bool descend(design *d) {
     for (int step = 0; step < STEPS && damping < 1e8 && polished < POLISHING; ++step) {
         const bool near = norm < arrived;
         const bool moved = try_step(d, fmax(damping * fmin(1.0, norm), 1e-14));
-        const double found = moved ? find_means(d, d->trial, d->trial_means, NULL) : INFINITY;
+        const double found = moved ? find_means(d, d->candidate, d->candidate_means, NULL) : INFINITY;
         polished += near;
         if (found < norm) {
-            memcpy(d->points, d->trial, 3 * d->count * sizeof *d->points);
+            memcpy(d->points, d->candidate, 3 * d->count * sizeof *d->points);
             norm = find_means(d, d->points, d->means, d->jacobian);
             damping /= 5.0;
         } else {
@@ -219,8 +219,8 @@ aur_result aur_design_solve(size_t degree, double *half, aur_error *error) {
     design d = {.degree = degree, .count = n, .equations = size};
     const size_t lengths[] = {3 * n, 3 * n, 2 * n * size, size * size, size, aur_cholesky_work(size),
                               size,  size,  2 * n,        ROWS * n};
-    double **const arrays[] = {&d.points, &d.trial, &d.jacobian,    &d.system, &d.inverse,
-                               &d.work,   &d.means, &d.trial_means, &d.step,   &d.rows};
+    double **const arrays[] = {&d.points, &d.candidate, &d.jacobian,        &d.system, &d.inverse,
+                               &d.work,   &d.means,     &d.candidate_means, &d.step,   &d.rows};
     size_t total = 0;
     for (size_t a = 0; a < sizeof lengths / sizeof *lengths; ++a)
         total += lengths[a];

@@ -85,11 +85,11 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
             "are even at 1, 2, 4, 8, ... times %llu",
             (unsigned long long)request->count, (unsigned long long)p.base, (unsigned long long)p.turns,
             (unsigned long long)(p.base * p.turns));
-    grid *const kept = malloc(sizeof *kept);
-    if (kept == NULL)
+    grid *const stored = malloc(sizeof *stored);
+    if (stored == NULL)
         return aur_fail_memory(error);
-    *kept = g;
-    *data = kept;
+    *stored = g;
+    *data = stored;
     return AUR_OK;
 }
 

@@ -95,14 +95,14 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
             "set 'spherical-fibonacci': an octant goes with an offset, not with 'epsilon' or a cap");
     if (octant && request->count > SIZE_MAX / 64)
         return aur_fail(error, AUR_ERROR_MEMORY, "the octant's points do not fit into memory");
-    fibonacci_set *const kept =
-        malloc(sizeof *kept + (octant ? (size_t)request->count * sizeof kept->indices[0] : 0));
-    if (kept == NULL)
+    fibonacci_set *const stored =
+        malloc(sizeof *stored + (octant ? (size_t)request->count * sizeof stored->indices[0] : 0));
+    if (stored == NULL)
         return aur_fail_memory(error);
-    *kept = (fibonacci_set){.points = lattice, .kernel = AUR_KERNEL_HERE(aur_fibonacci_points)};
+    *stored = (fibonacci_set){.points = lattice, .kernel = AUR_KERNEL_HERE(aur_fibonacci_points)};
     if (octant)
-        choose_octant(kept, request->count, lattice.offset);
-    *data = kept;
+        choose_octant(stored, request->count, lattice.offset);
+    *data = stored;
     return AUR_OK;
 }
 

@@ -262,11 +262,11 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
             "set 'esfg': %llu points leave a sub-grid incomplete: sizes of base %llu are even at 1, 2, 3, 4, "
             "8, 12, 16, ... times the base",
             (unsigned long long)request->count, (unsigned long long)g.base);
-    grid *const kept = malloc(sizeof *kept);
-    if (kept == NULL)
+    grid *const stored = malloc(sizeof *stored);
+    if (stored == NULL)
         return aur_fail_memory(error);
-    *kept = g;
-    *data = kept;
+    *stored = g;
+    *data = stored;
     return AUR_OK;
 }
 
