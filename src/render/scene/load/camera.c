@@ -8,10 +8,11 @@
 #include "points/sphere/native.h"
 #include "render/scene/load/loader.h"
 
-/* How many objects are around those of a camera; what lies deeper is part of a camera in a batch. */
+/* Nesting depth of a camera's objects; deeper objects belong to a camera in a batch. */
 enum { DEPTH_OF_SENSOR, DEPTH_OF_FILM, DEPTH_OF_FILTER };
 
-/* Whether a film, its filter or a sampler belongs to a camera in a batch, whose own takes its place. */
+/* Whether a film, filter or sampler belongs to a camera in a batch; the batch's own film, filter and sampler
+ * replace it. */
 static bool is_left_out(const aur_loader *self, const aur_parameters *parameters, size_t depth) {
     if (self->depth <= depth)
         return false;
@@ -27,7 +28,7 @@ aur_result aur_build_filter(aur_loader *self, aur_parameters *parameters, void *
     return aur_filter_create(parameters, &self->scene->filter, self->error);
 }
 
-/* What is read of a film; a crop of -1 is not given. */
+/* Parameters read of a film; a crop of -1 is unspecified. */
 typedef struct film_keys {
     int64_t width, height, crop_x, crop_y, crop_width, crop_height;
     const aur_parameter *rfilter;
@@ -62,7 +63,7 @@ static const aur_row *const film_rows[] = {&hdrfilm, &ldrfilm};
 
 const aur_table aur_film_table = {.kind = "film", .summary = "image sizes", AUR_TABLE_ROWS(film_rows)};
 
-/* The part of the image that is to be rendered. */
+/* The crop window of the film. */
 static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
                            aur_error *error) {
     const int64_t wide = p->crop_width < 0 ? p->width : p->crop_width;
@@ -110,7 +111,7 @@ aur_result aur_build_film(aur_loader *self, aur_parameters *parameters, void **o
     return aur_parameters_finish(parameters, self->error);
 }
 
-/* Samplers by other names, and the point sets that take their place. */
+/* Names of Mitsuba samplers, and the point sets used in their place. */
 static const char *set_for_sampler(const char *plugin) {
     static const char *const others[][2] = {{"independent", "random"},
                                             {"stratified", "sobol"},
@@ -145,7 +146,7 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
         aur_keys_read(sampler_common.key_count, sampler_common.keys, parameters, scene, self->error);
     if (result != AUR_OK)
         return result;
-    /* Parameters that are left are keys of the set. */
+    /* The remaining parameters are parameters of the point set. */
     char text[1024];
     const char *const set = set_for_sampler(parameters->plugin);
     const aur_row *row;
@@ -182,7 +183,7 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
     return result;
 }
 
-/* Where a camera goes: that of the scene, or the next one of a batch. */
+/* Destination of a new camera: the scene, or the next one of a batch. */
 static aur_result place_sensor(aur_loader *self, const aur_parameters *parameters, aur_sensor **sensor) {
     aur_scene *const scene = self->scene;
     *sensor = &scene->sensor;
@@ -202,7 +203,7 @@ static aur_result place_sensor(aur_loader *self, const aur_parameters *parameter
     return AUR_OK;
 }
 
-/* The cameras of a batch have been built. They stand in one medium. */
+/* Ends a batch. All of its cameras must be in the same medium. */
 static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, const aur_medium *medium) {
     aur_scene *const scene = self->scene;
     scene->sensor.part_count = scene->part_count;
@@ -223,7 +224,7 @@ static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, 
 aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_sensor *sensor;
-    /* A nested film and sampler have been built, and have set those of the scene. */
+    /* Ends a sensor: its nested film and sampler have already set those of the scene. */
     void *inner;
     aur_result result = place_sensor(self, parameters, &sensor);
     *object = sensor;
@@ -247,7 +248,7 @@ static aur_result fail_second(aur_loader *self, aur_location location) {
                        "a second <integrator> inside another: one is the most");
 }
 
-/* <integrator type="moment">: what stands inside takes its place. */
+/* <integrator type="moment">: replaced by its nested integrator. */
 static aur_result unwrap_moment(aur_loader *self, aur_parameters *parameters) {
     aur_scene *const scene = self->scene;
     if (aur_parameters_find(parameters, "integrator") == NULL || !scene->has_nested_integrator)
@@ -271,8 +272,8 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
     bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
     aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
     *object = made;
-    /* What holds two, or one that holds another, is refused when it is created, unless another integrator
-     * takes its place. */
+    /* Integrators with several nested ones, or with one that is not unwrapped, are rejected when they are
+     * created, unless another integrator replaces them. */
     if (*has && nested) {
         if (aur_parameters_find(parameters, "integrator") != NULL)
             self->deep_integrator = parameters->location;
@@ -297,7 +298,7 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
         char *set;
         if (item->kind != AUR_PARAMETER_STRING)
             continue;
-        /* Sets that a scene names in files are looked for where its meshes are. */
+        /* Point sets in files are searched for in the same folders as meshes. */
         const aur_result result =
             aur_xml_find_set(&scene->document, item->location, item->text, &set, self->error);
         if (result != AUR_OK)

@@ -1,4 +1,4 @@
-/* The corners of all surfaces: of copies of a shape only those that may matter, found by a tree of its
+/* The corners of all surfaces. For instances, only corners that may matter, found by a tree over the shape's
  * corners. */
 #include <math.h>
 #include <stdlib.h>
@@ -7,11 +7,11 @@
 #include "points/base/array.h"
 #include "render/scene/load/stage.h"
 
-/* So many copies of a shape are walked whole before a tree pays; corners of a leaf. */
+/* Largest number of instances of a shape for which no tree is built; corners per leaf. */
 enum { FEW_COPIES = 8, LEAF = 16 };
 
-/* The corners from `first` on, none where it has children. Nodes are in depth-first order, children right
- * after their parent; `next` is the one after all of them. */
+/* `first` is the first corner, or none for inner nodes. Nodes are in depth-first order, children right after
+ * their parent; `next` is the node after the whole subtree. */
 typedef struct node {
     aur_stage_box box;
     size_t first, count, next;
@@ -21,7 +21,7 @@ typedef struct corner_tree {
     size_t copies, count, capacity;
     double (*corners)[3];
     size_t node_count, node_capacity;
-    node *nodes; /* none where memory is out: then all is walked */
+    node *nodes; /* NULL if out of memory: then all corners are visited */
 } corner_tree;
 
 /* --- all corners of a shape */
@@ -70,7 +70,7 @@ static void add_corner(void *user, const double point[3]) {
     memcpy(tree->corners[tree->count++], point, sizeof *tree->corners);
 }
 
-/* Each vertex that a triangle has, once, and the corners of bounds. */
+/* Each vertex used by a triangle, once, and the corners of bounding boxes. */
 static bool collect(const aur_shape *shape, corner_tree *tree) {
     const aur_mesh *const mesh = &shape->mesh;
     const size_t bounds = shape->curved != NULL ? 8 * aur_shape_primitives(shape) : 0;
@@ -127,8 +127,8 @@ static bool add_node(corner_tree *tree, size_t first, size_t count) {
     return good;
 }
 
-/* The box around all moved points of a box. Rounding reverses no order, so that it holds for the
- * moved points to the last bit. */
+/* The box of all transformed points of a box. Rounding is monotonic, so it bounds the transformed points
+ * exactly. */
 static void move_box(const aur_transform *to_world, const aur_stage_box *box, aur_stage_box *moved) {
     for (size_t d = 0; d < 3; ++d)
         for (size_t side = 0; side < 2; ++side) {

@@ -1,4 +1,4 @@
-/* Cameras that see all of a scene. */
+/* Cameras that frame the whole scene. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "points/base/vector3d.h"
 #include "render/scene/load/stage.h"
 
-/* How much of the image the scene may fill, from edge to edge. */
+/* The fraction of the image that the scene fills, from edge to edge. */
 static const double FILL = 0.9;
 
 typedef struct view_name {
@@ -18,7 +18,7 @@ static const view_name views[] = {{"front", 0, 0},           {"back", 180, 0},  
                                   {"right", 90, 0},          {"top", 0, 90},     {"bottom", 0, -90},
                                   {"corner", 26.565, 17.39}, {"iso", 45, 35.264}};
 
-/* --- what there is to see */
+/* --- extent of the scene */
 
 static void widen(void *user, const double point[3]) {
     aur_stage_widen(user, point);
@@ -40,12 +40,12 @@ bool aur_stage_bounds(const aur_scene *scene, double lower[3], double upper[3]) 
     return lower[0] <= upper[0];
 }
 
-/* --- views that show all of it */
+/* --- views that frame it */
 
-/* A camera's axes, a point from which coordinates count, and how far the scene reaches beyond the four planes
- * through it that bound the image, and along the axes. */
+/* A camera's axes, the origin of its coordinates, and the extent of the scene beyond the four planes through
+ * that origin that bound the image, and along the axes. */
 typedef struct reach {
-    double axes[3][3]; /* left, up, ahead */
+    double axes[3][3]; /* left, up, forward */
     double center[3];
     double tangents[2];
     double beyond[4];
@@ -67,7 +67,7 @@ static void extend(void *user, const double point[3]) {
     self->nearest = fmin(self->nearest, along[2]);
 }
 
-/* By the least and the most of each step of `extend`: rounding reverses no order. */
+/* By the minimum and maximum of each step of `extend`, as rounding is monotonic. */
 static bool may_extend(const void *user, const aur_stage_box *box) {
     const reach *const self = user;
     double along[2][3];
@@ -87,9 +87,9 @@ static bool may_extend(const void *user, const aur_stage_box *box) {
     return !within;
 }
 
-/* Of a camera at (a, b, c) along its axes, each pair of planes gives the place across in the middle, and the
- * farthest c ahead that leaves both on the inside. */
-static void stand_back(const reach *self, double place[3]) {
+/* For a camera at (a, b, c) along its axes: each pair of planes gives the centred position across, and the
+ * largest c that leaves the scene between both. */
+static void stand_back(const reach *self, double position[3]) {
     const double *const b = self->beyond;
     double along[3] = {0.5 * (b[0] - b[1]), 0.5 * (b[2] - b[3]), HUGE_VAL};
     for (size_t k = 0; k < 2; ++k)
@@ -97,11 +97,11 @@ static void stand_back(const reach *self, double place[3]) {
             fmin(along[2], self->tangents[k] > 0.0 ? -0.5 * (b[2 * k] + b[2 * k + 1]) / self->tangents[k]
                                                    : self->nearest - (b[0] + b[1] + b[2] + b[3]));
     for (size_t d = 0; d < 3; ++d)
-        place[d] = self->center[d] + along[0] * self->axes[0][d] + along[1] * self->axes[1][d] +
-                   along[2] * self->axes[2][d];
+        position[d] = self->center[d] + along[0] * self->axes[0][d] + along[1] * self->axes[1][d] +
+                      along[2] * self->axes[2][d];
 }
 
-/* Right-handed, by where the camera looks from. */
+/* Right-handed axes, from the direction of the camera's position. */
 static void set_axes(double azimuth, double elevation, bool z_up, double axes[3][3]) {
     const double a = azimuth * AUR_PI / 180.0, e = elevation * AUR_PI / 180.0;
     const double ca = cos(a), sa = sin(a), ce = cos(e), se = sin(e);
@@ -113,12 +113,12 @@ static void set_axes(double azimuth, double elevation, bool z_up, double axes[3]
     }
 }
 
-static void set_sensor(aur_sensor *sensor, double axes[3][3], const double place[3], double scale) {
+static void set_sensor(aur_sensor *sensor, double axes[3][3], const double position[3], double scale) {
     for (size_t d = 0; d < 3; ++d) {
-        sensor->place[d] = place[d];
+        sensor->place[d] = position[d];
         for (size_t k = 0; k < 3; ++k)
             sensor->to_world[4 * d + k] = (float)(axes[k][d] * (k < 2 ? scale : 1.0));
-        sensor->to_world[4 * d + 3] = (float)place[d];
+        sensor->to_world[4 * d + 3] = (float)position[d];
     }
     sensor->near_clip = 0.0f;
     sensor->far_clip = 1e30f;
@@ -140,16 +140,18 @@ static aur_result frame(aur_scene *scene, double azimuth, double elevation, doub
         self.tangents[1] = self.tangents[0] / aspect;
     }
     aur_stage_visit_points(scene, &(aur_stage_visitor){extend, may_extend, &self});
-    double place[3];
-    stand_back(&self, place);
+    double position[3];
+    stand_back(&self, position);
     const double *const b = self.beyond;
-    set_sensor(sensor, self.axes, place, flat ? 0.5 / FILL * fmax(b[0] + b[1], aspect * (b[2] + b[3])) : 1.0);
+    set_sensor(sensor, self.axes, position,
+               flat ? 0.5 / FILL * fmax(b[0] + b[1], aspect * (b[2] + b[3])) : 1.0);
     return AUR_OK;
 }
 
-/* --- the text */
+/* --- parsing */
 
-static aur_result look(aur_scene *scene, size_t count, const double *numbers, bool z_up, aur_error *error) {
+static aur_result parse_lookat(aur_scene *scene, size_t count, const double *numbers, bool z_up,
+                               aur_error *error) {
     const double up[3] = {0.0, z_up ? 0.0 : 1.0, z_up ? 1.0 : 0.0}, other[3] = {0.0, up[2], -up[1]};
     aur_transform to_world;
     if (!aur_transform_look_at(numbers, numbers + 3, up, &to_world) &&
@@ -180,13 +182,13 @@ aur_result aur_stage_place_camera(aur_scene *scene, const char *text, double asp
     const size_t count = aur_parse_doubles(text, numbers, 8);
     if (count == 2 && fabs(numbers[0]) <= 360.0 && fabs(numbers[1]) <= 90.0)
         return frame(scene, numbers[0], numbers[1], aspect, z_up, error);
-    const bool looks = !flat && (count == 6 || (count == 7 && numbers[6] > 0.0 && numbers[6] < 180.0));
-    for (size_t i = 0; looks && i < 6; ++i)
+    const bool is_lookat = !flat && (count == 6 || (count == 7 && numbers[6] > 0.0 && numbers[6] < 180.0));
+    for (size_t i = 0; is_lookat && i < 6; ++i)
         if (!(fabs(numbers[i]) <= AUR_REACH))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "a camera may stand up to %g from the origin",
                             AUR_REACH);
-    return looks
-               ? look(scene, count, numbers, z_up, error)
+    return is_lookat
+               ? parse_lookat(scene, count, numbers, z_up, error)
                : aur_fail(error, AUR_ERROR_ARGUMENT,
                           "unknown camera '%s': expected front, back, left, right, top, bottom, corner, iso, "
                           "AZIMUTH,ELEVATION in degrees, or X,Y,Z,X,Y,Z[,FOV]: where it is, what it looks "
@@ -197,7 +199,7 @@ aur_result aur_stage_place_camera(aur_scene *scene, const char *text, double asp
 aur_stage_axes aur_stage_axes_of(const aur_scene *scene, bool z_up) {
     const float *const m = scene->sensor.to_world;
     aur_stage_axes axes = {.up = {0.0, z_up ? 0.0 : 1.0, z_up ? 1.0 : 0.0}};
-    /* Seen from above or below the front is where the image's lower edge is. */
+    /* Seen from above or below, the front is at the lower edge of the image. */
     const double ahead[3] = {(double)m[2], (double)m[6], (double)m[10]};
     const double above[3] = {(double)m[1], (double)m[5], (double)m[9]};
     const double steep = aur_dot3(ahead, axes.up);
@@ -220,7 +222,7 @@ static double clamp(double value, double lower, double upper) {
     return fmin(fmax(value, lower), upper);
 }
 
-/* About a unit axis, by Rodrigues' formula. */
+/* Rotation about a unit axis, by Rodrigues' formula. */
 static void rotate(const double axis[3], double angle, double v[3]) {
     double across[3];
     const double c = cos(angle), s = sin(angle), along = aur_dot3(axis, v) * (1.0 - c);

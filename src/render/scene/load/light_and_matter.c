@@ -24,7 +24,7 @@ aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **o
     return AUR_OK;
 }
 
-/* Replaces an image's `filename` by the path under which it can be read, unless a model has it in memory. */
+/* Replaces an image's `filename` by the path found, unless the image is in a model's memory. */
 static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters) {
     for (size_t i = 0; i < parameters->count; ++i) {
         aur_parameter *const item = &parameters->items[i];
@@ -43,7 +43,7 @@ static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters)
     return AUR_OK;
 }
 
-/* Says what the reader of an image noted, and which values are changed. */
+/* Reports notes of the image reader, and values that were changed. */
 static void warn_of_image(const aur_loader *self, const aur_image *image, const char *name) {
     size_t channels[3], found[3] = {0, 0, 0};
     const aur_location where = {.file = name};
@@ -61,8 +61,8 @@ static void warn_of_image(const aur_loader *self, const aur_image *image, const 
                     "%zu negative values are read as 0, but as heights of a bumpmap as they are", found[2]);
 }
 
-/* The image goes to its texture as an object. The last one is kept: textures beside each other often take
- * channels of one, as those of glTF do. */
+/* The image is passed to its texture as an object. The last image is cached: consecutive textures often use
+ * channels of the same image, as in glTF. */
 static aur_result add_image(aur_loader *self, aur_parameters *parameters) {
     const aur_parameter *const name = aur_parameters_find(parameters, "filename");
     const bool takes = strcmp(parameters->plugin, "bitmap") == 0 || strcmp(parameters->plugin, "envmap") == 0;
@@ -117,7 +117,7 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
         result = add_image(self, parameters);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->emitters, scene->emitter_count, &scene->emitter_capacity);
-    /* What a light stands in matters to paths that begin at lights: there are none where media are. */
+    /* A light's exterior medium matters only to paths that start at lights, which are not used with media. */
     void *medium = NULL;
     if (result == AUR_OK)
         result = aur_loader_nested(self, parameters, "medium", &medium);
@@ -125,7 +125,7 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
     if (result == AUR_OK)
         result = aur_emitter_create(parameters, made, self->error);
     if (strcmp(parameters->plugin, "envmap") == 0)
-        aur_loader_drop_image(self); /* which is large */
+        aur_loader_drop_image(self); /* environment maps are large */
     if (result != AUR_OK)
         return result;
     *object = *made;

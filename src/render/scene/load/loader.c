@@ -1,4 +1,5 @@
-/* An object is built when the walk meets it or when something refers to it, whichever is first. */
+/* An object is built when the traversal reaches it or when another object refers to it, whichever comes
+ * first. */
 #include "render/scene/load/loader.h"
 
 #include <stdio.h>
@@ -7,7 +8,7 @@
 #include "points/base/array.h"
 #include "points/base/names.h"
 
-/* Objects may stand in or refer to each other this deep; what they become is walked recursively. */
+/* Maximum nesting and reference depth: the resulting objects are traversed recursively. */
 enum { DEEPEST_OBJECT = 100 };
 
 const aur_object_kind *aur_loader_find_kind(const aur_loader *self, const char *tag) {
@@ -17,7 +18,7 @@ const aur_object_kind *aur_loader_find_kind(const aur_loader *self, const char *
     return NULL;
 }
 
-/* The nested object of that name, which must be of that kind. */
+/* The nested object with that name, which must be of that kind. */
 static aur_result find_nested(aur_loader *self, aur_parameters *parameters, const char *name,
                               const char *kind, void **object) {
     *object = NULL;
@@ -44,19 +45,19 @@ aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_
                                                                          : aur_fail_memory(self->error);
 }
 
-/* Whether a nested object goes by a name of its own: what it is for. */
+/* Whether a nested object has a name that states its role. */
 static bool has_own_name(const char *tag, const aur_parameters *parameters) {
     return strcmp(tag, "texture") == 0 || strcmp(tag, "volume") == 0 ||
            (strcmp(tag, "medium") == 0 && strcmp(parameters->kind, "shape") == 0);
 }
 
-/* The name under which a nested object is asked for: its own, or its kind and its number among its kind
+/* The parameter name of a nested object: its name, or its kind with its number among objects of that kind
  * ("bsdf", "bsdf2", ...). */
 static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const char *tag,
                               const aur_parameters *parameters, char *name, size_t capacity) {
     const char *given = aur_xml_attribute_value(child, "name");
     const bool named = has_own_name(tag, parameters);
-    /* The one texture of a bumpmap may have any name. */
+    /* The single texture of a bumpmap may have any name. */
     if (named && strcmp(parameters->plugin, "bumpmap") == 0)
         given = "texture";
     if (named && given == NULL)
@@ -86,15 +87,15 @@ static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur
         return result;
     const aur_xml_document *const document = &self->scene->document;
     const char *const id = aur_xml_attribute_value(node, "id");
-    const aur_xml_id *const known = aur_xml_find_id(document, id);
+    const aur_xml_id *const found_id = aur_xml_find_id(document, id);
     char hint[AUR_HINT_CAPACITY];
-    if (known != NULL)
-        *target = known->node;
+    if (found_id != NULL)
+        *target = found_id->node;
     else
         aur_names_hint((aur_names){document->tree.id_count, id_at, document->tree.ids}, id, "''", hint);
-    return known != NULL ? AUR_OK
-                         : aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
-                                       "there is no object with the id '%s'%s", id, hint);
+    return found_id != NULL ? AUR_OK
+                            : aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
+                                          "there is no object with the id '%s'%s", id, hint);
 }
 
 aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml_node **target) {
@@ -117,7 +118,7 @@ static aur_result add_nested(aur_loader *self, aur_xml_node *child, aur_paramete
     aur_result result = aur_loader_find_target(self, child, &target);
     if (result != AUR_OK)
         return result;
-    /* A group may have a hundred thousand shapes: it goes through them itself. */
+    /* A group may have a hundred thousand shapes, so it iterates over them itself. */
     if (strcmp(target->tag, "shape") == 0 && strcmp(parameters->plugin, AUR_GROUP_PLUGIN) == 0)
         return aur_loader_build(self, target);
     const aur_object_kind *const kind = aur_loader_find_kind(self, target->tag);
@@ -130,7 +131,7 @@ static aur_result add_nested(aur_loader *self, aur_xml_node *child, aur_paramete
                                                         child->location, self->error);
 }
 
-/* Makes parameters of all that stands inside a node. */
+/* Converts all children of a node to parameters. */
 static aur_result collect(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters) {
     for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
         aur_result result;
@@ -174,7 +175,7 @@ aur_result aur_loader_build(aur_loader *self, aur_xml_node *node) {
     const aur_object_kind *const kind = aur_loader_find_kind(self, node->tag);
     const aur_row *row = NULL;
     if (result == AUR_OK && kind->table != NULL) {
-        aur_table_find(kind->table, &parameters, &row, NULL); /* what is unknown is an error below */
+        aur_table_find(kind->table, &parameters, &row, NULL); /* unknown tags are reported below */
         aur_parameters_ignore(&parameters, row, self->warnings);
     }
     if (result == AUR_OK)

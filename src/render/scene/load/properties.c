@@ -37,7 +37,8 @@ bool aur_xml_is_property(const char *tag) {
     return find(tag) != NULL;
 }
 
-/* What a property is a colour of: the names under which materials take indices of refraction, and lights. */
+/* What a colour property describes, by the parameter names that materials use for refractive indices and by
+ * those of lights. */
 static aur_spectrum_use use_of(const aur_parameters *parameters, const char *name) {
     if (strcmp(parameters->kind, "emitter") == 0)
         return strstr(name, "albedo") != NULL ? AUR_SPECTRUM_REFLECTS : AUR_SPECTRUM_EMITS;
@@ -65,12 +66,12 @@ static aur_result add_plain(const property *found, const aur_xml_node *node, aur
                                    node->location, error);
 }
 
-/* <spectrum type="...">: its own properties say what it is. */
+/* <spectrum type="...">: defined by its nested properties. */
 static aur_result read_typed(const aur_xml_node *node, aur_spectrum_use use, double rgb[3],
                              aur_error *error) {
-    aur_parameters own;
-    aur_result result =
-        aur_parameters_init(&own, "spectrum", aur_xml_attribute_value(node, "type"), node->location, error);
+    aur_parameters nested;
+    aur_result result = aur_parameters_init(&nested, "spectrum", aur_xml_attribute_value(node, "type"),
+                                            node->location, error);
     if (result != AUR_OK)
         return result;
     for (const aur_xml_node *child = node->first_child; child != NULL && result == AUR_OK;
@@ -81,11 +82,11 @@ static aur_result read_typed(const aur_xml_node *node, aur_spectrum_use use, dou
         if (result == AUR_OK)
             result = aur_xml_check(child, &inner->rule, error);
         if (result == AUR_OK)
-            result = add_plain(inner, child, &own, error);
+            result = add_plain(inner, child, &nested, error);
     }
     if (result == AUR_OK)
-        result = aur_spectrum_create(&own, use, rgb, error);
-    aur_parameters_release(&own);
+        result = aur_spectrum_create(&nested, use, rgb, error);
+    aur_parameters_release(&nested);
     return result;
 }
 
@@ -100,7 +101,7 @@ static aur_result read_file(aur_loader *self, const aur_xml_node *node, aur_spec
     return result;
 }
 
-/* A colour by wavelength: pairs, a file of them, or a type. One number alone is grey, but for lights the
+/* A spectrum: wavelength-value pairs, a file of them, or a type. A single number is grey; for lights, it is
  * illuminant E of that radiance, as in Mitsuba 3. */
 static aur_result add_spectrum(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters) {
     const char *const name = aur_xml_attribute_value(node, "name");

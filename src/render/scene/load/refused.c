@@ -1,4 +1,4 @@
-/* Plugins of Mitsuba that are refused by name, with the reason. */
+/* Plugins of Mitsuba that are rejected by name, with the reason. */
 #include "render/scene/load/loader.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Elements that are other elements by another name: they are rewritten before anything is built. A new form
- * is one function and one row of the table. */
+/* Elements that are equivalent to other elements: they are rewritten before anything is built. To add one:
+ * one function and one row of the table. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,7 +32,7 @@ static aur_result rewrite_spectrum(aur_nodes *nodes, aur_xml_node *node) {
     return AUR_OK;
 }
 
-/* --- mixturebsdf of Mitsuba 0.6: blendbsdfs, each of one material and the rest */
+/* --- mixturebsdf of Mitsuba 0.6: nested blendbsdfs, each of one material and the rest */
 
 typedef struct mixture {
     size_t count; /* of materials */
@@ -85,7 +85,7 @@ static void add_part(aur_xml_node *parent, aur_xml_node *part) {
     aur_xml_node_append(parent, part);
 }
 
-/* Weights whose sum is above 1 are scaled, as Mitsuba 0.6 does; what the sum lacks is black. */
+/* Weights that sum to more than 1 are scaled, as in Mitsuba 0.6; the remainder of a smaller sum is black. */
 static aur_result rewrite_mixture(aur_nodes *nodes, aur_xml_node *node) {
     mixture self = {.count = 0};
     const aur_result result = read_mixture(node, &self, nodes->error);
@@ -117,17 +117,17 @@ static aur_result rewrite_mixture(aur_nodes *nodes, aur_xml_node *node) {
     return result == AUR_OK ? nodes->result : result;
 }
 
-/* --- elements and types of Mitsuba 0.6 that others express */
+/* --- elements and types of Mitsuba 0.6 with an equivalent */
 
 static void set_value(aur_nodes *nodes, aur_xml_node *node, const double rgb[3]) {
     char text[96];
     aur_format(text, sizeof text, "%.17g %.17g %.17g", rgb[0], rgb[1], rgb[2]);
-    const char *const own = aur_arena_copy(&nodes->tree->arena, text, strlen(text));
-    if (own == NULL)
+    const char *const copy = aur_arena_copy(&nodes->tree->arena, text, strlen(text));
+    if (copy == NULL)
         nodes->result = aur_fail_memory_at(nodes->error, node->location);
-    for (size_t i = 0; own != NULL && i < node->attribute_count; ++i)
+    for (size_t i = 0; copy != NULL && i < node->attribute_count; ++i)
         if (strcmp(node->attributes[i].name, "value") == 0)
-            node->attributes[i].value = own;
+            node->attributes[i].value = copy;
 }
 
 /* "#rrggbb": false for other texts. */
@@ -141,7 +141,7 @@ static bool read_hexadecimal(const char *text, double rgb[3]) {
     return true;
 }
 
-/* Mitsuba 0.6 reads the digits of <rgb> as linear values, those of <srgb> as what a screen is sent. */
+/* Mitsuba 0.6 reads the hexadecimal digits of <rgb> as linear values, those of <srgb> as sRGB-encoded. */
 static aur_result rewrite_rgb(aur_nodes *nodes, aur_xml_node *node) {
     double rgb[3];
     if (read_hexadecimal(aur_xml_attribute_value(node, "value"), rgb))
@@ -210,7 +210,7 @@ static const form forms[] = {
     {"integrator", "volpath_simple", rewrite_type},
 };
 
-/* The shapes of a `merge` stand in its place. */
+/* Replaces a `merge` by its shapes. */
 static void splice_merge(aur_xml_node *parent, aur_xml_node *before, aur_xml_node *node) {
     const char *const type = aur_xml_attribute_value(node, "type");
     if (strcmp(node->tag, "shape") != 0 || type == NULL || strcmp(type, "merge") != 0)
@@ -229,7 +229,7 @@ static void splice_merge(aur_xml_node *parent, aur_xml_node *before, aur_xml_nod
         parent->last_child = node->last_child;
 }
 
-/* A sensor inside a shape is one of the scene that refers to the shape. */
+/* Moves a sensor from inside a shape to the scene, with a reference to the shape. */
 static void move_sensors(aur_nodes *nodes, aur_xml_node *shape) {
     const char *const type = aur_xml_attribute_value(shape, "type");
     if (strcmp(shape->tag, "shape") != 0 || type == NULL || aur_is_shape_of_shapes(type))

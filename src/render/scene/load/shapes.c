@@ -5,7 +5,7 @@
 #include "points/base/array.h"
 #include "render/scene/load/loader.h"
 
-/* The type of instances. Their objects are an aur_instance and those of groups an aur_shape_group, not an
+/* The type of instances. Instances are aur_instance objects and groups aur_shape_group objects, not
  * aur_shape. */
 static const char *const instance_plugin = "instance";
 
@@ -13,11 +13,11 @@ bool aur_is_shape_of_shapes(const char *plugin) {
     return strcmp(plugin, AUR_GROUP_PLUGIN) == 0 || strcmp(plugin, instance_plugin) == 0;
 }
 
-/* What a shape without a bsdf is made of: grey, or black when it is a light. */
+/* Default material: grey, or black for emitters. */
 static aur_result default_bsdf(aur_loader *self, bool light, const aur_bsdf **bsdf) {
-    const aur_bsdf **const known = light ? &self->black_bsdf : &self->default_bsdf;
-    *bsdf = *known;
-    if (*known != NULL)
+    const aur_bsdf **const cached = light ? &self->black_bsdf : &self->default_bsdf;
+    *bsdf = *cached;
+    if (*cached != NULL)
         return AUR_OK;
     aur_parameters parameters;
     aur_result result = aur_parameters_init(&parameters, "bsdf", "diffuse", (aur_location){0}, self->error);
@@ -28,7 +28,7 @@ static aur_result default_bsdf(aur_loader *self, bool light, const aur_bsdf **bs
                                      (aur_location){0}, self->error);
     if (result == AUR_OK)
         result = aur_build_bsdf(self, &parameters, &object);
-    *bsdf = *known = object;
+    *bsdf = *cached = object;
     aur_parameters_release(&parameters);
     return result;
 }
@@ -48,7 +48,7 @@ static aur_result add_to_group(aur_loader *self, aur_shape_group *group, const a
     return AUR_OK;
 }
 
-/* <shape type="shapegroup">: its shapes leave the scene and are seen through instances only. */
+/* <shape type="shapegroup">: its shapes are visible through instances only. */
 static aur_result build_group(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_result result = aur_loader_reserve(self, &scene->groups, scene->group_count, &scene->group_capacity);
@@ -82,7 +82,7 @@ static const aur_key instance_keys[] = {
 
 static aur_result build_instance(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    void *wanted;
+    void *group;
     aur_result result =
         aur_loader_reserve(self, &scene->instances, scene->instance_count, &scene->instance_capacity);
     aur_instance *const instance = calloc(1, sizeof *instance);
@@ -92,11 +92,11 @@ static aur_result build_instance(aur_loader *self, aur_parameters *parameters, v
     }
     scene->instances[scene->instance_count++] = *object = instance;
     instance->location = parameters->location;
-    result = aur_loader_nested(self, parameters, "shape", &wanted);
+    result = aur_loader_nested(self, parameters, "shape", &group);
     if (result != AUR_OK)
         return result;
     for (size_t i = 0; i < scene->group_count; ++i)
-        if (scene->groups[i] == wanted)
+        if (scene->groups[i] == group)
             instance->group = scene->groups[i];
     if (instance->group == NULL)
         return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT,
@@ -118,7 +118,7 @@ static aur_result use_attribute(aur_loader *self, aur_shape *shape, const char *
                                 shape->descriptor->row.name, name);
 }
 
-/* What the material or the light of a shape reads of its mesh. */
+/* Stores the mesh attributes that the shape's material or light reads. */
 static aur_result take_attributes(aur_loader *self, aur_shape *shape, const aur_emitter *emitter) {
     const aur_texture *const radiance = emitter != NULL ? emitter->radiance.texture : NULL;
     if (radiance != NULL && radiance->attributes.position)
@@ -155,7 +155,8 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
     if (result == AUR_OK && emitter != NULL && emitter->descriptor->is_far)
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
                              "emitter '%s' cannot stand inside a shape", emitter->descriptor->row.name);
-    if (emitter != NULL && !emitter->descriptor->needs_shape) /* a spot shines from its own place */
+    if (emitter != NULL &&
+        !emitter->descriptor->needs_shape) /* the position of a spot comes from its to_world */
         emitter = NULL;
     if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
         result =

@@ -7,11 +7,11 @@
 #include "points/base/file.h"
 #include "points/base/text.h"
 
-/* --- integrals against the observer */
+/* --- integrals with the observer's colour matching functions */
 
 enum { CIE_FIRST = 360, CIE_LAST = 830, CIE_STEP = 5, CIE_COUNT = 95 }; /* nanometres */
 
-/* The standard observer's x, y, z, and the illuminant D65. */
+/* The standard observer's x, y, z, and illuminant D65. */
 static const double cie[CIE_COUNT][4] = {
 #include "data/cie.inc"
 };
@@ -20,14 +20,14 @@ static double mix(double a, double b, double t) {
     return a + t * (b - a);
 }
 
-/* The observer's x, y, z at a wavelength, times D65 where the spectrum reflects. */
+/* The observer's x, y, z at a wavelength, times D65 for reflection spectra. */
 static void observer_at(double wavelength, bool daylight, double xyz[3]) {
-    /* Mitsuba's constants: the integral of y, and D65's mean under it. */
+    /* Mitsuba's constants: the integral of y, and D65's mean weighted by it. */
     static const double y_integral = 106.7502593994140625, d65_mean = 98.99741751876255;
-    const double place = (wavelength - CIE_FIRST) / CIE_STEP;
-    const size_t i = place < CIE_COUNT - 2 ? (size_t)place : CIE_COUNT - 2;
+    const double row = (wavelength - CIE_FIRST) / CIE_STEP;
+    const size_t i = row < CIE_COUNT - 2 ? (size_t)row : CIE_COUNT - 2;
     const double *const a = cie[i], *const b = cie[i + 1];
-    const double t = place - (double)i;
+    const double t = row - (double)i;
     const double light = daylight ? mix(a[3], b[3], t) / d65_mean : 1.0;
     for (size_t k = 0; k < 3; ++k)
         xyz[k] = mix(a[k], b[k], t) * light / y_integral;
@@ -63,7 +63,7 @@ void aur_spectrum_equal_energy(double value, double rgb[3]) {
 
 aur_result aur_spectrum_to_rgb(size_t count, const double *wavelengths, const double *values,
                                aur_location location, aur_spectrum_use use, double rgb[3], aur_error *error) {
-    enum { STEPS = 1000 }; /* Mitsuba's sum, both ends included */
+    enum { STEPS = 1000 }; /* Mitsuba's sum, including both ends */
     const double span = CIE_LAST - CIE_FIRST;
     double sum[3] = {0.0};
     const aur_result result = check(count, wavelengths, values, location, error);
@@ -96,7 +96,7 @@ bool aur_spectrum_clamp(aur_spectrum_use use, double rgb[3]) {
     return changed;
 }
 
-/* --- samples from texts */
+/* --- parsing */
 
 typedef struct samples {
     size_t count, wavelength_capacity, value_capacity;
@@ -112,7 +112,7 @@ static aur_result append(samples *self, double wavelength, double value, aur_err
     return AUR_OK;
 }
 
-/* The colour of the samples, which it releases. */
+/* The colour of the samples; frees them. */
 static aur_result finish(samples *self, aur_location location, aur_spectrum_use use, aur_result result,
                          double rgb[3], aur_error *error) {
     if (result == AUR_OK)
@@ -122,8 +122,7 @@ static aur_result finish(samples *self, aur_location location, aur_spectrum_use 
     return result;
 }
 
-/* Reads one number and what stands after it: blanks, then a separator if there is one. NULL when
- * there is no number. */
+/* Parses a number, following blanks and an optional separator. NULL if there is no number. */
 static const char *read_number(const char *text, char separator, double *value) {
     const char *const end = aur_read_double(aur_skip_spaces(text), AUR_NUMBER_FINITE, value);
     if (end == NULL)

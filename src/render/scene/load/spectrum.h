@@ -12,29 +12,29 @@
 
 typedef enum aur_spectrum_use {
     AUR_SPECTRUM_REFLECTS, /* between 0 and 1 */
-    AUR_SPECTRUM_REFRACTS, /* an index or extinction: 0 or more */
+    AUR_SPECTRUM_REFRACTS, /* a refractive index or extinction: at least 0 */
     AUR_SPECTRUM_EMITS,
 } aur_spectrum_use;
 
-/* The colour before it is clamped of the spectrum that is linear between `count` >= 2 samples at increasing
- * wavelengths in nanometres, and 0 outside them. Errors: FORMAT, with the place, for other samples. */
+/* The colour, before clamping, of a spectrum that is linear between `count` >= 2 samples at increasing
+ * wavelengths in nanometres, and 0 outside. Errors: FORMAT, with the position, for invalid samples. */
 aur_result aur_spectrum_to_rgb(size_t count, const double *wavelengths, const double *values,
                                aur_location location, aur_spectrum_use use, double rgb[3], aur_error *error);
 
-/* The colour of an emitter with this value at every wavelength. */
+/* The colour of an emitter with a constant spectrum. */
 void aur_spectrum_equal_energy(double value, double rgb[3]);
 
-/* Clamps a colour as the use asks; whether that changed it. */
+/* Clamps a colour to the range of its use; returns whether that changed it. */
 bool aur_spectrum_clamp(aur_spectrum_use use, double rgb[3]);
 
 /* The same from "400:0.1, 500:0.3, ..." */
 aur_result aur_spectrum_parse(const char *text, aur_location location, aur_spectrum_use use, double rgb[3],
                               aur_error *error);
-/* From a file with a wavelength and a value a line; # begins a comment. */
+/* From a file with one wavelength and value per line; # begins a comment. */
 aur_result aur_spectrum_read(const char *path, aur_location location, aur_spectrum_use use, double rgb[3],
                              aur_error *error);
 
-/* Spectra with a type: <spectrum type="blackbody">. */
+/* Spectra with a type, such as <spectrum type="blackbody">. */
 extern const aur_table aur_spectrum_table;
 /* The colour of the spectrum that parameters->plugin names. */
 aur_result aur_spectrum_create(aur_parameters *parameters, aur_spectrum_use use, double rgb[3],

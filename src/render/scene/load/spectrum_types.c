@@ -1,4 +1,4 @@
-/* Spectra with a type. A new one is one line in the table, and a function where no other fits. */
+/* Spectra with a type. To add one: one line in the table, and a function if no existing one fits. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -46,7 +46,7 @@ static aur_result create_grey(const aur_parameters *parameters, const spectrum_k
     return AUR_OK;
 }
 
-/* The numbers of a text, to be freed. */
+/* Parses numbers; the caller frees them. */
 static aur_result read_list(const aur_parameters *parameters, const aur_parameter *item, const char *name,
                             size_t *count, double **numbers, aur_error *error) {
     if (item == NULL || item->text == NULL)
@@ -72,15 +72,16 @@ static aur_result create_srgb(const aur_parameters *parameters, const spectrum_k
                : aur_parameters_fail_value(parameters, keys->color, "one or three numbers", error);
 }
 
-/* Planck's law in W / (m2 sr nm). Mitsuba has no blackbody in RGB; ours is integrated as any spectrum. */
+/* Planck's law in W / (m2 sr nm). Mitsuba's RGB mode has no blackbody; this one is integrated like any
+ * spectrum. */
 static double planck(double nanometres, double kelvins) {
     static const double h = 6.62607015e-34, c = 299792458.0, k = 1.380649e-23;
     const double metres = 1e-9 * nanometres;
     return 1e-9 * 2.0 * h * c * c / (pow(metres, 5.0) * expm1(h * c / (metres * k * kelvins)));
 }
 
-/* The i-th of `count` wavelengths at equal steps. */
-static double place(const spectrum_keys *keys, size_t i, size_t count) {
+/* The i-th of `count` equidistant wavelengths. */
+static double wavelength_at(const spectrum_keys *keys, size_t i, size_t count) {
     return keys->first + (keys->last - keys->first) * (double)i / (double)(count > 1 ? count - 1 : 1);
 }
 
@@ -94,7 +95,7 @@ static aur_result check_span(const aur_parameters *parameters, const spectrum_ke
 
 static aur_result create_blackbody(const aur_parameters *parameters, const spectrum_keys *keys,
                                    aur_spectrum_use use, double rgb[3], aur_error *error) {
-    enum { SAMPLES = 471 }; /* a nanometre apart from 360 to 830 */
+    enum { SAMPLES = 471 }; /* one nanometre apart, from 360 to 830 */
     double wavelengths[SAMPLES], values[SAMPLES];
     const aur_result result = check_span(parameters, keys, error);
     if (result != AUR_OK)
@@ -102,7 +103,7 @@ static aur_result create_blackbody(const aur_parameters *parameters, const spect
     if (keys->temperature == 0.0)
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "it needs 'temperature'");
     for (size_t i = 0; i < SAMPLES; ++i) {
-        wavelengths[i] = place(keys, i, SAMPLES);
+        wavelengths[i] = wavelength_at(keys, i, SAMPLES);
         values[i] = planck(wavelengths[i], keys->temperature);
     }
     return aur_spectrum_to_rgb(SAMPLES, wavelengths, values, parameters->location, use, rgb, error);
@@ -110,7 +111,7 @@ static aur_result create_blackbody(const aur_parameters *parameters, const spect
 
 static aur_result create_sampled(const aur_parameters *parameters, const spectrum_keys *keys,
                                  aur_spectrum_use use, double rgb[3], aur_error *error) {
-    size_t count = 0, places = 0;
+    size_t count = 0, value_count = 0;
     double *values = NULL, *wavelengths = NULL;
     const bool regular = strcmp(parameters->plugin, "regular") == 0;
     aur_result result = read_list(parameters, keys->values, "values", &count, &values, error);
@@ -120,14 +121,14 @@ static aur_result create_sampled(const aur_parameters *parameters, const spectru
         if (result == AUR_OK && wavelengths == NULL)
             result = aur_fail_memory_at(error, parameters->location);
         for (size_t i = 0; i < count && result == AUR_OK; ++i)
-            wavelengths[i] = place(keys, i, count);
-        places = count;
+            wavelengths[i] = wavelength_at(keys, i, count);
+        value_count = count;
     } else if (result == AUR_OK) {
-        result = read_list(parameters, keys->wavelengths, "wavelengths", &places, &wavelengths, error);
+        result = read_list(parameters, keys->wavelengths, "wavelengths", &value_count, &wavelengths, error);
     }
-    if (result == AUR_OK && places != count)
+    if (result == AUR_OK && value_count != count)
         result = aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
-                                     "it has %zu wavelengths and %zu values", places, count);
+                                     "it has %zu wavelengths and %zu values", value_count, count);
     if (result == AUR_OK)
         result = aur_spectrum_to_rgb(count, wavelengths, values, parameters->location, use, rgb, error);
     free(values);

@@ -1,4 +1,4 @@
-/* The stage: what options set around a scene, and what models without a camera or light source are given. */
+/* The stage: scene surroundings from options, and defaults for models without a camera or light source. */
 #include "render/scene/load/stage.h"
 
 #include <math.h>
@@ -10,10 +10,10 @@
 #include "points/base/text.h"
 #include "points/base/vector3d.h"
 
-/* Sides of the sun in an environment "sky": to the left of the camera, degrees, and up. White in that sun is
- * about 1 by these scales. */
+/* Direction of the sun in an environment "sky": degrees to the left of the camera, and elevation. With these
+ * scales a white surface in the sun has radiance of about 1. */
 static const double SUN_AZIMUTH = -55.0, SUN_ELEVATION = 38.0, SKY_SCALE = 3.0;
-/* The ground of the sky goes to the horizon. */
+/* The ground of the sky extends to the horizon. */
 static const double WIDE = 3.0, ENDLESS = 1000.0;
 
 typedef struct stage {
@@ -22,7 +22,7 @@ typedef struct stage {
     const aur_model_stage *model;
     aur_nodes nodes;
     aur_stage_axes axes;
-    double ground; /* half a side of the ground by the scene's diagonal; 0: there is none */
+    double ground; /* half the ground's side over the scene's diagonal; 0: no ground */
 } stage;
 
 bool aur_stage_replaces(const aur_scene_stage *options, const aur_xml_node *node) {
@@ -37,9 +37,9 @@ bool aur_stage_replaces(const aur_scene_stage *options, const aur_xml_node *node
     return false;
 }
 
-/* --- pieces */
+/* --- helpers */
 
-/* Adds a file in memory, NULL where memory was out, and its name as "*i.pfm". */
+/* Adds a file in memory (NULL: out of memory), and its name as "*i.pfm". */
 static void add_file(stage *self, aur_xml_node *parent, size_t size, char *data) {
     aur_model_files *const files = &self->loader->scene->document.model_files;
     char *const name = data != NULL ? strdup("studio") : NULL;
@@ -54,7 +54,7 @@ static void add_file(stage *self, aur_xml_node *parent, size_t size, char *data)
     aur_node_property(&self->nodes, parent, "string", "filename", "*%zu.pfm", files->count - 1);
 }
 
-/* to_world, by its columns; the last one may be NULL: the origin. */
+/* to_world from columns; the last may be NULL: the origin. */
 static void add_to_world(stage *self, aur_xml_node *parent, const double *x, const double *y, const double *z,
                          const double *place) {
     double m[16] = {[15] = 1.0};
@@ -71,10 +71,11 @@ static void add_to_world(stage *self, aur_xml_node *parent, const double *x, con
 
 /* --- environments */
 
-/* Far lights are chosen by the power that they bring to all of the scene. The ground widens it, but not the
- * part that shows details: without the weight, lamps of a model would get next to no samples. */
+/* Corrects the power estimate of distant lights, which is over the whole scene's cross section. The ground
+ * increases that, but not the part that shows details: without the weight, a model's luminaires would get
+ * almost no samples. */
 static void add_weight(stage *self, aur_xml_node *emitter) {
-    const double wider = 2.0 * sqrt(2.0) * self->ground; /* radius with the ground by that without */
+    const double wider = 2.0 * sqrt(2.0) * self->ground; /* scene radius with the ground over that without */
     if (wider > 1.0)
         aur_node_property(&self->nodes, emitter, "float", "sampling_weight", "%.9g", 1.0 / (wider * wider));
 }
@@ -116,7 +117,7 @@ static bool is_sky(const char *name) {
     return strncmp(name, "sky", 3) == 0 && (name[3] == '\0' || name[3] == ':');
 }
 
-/* Names of image files have a point. */
+/* An image file, identified by a dot in the name. */
 static aur_result fail_unknown(const char *name, aur_error *error) {
     static const char *const names[] = {"studio", "sky", "sky:TURBIDITY", "none", "FILE.hdr", "FILE.exr"};
     size_t index;
@@ -143,8 +144,8 @@ static aur_result add_environment(stage *self, const char *name) {
 
 /* --- the ground */
 
-/* A square in the height of the lowest point, beneath the middle. It fades away at its edges, or goes to the
- * horizon. */
+/* A square at the height of the lowest point, below the centre of the scene. It fades out at its edges, or
+ * extends to the horizon. */
 static void add_ground(stage *self, const double lower[3], const double upper[3]) {
     const bool endless = self->ground > WIDE;
     const aur_stage_axes *const axes = &self->axes;
@@ -155,7 +156,7 @@ static void add_ground(stage *self, const double lower[3], const double upper[3]
         squared += (upper[d] - lower[d]) * (upper[d] - lower[d]);
     }
     const double half = self->ground * sqrt(squared);
-    place[up] -= 1e-4 * sqrt(squared); /* what stands flat on it stays seen */
+    place[up] -= 1e-4 * sqrt(squared); /* below surfaces that lie flat on it, so that they stay visible */
     for (size_t d = 0; d < 3; ++d) {
         right[d] = half * axes->right[d];
         away[d] = -half * axes->toward[d];
@@ -178,9 +179,9 @@ static void add_ground(stage *self, const double lower[3], const double upper[3]
                       endless ? 0.3 : AUR_STUDIO_FLOOR);
 }
 
-/* --- what is to be done */
+/* --- decisions */
 
-/* What lights the scene but shines of its surfaces. */
+/* Whether the scene has a light source other than emitting surfaces. */
 static bool has_light(const aur_scene *scene) {
     for (size_t i = 0; i < scene->emitter_count; ++i)
         if (!scene->emitters[i]->descriptor->needs_shape)
@@ -188,7 +189,7 @@ static bool has_light(const aur_scene *scene) {
     return false;
 }
 
-/* The environment of a model: "studio" where it has no light source but surfaces. */
+/* The environment of a model: "studio" if it has surfaces but no light source. */
 static const char *environment_of(const stage *self) {
     const aur_model_stage *const model = self->model;
     const aur_scene *const scene = self->loader->scene;
@@ -203,7 +204,7 @@ static const char *environment_of(const stage *self) {
     return "studio";
 }
 
-static aur_result place_camera(stage *self) {
+static aur_result set_camera(stage *self) {
     aur_scene *const scene = self->loader->scene;
     const char *camera = self->options->camera;
     const bool added = camera == NULL && self->model->alone && !self->model->framed;
@@ -237,7 +238,7 @@ aur_result aur_stage_set(aur_loader *loader, const aur_scene_options *options) {
     self.nodes =
         (aur_nodes){.tree = &document->tree, .location = {.file = "--environment"}, .error = loader->error};
     document->stage.z_up = z_up;
-    aur_result result = place_camera(&self);
+    aur_result result = set_camera(&self);
     if (result != AUR_OK)
         return result;
     const char *const environment = environment_of(&self);

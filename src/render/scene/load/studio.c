@@ -1,4 +1,4 @@
-/* The environment "studio": soft light boxes in a dim room, as photographers of products place them. */
+/* The environment "studio": soft light boxes in a dim room, as in product photography. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,22 +10,22 @@
 enum { WIDTH = 256, HEIGHT = 128, SIDE = 64 };
 
 typedef struct light_box {
-    double azimuth, elevation; /* of its middle, degrees from the camera to the right, and up */
-    double width, height;      /* half of each, as tangents */
-    double radiance;           /* before all are scaled to AUR_STUDIO_WHITE */
+    double azimuth, elevation; /* centre, in degrees to the right of the camera, and elevation */
+    double width, height;      /* half extents, as tangents */
+    double radiance;           /* radiance before scaling to AUR_STUDIO_WHITE */
 } light_box;
 
-/* Key, strip on the other side, rim behind, and the ceiling. */
+/* Key light, strip on the opposite side, rim light behind, and the ceiling. */
 static const light_box boxes[] = {
     {-48, 42, 0.55, 0.45, 9.0}, {75, 18, 0.22, 0.7, 3.5}, {168, 38, 0.7, 0.3, 5.0}, {0, 90, 0.6, 0.6, 3.5}};
 
-/* From 0 at `start` to 1 at `end`, without edges. */
+/* Smooth step from 0 at `start` to 1 at `end`. */
 static double smooth_step(double start, double end, double x) {
     const double t = fmin(fmax((x - start) / (end - start), 0.0), 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 
-/* How much of a box a direction meets: 1 inside, with soft edges. */
+/* Coverage of a box in a direction: 1 inside, with soft edges. */
 static double box_at(const light_box *box, const double direction[3]) {
     const double a = box->azimuth * AUR_PI / 180.0, e = box->elevation * AUR_PI / 180.0;
     const double middle[3] = {cos(e) * sin(a), sin(e), cos(e) * cos(a)};
@@ -40,7 +40,7 @@ static double box_at(const light_box *box, const double direction[3]) {
     return smooth_step(1.12, 0.88, x) * smooth_step(1.12, 0.88, y);
 }
 
-/* Of the room, a little brighter above, and of the boxes: x to the right, y up, z to the camera. */
+/* Radiance of the room, slightly brighter above, and of the boxes: x to the right, y up, z to the camera. */
 static double light_at(const double direction[3]) {
     double sum = 0.35 + 0.35 * smooth_step(0.0, 1.0, direction[1]);
     for (size_t i = 0; i < sizeof boxes / sizeof boxes[0]; ++i)
@@ -48,7 +48,7 @@ static double light_at(const double direction[3]) {
     return sum;
 }
 
-/* A PFM of one channel without values, and where these begin; rows go from below upwards. */
+/* Allocates a single-channel PFM with its header; returns where values start. Rows are from bottom to top. */
 static char *begin_file(size_t width, size_t height, size_t *size, float **values) {
     const uint16_t one = 1;
     unsigned char first;
@@ -73,7 +73,7 @@ static char *end_file(char *file, size_t size, size_t count, float *values) {
     return file;
 }
 
-/* As in `envmap`: the first column is -z, and a quarter further is +x. */
+/* As in `envmap`: the first column is -z, and the column a quarter further is +x. */
 static double direction_at(size_t column, size_t row, double direction[3]) {
     const double azimuth = 2.0 * AUR_PI * (double)column / WIDTH;
     const double polar = AUR_PI * (double)(HEIGHT - 1 - row) / (HEIGHT - 1);
@@ -97,7 +97,7 @@ char *aur_studio_lights(size_t *size) {
             irradiance += light * fmax(direction[1], 0.0) * angle;
             values[row * WIDTH + column] = (float)light;
         }
-    /* Below the horizon is the floor, as far as one sees. */
+    /* Below the horizon is an unbounded floor. */
     const double scale = AUR_STUDIO_WHITE / (AUR_STUDIO_FLOOR * irradiance / AUR_PI);
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i)
         values[i] = i < WIDTH * HEIGHT / 2 ? (float)AUR_STUDIO_WHITE : (float)(scale * (double)values[i]);

@@ -1,4 +1,4 @@
-/* Every kind of object, and the walk over the children of <scene>. */
+/* All kinds of objects, and the traversal of the children of <scene>. */
 #include <string.h>
 
 #include "render/scene/load/loader.h"
@@ -14,7 +14,7 @@ static const aur_object_kind kinds[] = {
     {"phase", aur_build_phase, &aur_phase_table},       {"volume", aur_build_volume, &aur_volume_table},
 };
 
-/* Whether a child of <scene> is a part of something else: it is built when that refers to it. */
+/* Whether a child of <scene> is part of another object: it is built when that refers to it. */
 static bool is_part(const aur_xml_node *node) {
     static const char *const parts[] = {"film", "rfilter", "sampler"};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
@@ -23,8 +23,8 @@ static bool is_part(const aur_xml_node *node) {
     return false;
 }
 
-/* Whether it is built when something refers to it, and else not at all: files of many materials for a few
- * objects take no memory for the others, nor for their textures. */
+/* Whether it is built only if referenced: files with many materials for few objects use no memory for the
+ * others or their textures. */
 static bool is_built_on_demand(const aur_xml_node *node) {
     static const char *const tags[] = {"bsdf", "texture", "volume"};
     for (size_t i = 0; i < sizeof tags / sizeof tags[0]; ++i)
@@ -57,7 +57,7 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
     return aur_loader_build(self, node);
 }
 
-/* What only the whole scene can tell of a child of <scene>: whether something refers to it. */
+/* A condition that depends on the whole scene: whether another object refers to a child of <scene>. */
 static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
     if (is_part(node) && node->state == AUR_XML_UNBUILT)
         aur_warn_at(self->warnings, node->location, "nothing refers to this <%s>: it is left out", node->tag);
@@ -70,9 +70,9 @@ static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
                         emitter->descriptor->row.name);
 }
 
-/* The table of what an element may be, or NULL where its type is not one of these: a sampler may be a file.
- * Films and filters count where they stand in the scene's own sensor: those of a sensor in a `batch` are left
- * out, and so are those at scene level that nothing refers to. */
+/* The table of an element's possible types, or NULL if its type is not from a table: a sampler may be a file.
+ * Films and filters are checked only in the scene's sensor. Those of sensors in a `batch`, and unreferenced
+ * ones at scene level, are ignored. */
 static const aur_table *table_of(const aur_xml_node *node, const char *plugin, size_t depth) {
     const char *const tag = node->tag;
     const bool elsewhere = (strcmp(tag, "film") == 0 && depth != 1) ||
@@ -86,7 +86,7 @@ static const aur_table *table_of(const aur_xml_node *node, const char *plugin, s
     return NULL;
 }
 
-/* The error of an element whose type is not known. */
+/* The error for an element of unknown type. */
 static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *error) {
     const char *const plugin = aur_xml_attribute_value(node, "type");
     const aur_table *const table = plugin != NULL ? table_of(node, plugin, depth) : NULL;
@@ -104,8 +104,8 @@ static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *
     return result;
 }
 
-/* Finds all elements whose type is not known, before anything is read: the last one found is the error, and
- * the others are warnings before it. */
+/* Finds all elements of unknown type before anything is built: the last one is the error, and the others are
+ * warnings before it. */
 static void refuse_unknown(const aur_loader *self, const aur_xml_node *node, size_t depth, aur_error *last) {
     bool has_sensor = false;
     for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {

@@ -91,7 +91,7 @@ static aur_result read_look_at(const aur_xml_node *node, aur_transform *step, au
     const double *const origin = v[0], *const target = v[1];
     double *const up = v[2];
     if (up[0] == 0.0 && up[1] == 0.0 && up[2] == 0.0) {
-        /* Any axis that is not along the view will do. */
+        /* Any axis that is not parallel to the view will do. */
         const bool along_z =
             fabs(target[2] - origin[2]) > fabs(target[0] - origin[0]) + fabs(target[1] - origin[1]);
         up[along_z ? 1 : 2] = 1.0;

@@ -9,7 +9,7 @@ typedef struct slot {
     uint32_t next_number; /* its number + 1; 0: free */
 } slot;
 
-/* The different values of an image, numbered as they come. */
+/* The distinct values of an image, numbered in order of appearance. */
 typedef struct numbering {
     size_t count, most;
     size_t slot_mask;
@@ -38,7 +38,7 @@ static void numbering_end(numbering *self) {
     *self = (numbering){0};
 }
 
-/* `most` when there are more. */
+/* `most` if there are more. */
 static size_t number_of(numbering *self, float value) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -58,7 +58,8 @@ static size_t number_of(numbering *self, float value) {
     }
 }
 
-/* A form of `channels` channels and `value_bytes` bytes a value: tiles are no larger than the image. */
+/* The layout for `channels` channels and `value_bytes` bytes per value; tiles are no larger than the image.
+ */
 static bool begin(packing *self, size_t channels, size_t value_bytes) {
     const aur_texel_source *const source = self->source;
     aur_bitmap *const texels = self->texels;
@@ -85,7 +86,7 @@ static void end(packing *self) {
     aur_bitmap_release(self->texels);
 }
 
-/* False where the value has no number any more. */
+/* False if the table of values is full. */
 static bool put(packing *self, unsigned char *to, size_t channel, float value) {
     const aur_texel_source *const source = self->source;
     float mapped;
@@ -114,7 +115,7 @@ static attempt put_all(packing *self) {
                                   pixel[source->channel[2]]};
             unsigned char *const to =
                 texels->memory + aur_bitmap_index(texels, x, y) * texels->channels * texels->value_bytes;
-            /* By their bits, so that NaN is itself. */
+            /* Compares bits, so that NaN equals itself. */
             if (texels->channels == 1 && (memcmp(&rgb[0], &rgb[1], sizeof(float)) != 0 ||
                                           memcmp(&rgb[0], &rgb[2], sizeof(float)) != 0))
                 return HAS_COLORS;
@@ -126,7 +127,7 @@ static attempt put_all(packing *self) {
     return FITS;
 }
 
-/* The table of what the numbers stand for. */
+/* The table from indices to values. */
 static bool finish(packing *self) {
     const aur_texel_source *const source = self->source;
     aur_bitmap *const texels = self->texels;
@@ -177,7 +178,7 @@ aur_result aur_bitmap_pack(const aur_texel_source *source, aur_texel_pages *page
     packing self = {.source = source, .texels = texels, .range = range};
     size_t channels = source->same ? 1 : 3, value_bytes = 1;
     bool good = begin(&self, channels, value_bytes);
-    /* Small forms first: an image that one does not fit shows it soon. */
+    /* Tries small formats first: an image that does not fit one usually shows it early. */
     for (attempt last = FITS; good && (last = put_all(&self)) != FITS;) {
         channels = last == HAS_COLORS ? 3 : channels;
         value_bytes *= last == HAS_MORE_VALUES ? 2 : 1;

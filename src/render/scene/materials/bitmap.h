@@ -1,7 +1,7 @@
-/* The texels of an image in the smallest form that loses nothing: images of 8 bits have up to 256 values,
- * those of halves and of 16 bits up to 65,536, and a texel is then one number of a table. Tiles keep texels
- * that are close in the image close in memory. With pages (texel_pages.h), texels lie in a file, and memory
- * holds what is in use. */
+/* Texels in the smallest lossless format. 8-bit images have at most 256 distinct values, halves and 16-bit
+ * images at most 65,536; a texel is then an index into a table. Tiling keeps texels that are close in the
+ * image close in memory. With pages (texel_pages.h), texels are in a file, and only those in use are in
+ * memory. */
 #pragma once
 
 #include "points/base/error.h"
@@ -12,33 +12,33 @@ typedef struct aur_bitmap {
     size_t tile_x, tile_y; /* a tile has 2^tile_x columns and 2^tile_y rows */
     size_t tiles_across;
     size_t channels;    /* 1: grey */
-    size_t value_bytes; /* 1 and 2: of numbers in the table; 4: values */
+    size_t value_bytes; /* 1 and 2: indices into the table; 4: values */
     float *table;
-    size_t table_step; /* from a channel's part of the table to that of the next; 0: they share one */
+    size_t table_step; /* offset between the tables of channels; 0: one table for all */
     const unsigned char *values;
-    unsigned char *memory;  /* that of the values; NULL where they lie in pages */
-    aur_texel_pages *pages; /* NULL: the values are in memory */
-    size_t first_block;     /* of the pages */
+    unsigned char *memory;  /* texel data; NULL if paged */
+    aur_texel_pages *pages; /* NULL: texels are values */
+    size_t first_block;     /* offset within the pages */
 } aur_bitmap;
 
-/* Where texels come from: value i of a row-major image, whose top row is first. */
+/* Source of texels: value i of a row-major image, top row first. */
 typedef struct aur_texel_source {
     size_t width, height, stride; /* `stride` floats from one pixel to the next */
     const float *data;
     size_t channel[3];
-    /* What becomes of the image's value in red, green or blue; a pure function. */
+    /* The value stored for an image value in red, green or blue; a pure function. */
     float (*map)(const void *context, size_t channel, float value);
     const void *context;
-    bool same; /* it does not depend on the channel */
+    bool same; /* the same for all channels */
 } aur_texel_source;
 
-/* Of values, those below 0 as 0. */
+/* Sum per channel and maximum of the values; negative values count as 0. */
 typedef struct aur_texel_range {
     double sum[3];
     float maximum;
 } aur_texel_range;
 
-/* `pages` may be NULL, and must outlive the texels. Errors: MEMORY, WRITE of the pages' file. */
+/* `pages` may be NULL, and must outlive the texels. Errors: MEMORY, WRITE for the pages' file. */
 aur_result aur_bitmap_pack(const aur_texel_source *source, aur_texel_pages *pages, aur_bitmap *texels,
                            aur_texel_range *range, aur_error *error);
 void aur_bitmap_release(aur_bitmap *texels);
@@ -49,7 +49,7 @@ static inline size_t aur_bitmap_index(const aur_bitmap *texels, size_t x, size_t
     return tile << (texels->tile_x + texels->tile_y) | (y & down) << texels->tile_x | (x & across);
 }
 
-/* Red, green and blue with their signs, of a texel that is there. */
+/* Red, green and blue, possibly negative, of a valid texel. */
 static inline void aur_bitmap_at(const aur_bitmap *texels, size_t x, size_t y, float rgb[3]) {
     const size_t bytes = texels->channels * texels->value_bytes;
     const size_t at = aur_bitmap_index(texels, x, y) * bytes;

@@ -1,4 +1,4 @@
-/* What is asked of a material: its own answer, or the one that follows from its lobes. */
+/* Queries of a material: answered by its own functions, or derived from its lobes. */
 #include "render/scene/materials/bsdf.h"
 
 #include <stdlib.h>
@@ -19,13 +19,13 @@ size_t aur_bsdf_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     return bsdf->lobe_count;
 }
 
-/* --- what follows from the lobes */
+/* --- derived from the lobes */
 
-/* The lobes at a point, and how often each is drawn: by its reflectance, were it not cut at the horizon. */
+/* The lobes at a point, and their sampling weights: reflectance, ignoring the cut at the horizon. */
 typedef struct weighed_lobes {
     size_t count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    float probabilities[AUR_BSDF_LOBE_CAPACITY], total; /* not normalised, and their sum */
+    float probabilities[AUR_BSDF_LOBE_CAPACITY], total; /* unnormalised weights, and their sum */
 } weighed_lobes;
 
 static void weigh_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, weighed_lobes *all) {
@@ -41,7 +41,7 @@ static void weigh_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector v
     }
 }
 
-/* Their value and the density of drawing `light`, which have the powers in common. */
+/* Value and pdf of all lobes for `light`; both use the same powers of cosines. */
 static aur_vector value_of(const weighed_lobes *all, aur_vector light, float *pdf) {
     aur_vector sum = {0};
     float density = 0.0f;
@@ -76,7 +76,7 @@ static aur_vector evaluate_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur
     return value_of(&all, light, pdf);
 }
 
-/* The lobe that u in [0,1) chooses: small ones choose the last. */
+/* The lobe selected by u in [0,1); by rounding, the last one. */
 static size_t choose_lobe(const weighed_lobes *all, float u) {
     float rest = u * all->total;
     for (size_t i = all->count; i-- > 1;) {
@@ -115,7 +115,7 @@ static bool draw_lobe(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     return aur_vector_max(value) > 0.0f;
 }
 
-/* Of diffuse lobes without a factor, whose integral is their coefficient times pi. */
+/* Albedo of diffuse lobes without a factor: their coefficient times pi. */
 static aur_vector albedo_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
     aur_vector sum = {0};
     if ((aur_bsdf_scatters(bsdf, side) & AUR_SCATTERS_DIFFUSE) == 0)
@@ -129,20 +129,20 @@ static aur_vector albedo_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, fl
     return sum;
 }
 
-/* --- what is asked */
+/* --- queries */
 
 aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                              aur_vector light, float *pdf) {
-    const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    return own->evaluate != NULL ? own->evaluate(bsdf, part, point, view, light, pdf)
-                                 : evaluate_lobes(bsdf, point, view, light, pdf);
+    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
+    return descriptor->evaluate != NULL ? descriptor->evaluate(bsdf, part, point, view, light, pdf)
+                                        : evaluate_lobes(bsdf, point, view, light, pdf);
 }
 
 bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *drawn) {
-    const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    return own->sample != NULL ? own->sample(bsdf, part, point, view, u, drawn)
-                               : draw_lobe(bsdf, point, view, u, drawn);
+    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
+    return descriptor->sample != NULL ? descriptor->sample(bsdf, part, point, view, u, drawn)
+                                      : draw_lobe(bsdf, point, view, u, drawn);
 }
 
 aur_vector aur_bsdf_passed(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view) {
@@ -158,9 +158,9 @@ aur_vector aur_bsdf_passed(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vecto
 }
 
 aur_vector aur_bsdf_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
-    const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    return own->diffuse_albedo != NULL ? own->diffuse_albedo(bsdf, point, side)
-                                       : albedo_of_lobes(bsdf, point, side);
+    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
+    return descriptor->diffuse_albedo != NULL ? descriptor->diffuse_albedo(bsdf, point, side)
+                                              : albedo_of_lobes(bsdf, point, side);
 }
 
 aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *name, const aur_bsdf **bsdf,

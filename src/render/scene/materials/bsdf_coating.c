@@ -1,7 +1,7 @@
-/* Any opaque material under a clear coat, smooth or rough. Light is refracted on its way in and out, and
- * absorbed within the coat; what the coat reflects back to the material is left out, as in Mitsuba 0.6
- * (coating.cpp, roughcoating.cpp; Weidlich and Wilkie 2007). A rough coat transmits along the directions of a
- * smooth one, by a table of all its facets. */
+/* Any opaque material under a clear coat, smooth or rough. Light is refracted on entry and exit, and absorbed
+ * within the coat. Light that the coat reflects back to the material is ignored, as in Mitsuba 0.6
+ * (coating.cpp, roughcoating.cpp; Weidlich and Wilkie 2007). A rough coat refracts in the directions of a
+ * smooth one; its transmittance over all facets is tabulated. */
 #include "render/scene/materials/fresnel.h"
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/materials/sampling.h"
@@ -13,8 +13,8 @@ typedef struct coating {
     const aur_bsdf *nested;
     float ior;
     bool rough;
-    size_t first, specular_count; /* of the lobes: the first of the nested specular ones, and their number */
-    size_t number[AUR_BSDF_LOBE_CAPACITY]; /* theirs in the nested material */
+    size_t first, specular_count; /* lobe indices: the first of the nested specular ones, and their number */
+    size_t number[AUR_BSDF_LOBE_CAPACITY]; /* their indices in the nested material */
     aur_roughness microfacet;
     aur_rough_coat coat;
 } coating;
@@ -30,7 +30,8 @@ typedef struct coating {
 static const aur_key smooth_keys[] = {COATING_KEYS};
 static const aur_key rough_keys[] = {COATING_KEYS, AUR_MICROFACET_KEYS(coating)};
 
-/* One lobe of the coat, one for all that the material scatters, and one for each of its mirrors. */
+/* One lobe of the coat, one for all non-specular scattering of the material, and one for each of its specular
+ * lobes. */
 static void add_lobes(aur_bsdf *bsdf) {
     coating *const self = bsdf->data;
     const aur_bsdf *const nested = self->nested;
@@ -83,7 +84,7 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
 
 /* --- through the coat */
 
-/* A direction outside the coat as it is within, on the same side; false: total reflection. */
+/* A direction outside the coat, refracted into it on the same side; false: total reflection. */
 static bool refract_in(const coating *self, aur_vector direction, aur_vector *within, float *transmitted) {
     float refracted;
     *transmitted = 1.0f - aur_fresnel_dielectric(fabsf(direction.z), self->ior, &refracted);
@@ -94,7 +95,7 @@ static bool refract_in(const coating *self, aur_vector direction, aur_vector *wi
     return refracted != 0.0f && *transmitted > 0.0f;
 }
 
-/* The other way round. */
+/* The inverse. */
 static bool refract_out(const coating *self, aur_vector within, aur_vector *direction) {
     float refracted;
     aur_fresnel_dielectric(fabsf(within.z), 1.0f / self->ior, &refracted);
@@ -104,7 +105,7 @@ static bool refract_out(const coating *self, aur_vector within, aur_vector *dire
     return refracted != 0.0f;
 }
 
-/* What the coat leaves of light on its way between two directions within it. */
+/* Absorption within the coat along a pair of inner directions. */
 static aur_vector left_by_absorption(const coating *self, aur_bsdf_point point, aur_vector view,
                                      aur_vector light) {
     const aur_vector depth = aur_vector_scale(aur_color_at(&self->absorption, point), (float)self->thickness);
@@ -114,12 +115,12 @@ static aur_vector left_by_absorption(const coating *self, aur_bsdf_point point, 
     return (aur_vector){expf(-depth.x * way), expf(-depth.y * way), expf(-depth.z * way)};
 }
 
-/* How often the coat is drawn rather than the material. */
+/* The probability of sampling the coat rather than the material. */
 static float coat_probability(float transmitted) {
     return fminf(fmaxf(1.0f - transmitted, 0.1f), 0.9f);
 }
 
-/* --- what is asked */
+/* --- queries */
 
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {

@@ -1,4 +1,4 @@
-/* Metals: a smooth mirror, and one made rough by tiny facets. */
+/* Metals: a smooth mirror, and a microfacet surface. */
 #include "render/scene/materials/fresnel.h"
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/materials/sampling.h"

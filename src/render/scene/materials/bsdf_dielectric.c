@@ -1,4 +1,4 @@
-/* Glass and its like: a smooth boundary, and a thin pane of two. */
+/* Glass and other dielectrics: a smooth boundary, and a thin pane. */
 #include "render/scene/materials/fresnel.h"
 #include "render/scene/materials/sampling.h"
 #include "render/scene/materials/texture.h"
@@ -36,8 +36,8 @@ static aur_result create_pane(aur_parameters *parameters, aur_bsdf *bsdf, aur_er
     return add_lobes(parameters, AUR_LOBE_WAY_UNSCATTERED, bsdf, error);
 }
 
-/* `through` is where the light comes from that is not mirrored, and `ratio` the index of the view's side over
- * that of the light's, by whose square radiance is scaled. */
+/* `through` is the incident direction of refracted light. `ratio` is the index on the view's side over that
+ * on the light's, whose square scales radiance. */
 static void split(const dielectric *self, aur_bsdf_point point, aur_vector view, float mirrored,
                   aur_vector through, float ratio, aur_bsdf_lobe *lobes) {
     lobes[1].axis = aur_mirror(view);
@@ -61,7 +61,7 @@ static void weigh_boundary(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vecto
     split(self, point, view, mirrored, through, ratio, lobes);
 }
 
-/* Two boundaries and all that is mirrored between them (Stam 2001): R + T^2 R / (1 - R^2) = 2 R / (1 + R). */
+/* Two boundaries with all interreflections (Stam 2001): R + T^2 R / (1 - R^2) = 2 R / (1 + R). */
 static void weigh_pane(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     const dielectric *const self = bsdf->data;
     float refracted;

@@ -1,4 +1,4 @@
-/* An ideally diffuse sheet: light that meets one side leaves the other one, to all directions alike. */
+/* An ideally diffuse transmitting sheet: light incident on one side leaves uniformly on the other. */
 #include "render/scene/materials/sampling.h"
 #include "render/scene/materials/texture.h"
 

@@ -1,5 +1,4 @@
-/* Lambert's ideally diffuse surface. Most surfaces are, so it has the short forms of all that follows from
- * its one lobe. */
+/* The Lambertian surface. Most surfaces use it, so it has specialised versions of all queries. */
 #include "render/scene/materials/sampling.h"
 #include "render/scene/materials/texture.h"
 

@@ -1,4 +1,4 @@
-/* A pane of glass that is coloured through, as Radiance has it. */
+/* A pane of tinted glass, as in Radiance. */
 #include "render/scene/materials/fresnel.h"
 #include "render/scene/materials/sampling.h"
 #include "render/scene/materials/texture.h"
@@ -27,16 +27,16 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     return aur_parameters_ior(parameters, "bk7", &self->ior, error);
 }
 
-/* What of one polarisation a pane lets through and mirrors, of which a surface mirrors r and a way across the
- * inside leaves d: (1 - r)^2 d / (1 - r^2 d^2), and r + r d times that. */
+/* Transmittance and reflectance of a pane for one polarisation, with surface reflectance r and internal
+ * transmittance d: (1 - r)^2 d / (1 - r^2 d^2), and r + r d times that. */
 static void add_polarisation(float r, float d, float *through, float *mirrored) {
     const float passed = (1.0f - r) * (1.0f - r) * d / (1.0f - r * r * d * d);
     *through += 0.5f * passed;
     *mirrored += 0.5f * (r + r * d * passed);
 }
 
-/* Light that bounces to and fro inside keeps its polarisation, of which each half has a reflectance of its
- * own (Fresnel 1823): the mean of both would let 1.5 % too little through at 60 degrees. */
+/* Light keeps its polarisation in internal reflections, and each polarisation has its own reflectance
+ * (Fresnel 1823). With their mean, transmittance at 60 degrees would be 1.5 % too low. */
 static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     const glass *const self = bsdf->data;
     const float cosine = fabsf(view.z), n = self->ior;
@@ -44,7 +44,7 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
     lobes[0].axis = aur_vector_scale(view, -1.0f);
     lobes[1].axis = aur_mirror(view);
     lobes[1].coefficient = (aur_vector){1.0f, 1.0f, 1.0f};
-    if (!(squared > 0.0f)) /* only where the inside is the thinner medium */
+    if (!(squared > 0.0f)) /* only if the inside has the smaller index */
         return;
     const float inside = sqrtf(squared);
     const float across = (cosine - n * inside) / (cosine + n * inside);

@@ -1,19 +1,19 @@
-/* Materials made of two others. mask: a surface that is only partly there, the nested BSDF with weight
- * `opacity`, else light goes straight through. blendbsdf: the first nested BSDF and, with weight `weight`,
- * the second. twosided: one nested BSDF for both sides of a surface, or a second one for the back. */
+/* Materials that combine two others. mask: a partly present surface, the nested BSDF with weight `opacity`;
+ * the rest is transmitted unscattered. blendbsdf: the first nested BSDF, and the second with weight `weight`.
+ * twosided: one nested BSDF for both sides of a surface, or a second one for the back. */
 #include "render/scene/materials/texture.h"
 
 typedef struct mixture {
-    const aur_bsdf *part[2]; /* part[1] may be NULL where it has no weight anywhere */
-    bool by_side;            /* part[0] is seen from the front, part[1], turned round, from behind; else: */
-    aur_color weight;        /* of part[heavy]; the other one has the rest */
+    const aur_bsdf *part[2]; /* part[1] may be NULL if it never has weight */
+    bool by_side;            /* part[0] is for the front, part[1], mirrored, for the back; else: */
+    aur_color weight;        /* weight of part[heavy]; the other part has the rest */
     size_t heavy;
-    size_t number[2][AUR_BSDF_LOBE_CAPACITY]; /* that the parts' lobes have in the mixture */
+    size_t number[2][AUR_BSDF_LOBE_CAPACITY]; /* indices of the parts' lobes in the mixture */
 } mixture;
 
-/* --- lobes: those of the parts that differ in only coefficient and side become one */
+/* --- lobes: lobes of the parts that differ only in coefficient and side are merged */
 
-static bool are_alike(const aur_bsdf_lobe *a, const aur_bsdf_lobe *b) {
+static bool are_mergeable(const aur_bsdf_lobe *a, const aur_bsdf_lobe *b) {
     if (a->shape == AUR_LOBE_SHAPE_SPECULAR && a->way == AUR_LOBE_WAY_SEPARATE)
         return false;
     return a->shape == b->shape && a->way == b->way && a->diffuse == b->diffuse &&
@@ -23,12 +23,12 @@ static bool are_alike(const aur_bsdf_lobe *a, const aur_bsdf_lobe *b) {
 
 static size_t join_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe) {
     for (size_t i = 0; i < bsdf->lobe_count && i < AUR_BSDF_LOBE_CAPACITY; ++i) {
-        aur_bsdf_lobe *const known = &bsdf->lobes[i];
-        if (!are_alike(known, lobe))
+        aur_bsdf_lobe *const existing = &bsdf->lobes[i];
+        if (!are_mergeable(existing, lobe))
             continue;
-        known->sides |= lobe->sides;
-        known->ggx_alpha = known->ggx_alpha == lobe->ggx_alpha ? lobe->ggx_alpha : 0.0f;
-        known->transmits = known->transmits || lobe->transmits;
+        existing->sides |= lobe->sides;
+        existing->ggx_alpha = existing->ggx_alpha == lobe->ggx_alpha ? lobe->ggx_alpha : 0.0f;
+        existing->transmits = existing->transmits || lobe->transmits;
         return i;
     }
     return aur_bsdf_add_lobe(bsdf, lobe);
@@ -48,14 +48,14 @@ static void join_lobes(aur_bsdf *bsdf) {
     }
 }
 
-/* --- what is asked of a mixture: the sum of what its parts answer */
+/* --- queries of a mixture: the sum over its parts */
 
 static bool has_any(const aur_bsdf *bsdf, unsigned kinds) {
     return bsdf != NULL && ((bsdf->scatters[0] | bsdf->scatters[1]) & kinds) != 0;
 }
 
-/* What the parts weigh at a point, seen from a side; 0 where a part has nothing of what is asked for. Returns
- * their sum: a sampled lobe of a part that is half there is drawn as often as if it were all there. */
+/* The weights of the parts at a point, seen from a side; 0 if a part lacks the requested lobes. Returns their
+ * sum. A sampled lobe of a part with weight 1/2 is sampled with the full probability. */
 static float weigh_parts(const mixture *self, aur_bsdf_part part, aur_bsdf_point point, float side,
                          float weights[2]) {
     if (self->by_side) {
@@ -73,7 +73,7 @@ static float weigh_parts(const mixture *self, aur_bsdf_part part, aur_bsdf_point
     return weights[0] + weights[1];
 }
 
-/* A direction in the frame of part k: seen from behind, the frame is mirrored in its tangent plane. */
+/* A direction in the frame of part k: for the back, mirrored in the tangent plane. */
 static aur_vector turned(const mixture *self, size_t k, aur_vector direction) {
     return self->by_side && k == 1 ? (aur_vector){direction.x, direction.y, -direction.z} : direction;
 }
@@ -98,7 +98,7 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
     }
 }
 
-/* The one part that is seen from a side, which nothing needs to be weighed for. */
+/* The single part visible from a side, which needs no weighting. */
 static size_t part_seen(aur_vector view) {
     return view.z < 0.0f ? 1 : 0;
 }
@@ -150,8 +150,8 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const size_t k = u[0] < first ? 0 : 1;
     const float probability = weights[k] / total;
     const float rest = (k == 0 ? u[0] : u[0] - first) / probability;
-    const float own[3] = {fminf(rest, 0x1.fffffep-1f), u[1], u[2]};
-    if (!aur_bsdf_draw(self->part[k], part, point, view, own, drawn))
+    const float numbers[3] = {fminf(rest, 0x1.fffffep-1f), u[1], u[2]};
+    if (!aur_bsdf_draw(self->part[k], part, point, view, numbers, drawn))
         return false;
     drawn->pdf *= probability;
     drawn->weight = aur_vector_scale(drawn->weight, total);

@@ -1,12 +1,12 @@
-/* Surfaces that light goes straight through: nothing at all, and polarising filters as unpolarised light sees
- * them. */
+/* Surfaces that transmit light unscattered: no surface at all, and polarising filters for unpolarised light.
+ */
 #include "render/scene/materials/texture.h"
 
 typedef struct filter {
     aur_color transmittance;
 } filter;
 
-/* The half of unpolarised light that a linear or circular polariser takes. */
+/* Half of unpolarised light is absorbed by a linear or circular polariser. */
 static const float POLARIZED_SHARE = 0.5f;
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {

@@ -1,15 +1,15 @@
-/* Materials whose normal is another than the surface's: from an image of normals, or of heights. The nested
- * material is asked in the frame about the perturbed normal, by the same formulas as Mitsuba 3. */
+/* Materials with a perturbed normal, from a normal map or a bump map. The nested material is evaluated in the
+ * frame of the perturbed normal, by the formulas of Mitsuba 3. */
 #include "render/scene/materials/texture.h"
 
 typedef struct perturbed {
     const aur_bsdf *nested;
-    aur_color map; /* of normals, (n + 1) / 2 each; or of heights */
+    aur_color map; /* normals encoded as (n + 1) / 2; or heights */
     float scale;
     bool by_height;
-    bool flips;   /* normals that face away from the view are turned over */
-    bool shadows; /* light fades out before it sets, instead of being cut off */
-    /* The numbers that lobes of the nested material have here. */
+    bool flips;   /* normals that face away from the view are flipped */
+    bool shadows; /* fades out light near the horizon, instead of cutting it off */
+    /* Indices of the nested material's lobes in this one. */
     size_t number[AUR_BSDF_LOBE_CAPACITY];
 } perturbed;
 
@@ -34,8 +34,7 @@ static const aur_key bump_keys[] = {
     PERTURBED_KEYS,
 };
 
-/* Specular lobes stay what they are; of the others, none is about the surface's own normal: they are drawn.
- */
+/* Specular lobes stay specular. All others become sampled lobes, as they are not about the surface normal. */
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     perturbed *const self = bsdf->data;
     const aur_result result = aur_parameters_nested_bsdf(parameters, "bsdf", &self->nested, error);
@@ -71,7 +70,7 @@ static aur_result create_bump(aur_parameters *parameters, aur_bsdf *bsdf, aur_er
     return create(parameters, bsdf, error);
 }
 
-/* The perturbed normal, of any length. */
+/* The perturbed normal, not normalised. */
 static aur_vector normal_at(const perturbed *self, aur_bsdf_point point) {
     if (!self->by_height) {
         const aur_vector color = aur_color_at(&self->map, point);
@@ -106,7 +105,7 @@ static float squared_tangent(aur_vector direction) {
     return (direction.x * direction.x + direction.y * direction.y) / (direction.z * direction.z);
 }
 
-/* The factor of light: 0 where the two normals see it on different sides. */
+/* The factor of light: 0 if it is on different sides of the two normals. */
 static float factor_of(const perturbed *self, const aur_frame *frame, aur_vector light) {
     if (!(light.z * aur_vector_dot(frame->z, light) > 0.0f))
         return 0.0f;
@@ -133,7 +132,7 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
     }
 }
 
-/* All that is not specular is one sampled lobe, so that both parts have the same value. */
+/* All non-specular parts are one sampled lobe, so that both parts have the same value. */
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
     (void)part;

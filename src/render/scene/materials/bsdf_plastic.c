@@ -1,9 +1,7 @@
-/* A diffuse base under a clear coat, smooth or rough: the two differ in what the coat mirrors, by a Dirac
- * lobe or by facets, and in what it lets through, by Fresnel's formula or by a table. Light that the coat
- * mirrors inwards meets the base again; the geometric series over these bounces gives the factor below.
- * `pplastic` is between: facets mirror, but what goes through is as by a smooth coat, and meets the base
- * once.
- */
+/* A diffuse base under a clear coat, smooth or rough. The coat reflects by a Dirac lobe or by microfacets,
+ * and transmits by the Fresnel equations or by a table. Light that the coat reflects inwards meets the base
+ * again: a geometric series over these bounces gives the factor below. `pplastic` is in between: microfacets
+ * reflect, but transmission is that of a smooth coat, and light meets the base once. */
 #include "render/scene/materials/fresnel.h"
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/materials/sampling.h"
@@ -12,13 +10,13 @@
 typedef struct plastic {
     aur_color diffuse, specular;
     float ior;
-    bool nonlinear;            /* the colour deepens with each inner bounce */
-    float inner_reflectance;   /* of the coat from inside, over diffuse light */
-    float outer_transmittance; /* of the coat from outside, over diffuse light */
+    bool nonlinear;            /* colour saturation grows with each inner bounce */
+    float inner_reflectance;   /* diffuse reflectance of the coat from inside */
+    float outer_transmittance; /* diffuse reflectance of the coat from outside */
     float specular_weight;
-    bool rough;     /* facets mirror */
-    bool tabulated; /* what goes through is tabulated */
-    bool once;      /* no light meets the base again */
+    bool rough;     /* microfacets reflect */
+    bool tabulated; /* transmission is tabulated */
+    bool once;      /* no inner bounces */
     /* Of a rough coat: */
     aur_roughness microfacet;
     aur_rough_coat coat;
@@ -57,7 +55,7 @@ static aur_result make_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_erro
     return AUR_OK;
 }
 
-/* The share of light that the coat lets through where it meets it at `cosine` from above. */
+/* Transmittance of the coat at `cosine` from outside. */
 static float transmittance(const plastic *self, float cosine) {
     if (!self->tabulated) {
         float refracted;
@@ -70,7 +68,7 @@ static float factor(const void *data, float cosine) {
     return transmittance(data, cosine);
 }
 
-/* The base is a cosine lobe but for the coat, which lets less through the flatter light comes. */
+/* The base is a cosine lobe times the transmittance of the coat, which is lower at grazing angles. */
 static void add_base(aur_bsdf *bsdf) {
     aur_bsdf_lobe lobe = aur_diffuse_lobe();
     lobe.factor = factor;
@@ -127,7 +125,7 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     return AUR_OK;
 }
 
-/* The base's colour with its inner bounces, over ior^2: what is to be multiplied by both transmittances. */
+/* The base's colour with inner bounces, over ior^2: to be multiplied by both transmittances. */
 static aur_vector base_color(const plastic *self, aur_bsdf_point point) {
     const aur_vector color = aur_color_at(&self->diffuse, point);
     if (self->once)
@@ -140,7 +138,7 @@ static aur_vector base_color(const plastic *self, aur_bsdf_point point) {
                         color.z * scale / (1.0f - color.z * inner)};
 }
 
-/* How often the coat is drawn, where it lets `transmittance` through. */
+/* The probability of sampling the coat, given its transmittance. */
 static float specular_probability(const plastic *self, float transmittance) {
     const float coat = (1.0f - transmittance) * self->specular_weight;
     const float base = transmittance * (1.0f - self->specular_weight);

@@ -1,6 +1,6 @@
-/* One material for almost everything: from a coated or metallic base to rough glass (Burley 2012 and 2015),
- * by the same formulas as Mitsuba 3. Light that it gives back may exceed what it gets, where a bright base is
- * very rough or has sheen. */
+/* A general material, from a coated or metallic base to rough glass (Burley 2012 and 2015), by the formulas
+ * of Mitsuba 3. It may reflect more light than it receives, for a bright base with high roughness or sheen.
+ */
 #include "render/scene/materials/burley.h"
 #include "render/scene/materials/fresnel.h"
 
@@ -8,8 +8,8 @@ typedef struct principled {
     aur_burley burley;
     aur_color metallic, clearcoat, clearcoat_gloss;
     float eta;
-    size_t lobe;    /* the number of the sampled one, after the diffuse one where there is one */
-    float specular; /* read, and of no use afterwards */
+    size_t lobe;    /* index of the sampled lobe, after the diffuse one if present */
+    float specular; /* read, not used afterwards */
 } principled;
 
 static const aur_key keys[] = {
@@ -32,7 +32,7 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
                            "bsdf 'principled': give 'eta' or 'specular', not both");
     const bool glass =
         !aur_burley_is_always(&self->burley.spec_trans, 0.0f) && !aur_burley_is_always(&self->metallic, 1.0f);
-    /* Glass needs a boundary: Mitsuba 3 takes the same least numbers. */
+    /* A refracting boundary needs an index different from 1: the same minima as in Mitsuba 3. */
     if (self->eta == 0.0f)
         self->eta = 2.0f / (1.0f - sqrtf(0.08f * fmaxf(self->specular, glass ? 1e-3f : 0.0f))) - 1.0f;
     else if (glass && fabsf(self->eta - 1.0f) < 1e-4f)
@@ -48,27 +48,28 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     return AUR_OK;
 }
 
-/* --- a point seen from a side */
+/* --- parameters at a point, seen from a side */
 
-typedef struct place {
+typedef struct principled_terms {
     aur_burley_point burley;
     aur_microfacet facets;
     float metallic, eta;
-    float base, glass; /* what is no metal: its opaque part, and the rest */
+    float base, glass; /* weights of the dielectric: its opaque part, and the rest */
     float coat, coat_alpha;
     bool front;
-    float diffuse_probability, coat_probability; /* that they are drawn; the facets have the rest */
-} place;
+    float diffuse_probability, coat_probability; /* sampling probabilities; facets have the rest */
+} principled_terms;
 
-static float probability_of_facets(const place *at, float cosine);
+static float probability_of_facets(const principled_terms *at, float cosine);
 
-static place place_of(const principled *self, aur_bsdf_part part, aur_bsdf_point point, aur_vector view) {
-    place at = {.burley = aur_burley_at(&self->burley, point),
-                .metallic = aur_color_number_at(&self->metallic, point),
-                .eta = self->eta,
-                .coat = 0.25f * aur_color_number_at(&self->clearcoat, point),
-                .coat_alpha = 0.1f - 0.099f * aur_color_number_at(&self->clearcoat_gloss, point),
-                .front = view.z > 0.0f};
+static principled_terms terms_at(const principled *self, aur_bsdf_part part, aur_bsdf_point point,
+                                 aur_vector view) {
+    principled_terms at = {.burley = aur_burley_at(&self->burley, point),
+                           .metallic = aur_color_number_at(&self->metallic, point),
+                           .eta = self->eta,
+                           .coat = 0.25f * aur_color_number_at(&self->clearcoat, point),
+                           .coat_alpha = 0.1f - 0.099f * aur_color_number_at(&self->clearcoat_gloss, point),
+                           .front = view.z > 0.0f};
     at.facets = aur_burley_facets(&at.burley, at.burley.roughness);
     at.glass = (1.0f - at.metallic) * at.burley.spec_trans;
     at.base = 1.0f - at.metallic - at.glass;
@@ -82,9 +83,8 @@ static place place_of(const principled *self, aur_bsdf_part part, aur_bsdf_point
     return at;
 }
 
-/* The reflectance of a facet at a cosine: dielectric, metal, and in between; of glass alone seen from behind.
- */
-static aur_vector reflectance(const place *at, float cosine, float dielectric) {
+/* Facet reflectance at a cosine: dielectric, metal and mixtures; only glass when seen from behind. */
+static aur_vector reflectance(const principled_terms *at, float cosine, float dielectric) {
     if (!at->front)
         return (aur_vector){at->glass * dielectric, at->glass * dielectric, at->glass * dielectric};
     const aur_burley_point *const burley = &at->burley;
@@ -97,19 +97,20 @@ static aur_vector reflectance(const place *at, float cosine, float dielectric) {
         (1.0f - at->metallic) * burley->spec_tint, tinted);
 }
 
-/* About their share of light from everywhere; some even where they are black straight on. */
-static float probability_of_facets(const place *at, float cosine) {
+/* Proportional to approximate albedos; never 0 for facets, even if black at normal incidence. */
+static float probability_of_facets(const principled_terms *at, float cosine) {
     float refracted;
     const float dielectric = aur_fresnel_dielectric(cosine, at->eta, &refracted);
     return 0.05f + aur_luminance(reflectance(at, cosine, dielectric)) + at->glass * (1.0f - dielectric);
 }
 
-/* How often a facet that is drawn mirrors; else it lets light through. */
-static float probability_of_mirror(const place *at, float dielectric) {
+/* The probability that a sampled facet reflects rather than transmits. */
+static float probability_of_mirror(const principled_terms *at, float dielectric) {
     return at->front ? 1.0f - at->glass * (1.0f - dielectric) : dielectric;
 }
 
-/* --- the coat: normals of a longer tail than GGX (GTR with exponent 1, Burley 2012), fixed masking */
+/* --- clearcoat: GTR distribution with exponent 1, which has longer tails than GGX (Burley 2012); fixed
+ * masking */
 
 static float coat_density(float alpha, float cosine) {
     const float rest = alpha * alpha - 1.0f;
@@ -121,8 +122,8 @@ static aur_vector draw_coat_normal(float alpha, float u, float v) {
     return aur_direction_at(sqrtf(fmaxf((1.0f - powf(squared, 1.0f - v)) / (1.0f - squared), 0.0f)), u);
 }
 
-/* Adds the coat; returns the density of drawing `light` by it. */
-static float add_coat(const place *at, const aur_facet *facet, aur_vector view, aur_vector light,
+/* Adds the clearcoat; returns the pdf with which it samples `light`. */
+static float add_coat(const principled_terms *at, const aur_facet *facet, aur_vector view, aur_vector light,
                       aur_vector *sum) {
     static const aur_microfacet masking = {
         .distribution = AUR_MICROFACET_GGX, .alpha_u = 0.25f, .alpha_v = 0.25f};
@@ -135,12 +136,12 @@ static float add_coat(const place *at, const aur_facet *facet, aur_vector view, 
     return density * facet->normal.z * facet->jacobian;
 }
 
-/* --- what is asked */
+/* --- queries */
 
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
     const principled *const self = bsdf->data;
-    const place at = place_of(self, part, point, view);
+    const principled_terms at = terms_at(self, part, point, view);
     aur_facet facet;
     *pdf = 0.0f;
     const bool mirrored = view.z * light.z > 0.0f;
@@ -169,7 +170,7 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
 }
 
 /* False: no direction. */
-static bool draw_direction(const place *at, aur_vector view, const float u[3], aur_vector *light) {
+static bool draw_direction(const principled_terms *at, aur_vector view, const float u[3], aur_vector *light) {
     if (u[0] < at->diffuse_probability) {
         *light = aur_sample_cosine(u[1], u[2]);
         return true;
@@ -191,7 +192,7 @@ static bool draw_direction(const place *at, aur_vector view, const float u[3], a
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *drawn) {
     const principled *const self = bsdf->data;
-    const place at = place_of(self, part, point, view);
+    const principled_terms at = terms_at(self, part, point, view);
     aur_vector light;
     if (view.z == 0.0f || (!at.front && !(at.glass > 0.0f)) || !draw_direction(&at, view, u, &light))
         return false;
@@ -205,7 +206,7 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     return pdf > 0.0f;
 }
 
-/* The coefficient of the Lambert lobe. */
+/* The coefficient of the Lambertian lobe. */
 static aur_vector lambert(const principled *self, aur_bsdf_point point, float cosine) {
     const aur_burley_point at = aur_burley_at(&self->burley, point);
     const float base = (1.0f - aur_color_number_at(&self->metallic, point)) * (1.0f - at.spec_trans);

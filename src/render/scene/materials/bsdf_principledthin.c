@@ -1,13 +1,12 @@
-/* A thin sheet such as a leaf, paper or a window pane (Burley 2015), by the same formulas as Mitsuba 3. Both
- * sides are alike, and nothing is bent: light goes through as if a facet had mirrored it to the other side.
- */
+/* A thin sheet such as a leaf, paper or a window pane (Burley 2015), by the formulas of Mitsuba 3. Both sides
+ * are equal, and light is not refracted: transmission is facet reflection mirrored to the other side. */
 #include "render/scene/materials/burley.h"
 #include "render/scene/materials/fresnel.h"
 
 typedef struct thin {
     aur_burley burley;
     aur_color eta, diffuse_through;
-    size_t lobe; /* the number of the sampled one, after the diffuse one where there is one */
+    size_t lobe; /* index of the sampled lobe, after the diffuse one if present */
 } thin;
 
 static const aur_key keys[] = {
@@ -35,20 +34,20 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     return AUR_OK;
 }
 
-/* --- a point, and how often each way of drawing is taken there */
+/* --- parameters at a point, and sampling probabilities */
 
-typedef struct place {
+typedef struct thin_terms {
     aur_burley_point burley;
     aur_microfacet mirror,
-        through; /* what goes through is blurred less, by the index (Burley 2015, fig. 15) */
-    float eta, glossy, diffuse, diffuse_through; /* shares of light */
+        through; /* transmission is blurred less, depending on the index (Burley 2015, fig. 15) */
+    float eta, glossy, diffuse, diffuse_through; /* energy fractions */
     float mirror_probability, through_probability, diffuse_probability, diffuse_through_probability;
-} place;
+} thin_terms;
 
-static place place_of(const thin *self, aur_bsdf_part part, aur_bsdf_point point, aur_vector view) {
-    place at = {.burley = aur_burley_at(&self->burley, point),
-                .eta = aur_color_number_at(&self->eta, point),
-                .glossy = 0.0f};
+static thin_terms terms_at(const thin *self, aur_bsdf_part part, aur_bsdf_point point, aur_vector view) {
+    thin_terms at = {.burley = aur_burley_at(&self->burley, point),
+                     .eta = aur_color_number_at(&self->eta, point),
+                     .glossy = 0.0f};
     const float half = 0.5f * aur_color_number_at(&self->diffuse_through, point);
     at.glossy = at.burley.spec_trans;
     at.diffuse = (1.0f - at.glossy) * (1.0f - half);
@@ -70,13 +69,13 @@ static place place_of(const thin *self, aur_bsdf_part part, aur_bsdf_point point
     return at;
 }
 
-/* Half of the view, above, and of light, turned above. */
+/* Half vector of the view, above, and of the light direction, mirrored above. */
 static aur_vector half_of(aur_vector view, aur_vector light) {
     light.z = fabsf(light.z);
     return aur_vector_normalize(aur_vector_add(view, light));
 }
 
-static aur_vector reflectance(const place *at, float cosine, float dielectric) {
+static aur_vector reflectance(const thin_terms *at, float cosine, float dielectric) {
     const float normal = (at->eta - 1.0f) / (at->eta + 1.0f),
                 plain = (1.0f - at->burley.spec_tint) * dielectric;
     return aur_vector_add_scaled(
@@ -84,8 +83,8 @@ static aur_vector reflectance(const place *at, float cosine, float dielectric) {
         aur_schlick(aur_vector_scale(at->burley.tint, normal * normal), cosine, at->eta));
 }
 
-/* Light through facets to the view, which is above; *pdf as drawn. */
-static aur_vector facets(const place *at, aur_vector view, aur_vector light, float *pdf) {
+/* Light from facets to the view, which is above; *pdf as sampled. */
+static aur_vector facets(const thin_terms *at, aur_vector view, aur_vector light, float *pdf) {
     const bool mirrored = light.z > 0.0f;
     const aur_microfacet *const microfacet = mirrored ? &at->mirror : &at->through;
     const aur_vector normal = half_of(view, light);
@@ -106,7 +105,7 @@ static aur_vector facets(const place *at, aur_vector view, aur_vector light, flo
                             value);
 }
 
-/* --- what is asked */
+/* --- queries */
 
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
@@ -116,7 +115,7 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
     const float side = view.z < 0.0f ? -1.0f : 1.0f;
     view = aur_vector_scale(view, side);
     light = aur_vector_scale(light, side);
-    const place at = place_of(bsdf->data, part, point, view);
+    const thin_terms at = terms_at(bsdf->data, part, point, view);
     const aur_vector base = at.burley.base;
     aur_vector sum = facets(&at, view, light, pdf);
     if (light.z < 0.0f) {
@@ -138,7 +137,7 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
         return false;
     const float side = view.z < 0.0f ? -1.0f : 1.0f;
     view = aur_vector_scale(view, side);
-    const place at = place_of(bsdf->data, part, point, view);
+    const thin_terms at = terms_at(bsdf->data, part, point, view);
     const float diffuse = at.diffuse_probability + at.diffuse_through_probability;
     const bool through =
         u[0] >= at.diffuse_probability && !(u[0] >= diffuse && u[0] < diffuse + at.mirror_probability);
@@ -161,7 +160,7 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     return pdf > 0.0f;
 }
 
-/* The coefficient of the Lambert lobe. */
+/* The coefficient of the Lambertian lobe. */
 static aur_vector lambert(const thin *self, aur_bsdf_point point, float cosine) {
     const aur_burley_point at = aur_burley_at(&self->burley, point);
     const float share =

@@ -1,6 +1,6 @@
-/* A diffuse surface of small ideally diffuse facets (Oren and Nayar 1994, "Generalization of Lambert's
- * reflectance model", equations 27 to 29; `use_fast_approx`: equation 30). The standard deviation of the
- * facets' angles is alpha over the root of 2, as in Mitsuba 0.6. */
+/* A rough diffuse surface of Lambertian facets (Oren and Nayar 1994, "Generalization of Lambert's reflectance
+ * model", equations 27 to 29; `use_fast_approx`: equation 30). The standard deviation of facet angles is
+ * alpha over the square root of 2, as in Mitsuba 0.6. */
 #include "render/scene/materials/sampling.h"
 #include "render/scene/materials/texture.h"
 
@@ -24,7 +24,7 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     return AUR_OK;
 }
 
-/* Of a pair of directions: the steeper angle from the normal is alpha, the other one beta. */
+/* For a pair of directions: alpha is the larger angle from the normal, beta the smaller. */
 typedef struct angles {
     float alpha, beta, sin_alpha, sin_beta, cos_alpha, cos_beta;
     float turn; /* the cosine of the difference of azimuths */
@@ -44,7 +44,7 @@ static angles angles_of(aur_vector view, aur_vector light) {
     return at;
 }
 
-/* The BSDF for a reflectance, times pi. */
+/* pi times the BSDF for a reflectance. */
 static float single_scattering(const roughdiffuse *self, const angles *at, float variance) {
     const float a = 1.0f - 0.5f * variance / (variance + 0.33f), b = 0.45f * variance / (variance + 0.09f);
     const float tan_beta = at->sin_beta / at->cos_beta;

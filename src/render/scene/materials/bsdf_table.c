@@ -1,5 +1,5 @@
-/* The table of materials, and making them by name: a new one is one file, which defines aur_bsdf_<name>, and
- * one line here. */
+/* Materials by name, and their creation. To add one: one file, which defines aur_bsdf_<name>, and one line
+ * here. */
 #include <stddef.h>
 #include <string.h>
 
@@ -45,7 +45,7 @@ static const aur_row *const rows[] = {MATERIALS(ADDRESS)};
 const aur_table aur_bsdf_table = {
     .kind = "bsdf", .summary = "materials: how surfaces scatter light", AUR_TABLE_ROWS(rows)};
 
-/* A material that names another one twice, in a chain of such, is asked 2^n times. */
+/* A chain of materials that each reference another one twice would be evaluated 2^n times. */
 enum { MOST_EVALUATIONS = 1 << 12 };
 
 static aur_result count_evaluations(const aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
@@ -64,7 +64,7 @@ static aur_result count_evaluations(const aur_parameters *parameters, aur_bsdf *
                              parameters->plugin, bsdf->evaluations - 1, (int)MOST_EVALUATIONS - 1);
 }
 
-/* What a material has from the textures and materials among its parameters. */
+/* Properties derived from the textures and materials among the parameters. */
 static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
     for (size_t i = 0; i < parameters->count; ++i) {
         const aur_parameter *const item = &parameters->items[i];
@@ -93,7 +93,7 @@ static unsigned kind_of(const aur_bsdf_lobe *lobe) {
     return lobe->diffuse ? AUR_SCATTERS_DIFFUSE : AUR_SCATTERS_GLOSSY;
 }
 
-/* What follows from the lobes. */
+/* Properties derived from the lobes. */
 static void summarise(aur_bsdf *bsdf) {
     bsdf->plain_diffuse = !bsdf->textured;
     for (size_t i = 0; i < bsdf->lobe_count; ++i) {

@@ -1,20 +1,20 @@
-/* Terms that the two principled materials share (Burley 2012, Burley 2015), as Mitsuba 3 puts them together:
- * a diffuse base that darkens at its edge, light thrown back at grazing angles, sheen, facets. */
+/* Terms shared by the two principled materials (Burley 2012, Burley 2015), as combined in Mitsuba 3: a
+ * diffuse base darker at grazing angles, retroreflection, sheen, facets. */
 #pragma once
 
 #include "render/scene/materials/microfacet.h"
 #include "render/scene/materials/texture.h"
 
-/* What both materials are told. */
+/* Parameters of both materials. */
 typedef struct aur_burley {
     aur_color base_color, roughness, anisotropic, spec_trans, spec_tint, sheen, sheen_tint, flatness;
 } aur_burley;
 
-/* A number of a material between 0 and 1, or a texture of them. */
+/* A material parameter in [0, 1], constant or textured. */
 #define AUR_KEY_OF_SHARE(struct_, name_, field_, default_, help_)                                            \
     { AUR_KEY_OF_COLOR(struct_, name_, field_, 1.0, default_, help_) }
 
-/* Rows for tables of keys; the struct has an aur_burley called burley. */
+/* Rows for tables of parameters; the struct has a member `aur_burley burley`. */
 #define AUR_BURLEY_KEYS(struct_)                                                                             \
     AUR_KEY_OF_SHARE(struct_, "base_color", burley.base_color, "0.5", "of the material"),                    \
         AUR_KEY_OF_SHARE(struct_, "roughness", burley.roughness, "0.5",                                      \
@@ -31,7 +31,7 @@ typedef struct aur_burley {
         AUR_KEY_OF_SHARE(struct_, "flatness", burley.flatness, "0",                                          \
                          "share of subsurface-like reflection in diffuse light")
 
-/* What they are at a point. */
+/* Parameter values at a point. */
 typedef struct aur_burley_point {
     aur_vector base, tint, sheen; /* tint: the base's colour at luminance 1; sheen: weight times colour */
     float roughness, spec_trans, spec_tint, flatness;
@@ -39,32 +39,33 @@ typedef struct aur_burley_point {
 } aur_burley_point;
 
 aur_burley_point aur_burley_at(const aur_burley *burley, aur_bsdf_point point);
-/* Whether it is that number everywhere. */
+/* Whether the parameter is that number everywhere. */
 static inline bool aur_burley_is_always(const aur_color *color, float number) {
     return color->texture == NULL && color->constant.x == number;
 }
 /* GGX facets for a roughness. */
 aur_microfacet aur_burley_facets(const aur_burley_point *at, float roughness);
-/* Whether highlights may be longer than wide anywhere. */
+/* Whether highlights may be anisotropic anywhere. */
 bool aur_burley_is_anisotropic(const aur_burley *burley);
 
 /* (1 - cosine)^5 */
 float aur_schlick_weight(float cosine);
-/* Schlick's reflectance: `normal` straight on, 1 at grazing angles; of the refracted angle where ior < 1. */
+/* Schlick's reflectance: `normal` at normal incidence, 1 at grazing angles; uses the refracted angle for ior
+ * < 1. */
 aur_vector aur_schlick(aur_vector normal, float cosine, float ior);
 
-/* The base is a Lambert lobe but for the edge, where it is half as bright: this times the same for the view.
- * A lobe's factor; `data` is of no use. */
+/* The base is Lambertian times edge factors for light and view, each 1/2 at grazing angles. This is the
+ * factor of a lobe; `data` is unused. */
 float aur_burley_edge(const void *data, float cosine);
 /* Integral of the edge's factor times cosine / pi over a hemisphere: 41/42. */
 #define AUR_BURLEY_EDGE_MEAN (41.0f / 42.0f)
-/* The lobe, with that factor; its coefficient is base_color / pi times the edge's factor for the view times
- * 1 - flatness, times what the material itself has. */
+/* The lobe with that factor. Its coefficient is base_color / pi times the edge factor for the view times 1 -
+ * flatness, times the material's own factors. */
 aur_bsdf_lobe aur_burley_lobe(unsigned sides);
 
-/* What else the base scatters from `light` to `view` times light.z, both above: light thrown back, the flat
- * part of diffuse light, and sheen. For `weight` of base and `sheen` of sheen. */
+/* The rest of the base's scattering from `light` to `view` times light.z, both above: retroreflection, the
+ * flat part of diffuse light, and sheen. `weight` is that of the base, `sheen` that of sheen. */
 aur_vector aur_burley_rest(const aur_burley_point *at, float weight, float sheen, aur_vector view,
                            aur_vector light);
-/* About its share of light from everywhere, for drawing it in proportion. */
+/* Its approximate albedo, used as sampling weight. */
 float aur_burley_rest_probability(const aur_burley_point *at, float weight, float sheen, float view_cosine);

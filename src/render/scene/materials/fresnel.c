@@ -6,7 +6,7 @@
 #include "points/base/text.h"
 
 float aur_fresnel_dielectric(float cosine, float ior, float *refracted) {
-    const float ratio = cosine >= 0.0f ? ior : 1.0f / ior; /* of the other side to this one */
+    const float ratio = cosine >= 0.0f ? ior : 1.0f / ior; /* of the other side over this side */
     const float here = fabsf(cosine);
     const float there_squared = 1.0f - (1.0f - here * here) / (ratio * ratio);
     *refracted = 0.0f;
@@ -38,8 +38,8 @@ aur_vector aur_fresnel_conductor(float cosine, aur_vector eta, aur_vector k) {
 }
 
 float aur_fresnel_diffuse(float ior) {
-    /* Midpoints in c^2 = t: the integral of F(sqrt t) dt, in two parts where all is reflected below an angle.
-     */
+    /* Midpoint rule in c^2 = t for the integral of F(sqrt t) dt, in two parts if there is total reflection
+     * below an angle. */
     enum { STEPS = 4096 };
     const double from = ior < 1.0f ? 1.0 - (double)ior * (double)ior : 0.0;
     double sum = 0.0;
@@ -84,7 +84,7 @@ typedef struct indices {
     double inside, outside;
 } indices;
 
-/* Their keys where they are given by numbers. */
+/* Their parameters if given by numbers. */
 static const aur_key numbers[] = {
     {AUR_KEY_OF_REAL(indices, "int_ior", inside, 0.1, 100.0, NULL, NULL)},
     {AUR_KEY_OF_REAL(indices, "ext_ior", outside, 0.1, 100.0, NULL, NULL)},
@@ -126,8 +126,8 @@ aur_result aur_parameters_ior(aur_parameters *parameters, const char *inside, fl
     return result;
 }
 
-/* Complex indices for red, green and blue, by the CIE observer from measured spectra (Mitsuba's data, which
- * are SOPRA's and those of Palik's handbook). */
+/* Complex indices for red, green and blue, by the CIE observer from measured spectra (Mitsuba's data, from
+ * SOPRA and Palik's handbook). */
 static const struct {
     const char *name;
     aur_vector eta, k;

@@ -1,32 +1,32 @@
-/* How much light a smooth boundary reflects, and refractive indices. */
+/* Fresnel reflectance of smooth boundaries, and refractive indices. */
 #pragma once
 
 #include "points/base/keys.h"
 #include "points/base/vector.h"
 
-/* The reflectance of a boundary for unpolarised light that arrives at `cosine` (its sign says from which
- * side: positive is the outside). `ior` is inside over outside. *refracted is the cosine on the other side,
- * of the opposite sign; 0 when all is reflected. */
+/* The reflectance of a boundary for unpolarised light incident at `cosine` (positive from outside, negative
+ * from inside). `ior` is inside over outside. *refracted is the cosine on the other side, of the opposite
+ * sign; 0 for total reflection. */
 float aur_fresnel_dielectric(float cosine, float ior, float *refracted);
 
-/* The same for a metal with the complex index eta + i k, seen from vacuum at cosine >= 0. Signs of eta and k
- * do not matter. */
+/* The same for a metal with the complex index eta + i k, from vacuum at cosine >= 0. Signs of eta and k do
+ * not matter. */
 aur_vector aur_fresnel_conductor(float cosine, aur_vector eta, aur_vector k);
 
 /* The mean of aur_fresnel_dielectric over diffuse light: 2 integral F(c) c dc. */
 float aur_fresnel_diffuse(float ior);
 
-/* Reads `int_ior` and `ext_ior`, numbers or names ("bk7", "water"), and gives inside over outside. */
+/* Reads `int_ior` and `ext_ior`, numbers or names ("bk7", "water"); gives inside over outside. */
 aur_result aur_parameters_ior(aur_parameters *parameters, const char *inside, float *ior, aur_error *error);
 
 /* A metal's complex index for red, green and blue. */
 typedef struct aur_metal {
     aur_vector eta, k;
-    bool perfect; /* reflects all */
+    bool perfect; /* perfect mirror */
 } aur_metal;
 
 /* From `material` (the name of a metal, or "none": a perfect mirror), or `eta` and `k`, which have been read;
- * a perfect mirror by default. Both are divided by `ext_eta`. */
+ * default: a perfect mirror. Both are divided by `ext_eta`. */
 aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_error *error);
 
 /* Rows for tables of keys, of what aur_parameters_ior reads. */

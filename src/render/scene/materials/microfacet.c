@@ -34,7 +34,7 @@ float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal
     return 1.0f / (area * sum * sum);
 }
 
-/* Smith's Lambda, exact for both, but for 0 where 1 + Lambda rounds to 1. */
+/* Smith's Lambda, exact for both distributions, except 0 where 1 + Lambda rounds to 1. */
 static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
     const float x = direction.x * microfacet->alpha_u, y = direction.y * microfacet->alpha_v;
     const float tangent2 = (x * x + y * y) / (direction.z * direction.z); /* (alpha tan)^2 */
@@ -42,13 +42,13 @@ static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
         return 0.0f;
     if (microfacet->distribution != AUR_MICROFACET_BECKMANN)
         return 0.5f * (sqrtf(1.0f + tangent2) - 1.0f);
-    /* Lambda < exp(-a^2) / (4 sqrt(pi) a^3) for a = 1 / tangent: from a = 3.5 on below 1.6e-8, and 2^-25 is
-     * 3.0e-8. Most directions on smooth surfaces are there. */
+    /* Lambda < exp(-a^2) / (4 sqrt(pi) a^3) for a = 1 / tangent: below 1.6e-8 from a = 3.5 on, and 2^-25 is
+     * 3.0e-8. Most directions on smooth surfaces are in this range. */
     if (tangent2 < 1.0f / (3.5f * 3.5f))
         return 0.0f;
     const float a = 1.0f / sqrtf(tangent2);
-    /* exp(-a^2) / (sqrt(pi) a) - erfc(a), half of it; erfc by Abramowitz and Stegun 7.1.26, to 1.5e-7, which
-     * has the power in common: two units of the last place of 1 + Lambda. */
+    /* Half of exp(-a^2) / (sqrt(pi) a) - erfc(a). erfc is by Abramowitz and Stegun 7.1.26, to 1.5e-7, with
+     * the same power as factor: the error is two units in the last place of 1 + Lambda. */
     const float t = 1.0f / (1.0f + 0.3275911f * a);
     float p = 1.061405429f;
     p = p * t - 1.453152027f;
@@ -89,9 +89,9 @@ static aur_vector sample_ggx(aur_vector view, float u, float v) {
     return aur_vector_add(aur_direction_at(z, u), view);
 }
 
-/* The slope along the view's azimuth, for roughness 1 (Heitz and d'Eon 2014): the root x of C(x) = u C(cot)
- * with C(x) = sqrt(pi) cos (1 + erf x) + sin exp(-x^2), by Halley's method kept in a shrinking interval: the
- * error is cubed, and steps of 2e-3 leave less than floats tell. */
+/* The slope along the view's azimuth for roughness 1 (Heitz and d'Eon 2014): the root x of C(x) = u C(cot)
+ * with C(x) = sqrt(pi) cos (1 + erf x) + sin exp(-x^2), by Halley's method in a shrinking bracket.
+ * Convergence is cubic, so after a step of 2e-3 the error is below float precision. */
 static float sample_visible_slope(float cosine, float sine, float u) {
     const double root_pi = 1.7724538509055160;
     const double c = cosine, s = sine;
@@ -191,7 +191,7 @@ bool aur_facet_find(float ior, aur_vector view, aur_vector light, aur_facet *fac
     facet->normal = aur_upright(aur_vector_normalize(aur_vector_add_scaled(view, facet->ratio, light)));
     facet->view = aur_vector_dot(view, facet->normal);
     facet->light = aur_vector_dot(light, facet->normal);
-    /* Facets that show their back, or both directions one side though light goes through. */
+    /* Invalid: back-facing facets, or refraction with both directions on one side. */
     if (facet->view * view.z <= 0.0f || facet->light * light.z <= 0.0f)
         return false;
     float refracted;

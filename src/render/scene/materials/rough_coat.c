@@ -5,13 +5,13 @@
 
 enum { SIZE = AUR_ROUGH_COAT_SIZE, MOST_SIDE = 64, MOST_NODES = 128 };
 
-/* What a rough boundary does with light that meets it. Facets that others shadow scatter once only, so the
- * two shares are below 1 in sum, the more so the rougher; Mitsuba 3 does the same. */
+/* Reflectance and transmittance of a rough boundary. Single scattering only: their sum is below 1, the more
+ * so the rougher the surface, as in Mitsuba 3. */
 typedef struct rough_shares {
     double mirrored, through;
 } rough_shares;
 
-/* Adds what one of its visible facets does, with a weight. */
+/* Adds the contribution of a visible facet, with a weight. */
 static void add_facet(const aur_microfacet *microfacet, float ior, aur_vector view, aur_vector normal,
                       double weight, rough_shares *sum) {
     const float along = aur_vector_dot(view, normal);
@@ -35,7 +35,7 @@ static aur_vector view_at(float cosine, float least) {
 }
 
 static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float cosine) {
-    /* From the denser side, total reflection cuts an edge into the integrand. */
+    /* From the denser side, total reflection makes the integrand discontinuous. */
     const size_t side = ior > 1.0f ? 32 : MOST_SIDE;
     const aur_vector view = view_at(cosine, 1e-4f);
     float middles[MOST_SIDE];
@@ -67,10 +67,10 @@ aur_rough_coat aur_rough_coat_of(const aur_microfacet *microfacet, float ior) {
     return coat;
 }
 
-/* --- as Mitsuba 3 sums */
+/* --- Mitsuba 3's quadrature */
 
 /* A point of the unit disk (Shirley and Chiu 1997), squeezed towards the visible half, is a GGX facet of
- * roughness 1 (Heitz 2018): its slopes along the view's azimuth and across. */
+ * roughness 1 (Heitz 2018). Returns its slopes along the view's azimuth and across. */
 static void ggx_slopes(float cosine, float u, float v, float slopes[2]) {
     const float x = 2.0f * u - 1.0f, y = 2.0f * v - 1.0f;
     const bool upright = fabsf(x) < fabsf(y);
@@ -87,7 +87,7 @@ static void ggx_slopes(float cosine, float u, float v, float slopes[2]) {
     slopes[1] = across * scale;
 }
 
-/* Beckmann facets are drawn by the inverse of their distribution, as here. */
+/* Beckmann facets are sampled by inverting their distribution, as in microfacet.c. */
 static void draw_row(const aur_microfacet *microfacet, aur_vector view, float u, size_t count, const float *v,
                      aur_vector *normals) {
     if (microfacet->distribution == AUR_MICROFACET_BECKMANN) {
@@ -106,13 +106,13 @@ static void draw_row(const aur_microfacet *microfacet, aur_vector view, float u,
 static rough_shares sum_at(const aur_microfacet *microfacet, float ior, float cosine, size_t count,
                            const double *nodes, const double *weights) {
     const aur_vector view = view_at(cosine, 1e-6f);
-    float places[MOST_NODES];
+    float cosines[MOST_NODES];
     for (size_t i = 0; i < count; ++i)
-        places[i] = (float)(0.5 * nodes[i] + 0.5);
+        cosines[i] = (float)(0.5 * nodes[i] + 0.5);
     rough_shares sum = {0};
     aur_vector normals[MOST_NODES];
     for (size_t i = 0; i < count; ++i) {
-        draw_row(microfacet, view, places[i], count, places, normals);
+        draw_row(microfacet, view, cosines[i], count, cosines, normals);
         for (size_t j = 0; j < count; ++j)
             add_facet(microfacet, ior, view, normals[j], 0.25 * weights[i] * weights[j], &sum);
     }
@@ -141,8 +141,8 @@ aur_rough_coat aur_rough_coat_of_mitsuba(const aur_microfacet *microfacet, float
 }
 
 float aur_rough_coat_transmittance(const aur_rough_coat *coat, float cosine) {
-    const float place = fminf(fmaxf(cosine, 0.0f), 1.0f) * (SIZE - 1);
-    const size_t index = place < SIZE - 1 ? (size_t)place : SIZE - 2;
-    const float share = place - (float)index;
+    const float position = fminf(fmaxf(cosine, 0.0f), 1.0f) * (SIZE - 1);
+    const size_t index = position < SIZE - 1 ? (size_t)position : SIZE - 2;
+    const float share = position - (float)index;
     return (1.0f - share) * coat->transmittance[index] + share * coat->transmittance[index + 1];
 }

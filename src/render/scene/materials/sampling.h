@@ -1,17 +1,18 @@
-/* Drawing directions from the densities that materials and lights share. Local frame, z up. */
+/* Sampling of directions, shared by materials and lights. Local frame, z up. */
 #pragma once
 
 #include "points/base/vector.h"
 
-/* Cosine and sine of pi/4 t for t in [-1,1], by their series: to 2 units of the last place, and on the same
- * bits everywhere. */
+/* Cosine and sine of pi/4 t for t in [-1,1], by series: to 2 units in the last place, and bit-identical
+ * everywhere. */
 static inline void aur_eighth_turn(float t, float *cosine, float *sine) {
     const float x = AUR_PI_F / 4.0f * t, r = x * x;
     *sine = x + x * r * (((2.7557319e-6f * r - 1.9841270e-4f) * r + 8.3333333e-3f) * r - 0.16666667f);
     *cosine = 1.0f + r * (((2.4801587e-5f * r - 1.3888889e-3f) * r + 4.1666667e-2f) * r - 0.5f);
 }
 
-/* The unit disk by Shirley and Chiu's concentric map (1997): continuous, and neighbours stay neighbours. */
+/* The unit disk by Shirley and Chiu's concentric map (1997), which is continuous and preserves
+ * stratification. */
 static inline void aur_sample_disk(float u, float v, float *x, float *y) {
     const float a = 2.0f * u - 1.0f;
     const float b = 2.0f * v - 1.0f;
@@ -56,7 +57,7 @@ static inline float aur_cosine_power_pdf(float cosine, float exponent) {
     return cosine > 0.0f ? (exponent + 1.0f) / (2.0f * AUR_PI_F) * powf(cosine, exponent) : 0.0f;
 }
 
-/* The mirror image of a direction about the normal +z. */
+/* A direction mirrored about the normal +z. */
 static inline aur_vector aur_mirror(aur_vector direction) {
     return (aur_vector){-direction.x, -direction.y, direction.z};
 }
@@ -65,7 +66,7 @@ static inline float aur_luminance(aur_vector color) {
     return 0.212671f * color.x + 0.715160f * color.y + 0.072169f * color.z;
 }
 
-/* The inverse of the error function, for drawing from Gaussians. */
+/* The inverse error function, for sampling Gaussians. */
 
 /* x with erf(x) = y for -1 < y < 1, to a few parts in 10^7 (Giles 2012, "Approximating the erfinv function",
  * single precision). */

@@ -35,7 +35,7 @@ static aur_result fail(aur_error *error, const char *folder) {
     return aur_fail(error, AUR_ERROR_WRITE, "%s: a temporary file for textures: %s", folder, strerror(errno));
 }
 
-/* A file that is gone when the process is. */
+/* Creates a temporary file without a name, which is removed when the process ends. */
 static int open_nameless(const char *folder) {
     char name[4096];
     const int length = snprintf(name, sizeof name, "%s/aureole-texels-XXXXXX", folder);
@@ -66,7 +66,7 @@ static bool write_all(int file, size_t size, const unsigned char *values, size_t
     return true;
 }
 
-/* Begins at a multiple of a block: the system maps what lies about a page in such pieces. */
+/* Aligned to a multiple of a block: the system maps the neighbourhood of a page in such units. */
 static unsigned char *map_aligned(int file, size_t size, size_t offset) {
     unsigned char *const room =
         mmap(NULL, size + AUR_TEXEL_BLOCK, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -97,7 +97,7 @@ static bool reserve(aur_texel_pages *pages, size_t count) {
 
 aur_result aur_texel_pages_add(aur_texel_pages *pages, size_t size, const unsigned char *values,
                                const unsigned char **mapped, size_t *first_block, aur_error *error) {
-    const char *const wanted = getenv("TMPDIR"), *const folder = wanted != NULL ? wanted : "/var/tmp";
+    const char *const variable = getenv("TMPDIR"), *const folder = variable != NULL ? variable : "/var/tmp";
     const size_t count = (size + AUR_TEXEL_BLOCK - 1) >> AUR_TEXEL_BLOCK_BITS;
     const size_t offset = pages->count << AUR_TEXEL_BLOCK_BITS, whole = count << AUR_TEXEL_BLOCK_BITS;
     if (!reserve(pages, count))
@@ -120,8 +120,8 @@ aur_result aur_texel_pages_add(aur_texel_pages *pages, size_t size, const unsign
     return AUR_OK;
 }
 
-/* The clock algorithm: the hand goes around, and drops what has not been in use since it last passed. Another
- * thread may read a block while it is dropped: it then reads it from the file. */
+/* The clock algorithm: the hand goes around, and drops blocks not used since its last pass. If another thread
+ * reads a block while it is dropped, it reads from the file. */
 static void drop_some(aur_texel_pages *pages, const aur_texel_block *stays) {
     for (size_t i = 0; i < 2 * pages->count && atomic_load(&pages->resident) > pages->limit; ++i) {
         aur_texel_block *const block = &pages->blocks[atomic_fetch_add(&pages->hand, 1) % pages->count];

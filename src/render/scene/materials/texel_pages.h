@@ -1,6 +1,6 @@
-/* Memory for texels that is bounded. They lie in a file without a name, which is mapped and never changes:
- * what is dropped from memory is read again when it is next in use, with the same values. Which blocks are in
- * memory depends on threads and time; no value does. */
+/* Bounded memory for texels. They are in an unnamed file, which is mapped and never changes: blocks dropped
+ * from memory are read again on the next access, with the same values. Which blocks are in memory depends on
+ * threads and timing; values do not. */
 #pragma once
 
 #include <stdatomic.h>
@@ -10,12 +10,12 @@
 
 #include "points/base/error.h"
 
-enum { AUR_TEXEL_BLOCK_BITS = 16 }; /* 64 KiB: as much as Linux maps at one fault */
+enum { AUR_TEXEL_BLOCK_BITS = 16 }; /* 64 KiB: as much as Linux maps per fault */
 #define AUR_TEXEL_BLOCK ((size_t)1 << AUR_TEXEL_BLOCK_BITS)
 
 typedef struct aur_texel_block {
     unsigned char *address;
-    atomic_uchar state; /* 0: not in memory; 1: since the hand last passed not in use; 2: in use */
+    atomic_uchar state; /* 0: not in memory; 1: not used since the hand's last pass; 2: in use */
 } aur_texel_block;
 
 typedef struct aur_texel_pages {
@@ -26,16 +26,16 @@ typedef struct aur_texel_pages {
     atomic_size_t resident, hand;
 } aur_texel_pages;
 
-/* `bytes`: how much of the texels may be in memory; 4 MiB at least. */
-aur_texel_pages *aur_texel_pages_create(size_t bytes); /* NULL: no memory */
+/* `bytes`: limit of texels in memory; at least 4 MiB. */
+aur_texel_pages *aur_texel_pages_create(size_t bytes); /* NULL: out of memory */
 void aur_texel_pages_destroy(aur_texel_pages *pages);  /* NULL is allowed */
 
-/* Adds texels; not while others are in use. The file is in TMPDIR or /var/tmp, and has no name. Errors:
- * MEMORY, WRITE. */
+/* Adds texels; must not run while others are in use. The file is in TMPDIR or /var/tmp, and has no name.
+ * Errors: MEMORY, WRITE. */
 aur_result aur_texel_pages_add(aur_texel_pages *pages, size_t size, const unsigned char *values,
                                const unsigned char **mapped, size_t *first_block, aur_error *error);
 
-/* Marks a block, and drops others where there are too many. */
+/* Marks a block as used, and drops others above the limit. */
 void aur_texel_pages_bring(aur_texel_pages *pages, aur_texel_block *block);
 
 /* Must be called before bytes `first` to `last` of texels are read. */

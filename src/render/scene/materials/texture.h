@@ -1,4 +1,5 @@
-/* Values that vary over a surface. One texture a file (texture_*.c), with one line in texture_table.c. */
+/* Textures: values that vary over a surface. A texture is one file (texture_*.c), with one line in
+ * texture_table.c. */
 #pragma once
 
 #include "points/base/keys.h"
@@ -9,29 +10,30 @@ typedef struct aur_texture aur_texture;
 
 typedef struct aur_texture_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor */
-    size_t size; /* of what texture->data points to: zeroed before `create`, freed in the end */
-    /* Reads its keys (aur_colors_read), fills texture->data and sets texture->mean and texture->maximum. */
+    size_t size; /* size of texture->data: zeroed before `create`, freed in the end */
+    /* Reads its parameters (aur_colors_read), fills texture->data and sets texture->mean and
+     * texture->maximum. */
     aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
-    void (*release)(void *data); /* what texture->data points to further; NULL: nothing */
+    void (*release)(void *data); /* frees what texture->data points to; NULL: nothing */
     aur_vector (*evaluate)(const aur_texture *texture, aur_bsdf_point point);
-    /* How the luminance grows with u and v; NULL: not at all. */
+    /* Derivatives of the luminance by u and v; NULL: zero. */
     void (*slope)(const aur_texture *texture, aur_bsdf_point point, float slope[2]);
 } aur_texture_descriptor;
 
 struct aur_texture {
     const aur_texture_descriptor *descriptor;
     void *data;
-    struct aur_texel_pages *pages; /* where texels go; NULL: to memory */
-    aur_vector mean;               /* over the unit square */
-    float maximum;                 /* of any channel anywhere; 0: not known */
-    float aspect;                  /* width over height of an image; 0: not one */
-    aur_attributes attributes;     /* of meshes, that it reads, here or in a nested texture */
+    struct aur_texel_pages *pages; /* storage of texels; NULL: memory */
+    aur_vector mean;               /* mean over the unit square */
+    float maximum;                 /* maximum of any channel; 0: not available */
+    float aspect;                  /* width over height of an image; 0: not an image */
+    aur_attributes attributes;     /* mesh attributes read, here or in a nested texture */
 };
 
 extern const aur_table aur_texture_table;
 
-/* Builds the texture that parameters->plugin names. A bitmap's `filename` must already be a path that opens.
- * `pages` may be NULL, and must outlive the texture. */
+/* Builds the texture of parameters->plugin. A bitmap's `filename` must already be resolved. `pages` may be
+ * NULL, and must outlive the texture. */
 aur_result aur_texture_create(aur_parameters *parameters, struct aur_texel_pages *pages,
                               aur_texture **texture, aur_error *error);
 void aur_texture_destroy(aur_texture *texture);
@@ -41,12 +43,12 @@ typedef struct aur_uv_map {
     float m[6]; /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
 } aur_uv_map;
 
-/* What is read of it: `to_uv`, or Mitsuba 0.6's way to say it. */
+/* Parameters for it: `to_uv`, or the form of Mitsuba 0.6. */
 typedef struct aur_uv_keys {
     double to_uv[16], scale[2], offset[2];
 } aur_uv_keys;
 
-/* Rows for tables of keys; the struct has an aur_uv_keys called uv. */
+/* Rows for tables of parameters; the struct has a member `aur_uv_keys uv`. */
 #define AUR_UV_KEYS(struct_)                                                                                 \
     {AUR_KEY_OF_TRANSFORM(struct_, "to_uv", uv.to_uv, "applied to the texture coordinates")},                \
         {AUR_KEY_OF_REAL(struct_, "uscale", uv.scale[0], -1e30, 1e30, "1", "factor of u")},                  \
@@ -62,9 +64,9 @@ static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, fl
                             .v = map->m[3] * u + map->m[4] * v + map->m[5]};
 }
 
-/* An image's red, green and blue, or grey three times, the top row first; *rgb is malloc'ed. Infinite values
- * become the largest half, 65504; NaN and negative ones 0. Errors: ARGUMENT for channels that are no colour,
- * MEMORY. */
+/* An image's red, green and blue, or grey three times, top row first; *rgb is malloc'ed. Infinite values
+ * become the largest half, 65504; NaN and negative ones 0. Errors: ARGUMENT for channels that are not a
+ * colour, MEMORY. */
 struct aur_image;
 aur_result aur_image_radiance(const char *name, const struct aur_image *image, float **rgb, aur_error *error);
 
@@ -73,7 +75,7 @@ static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point poi
                                   : color->texture->descriptor->evaluate(color->texture, point);
 }
 
-/* For what is a number and no colour: the luminance of a texture that is not grey. */
+/* For scalar parameters: the luminance of a texture that is not grey. */
 static inline float aur_color_number_at(const aur_color *color, aur_bsdf_point point) {
     const aur_vector value = aur_color_at(color, point);
     return value.x == value.y && value.y == value.z ? value.x : aur_luminance(value);
@@ -83,5 +85,5 @@ static inline aur_vector aur_color_mean(const aur_color *color) {
     return color->texture == NULL ? color->constant : color->texture->mean;
 }
 
-/* aur_row_read for structs with keys of colours: a texture must not reach beyond a key's maximum. */
+/* aur_row_read for structs with colour parameters: a texture must not exceed the parameter's maximum. */
 aur_result aur_colors_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error);

@@ -1,4 +1,4 @@
-/* An image; (0, 0) is its top left corner and (1, 1) its bottom right one. */
+/* An image texture; (0, 0) is its top left corner and (1, 1) its bottom right one. */
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -14,7 +14,7 @@ typedef struct bitmap {
     aur_uv_map to_uv;
     enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
     wrap_mode wrap, wrap_v; /* along u and v */
-    /* Read, and of no use afterwards: */
+    /* Read, not used afterwards: */
     bool raw;
     enum { CHANNEL_RGB, CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_ALPHA } channel;
     float factor[3], cutoff;
@@ -23,7 +23,7 @@ typedef struct bitmap {
     bool encodes, opaque;
 } bitmap;
 
-/* What sRGB stores for a linear value: undoes the reader's decoding for `raw` images of 8 bits. */
+/* The sRGB encoding of a linear value: undoes the reader's decoding for `raw` 8-bit images. */
 static float encode(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
 }
@@ -37,7 +37,7 @@ static bool has_8_bits(const char *path) {
     return false;
 }
 
-/* What is infinite becomes the largest half, as in other renderers, and what is NaN 0. */
+/* Infinite values become the largest half, as in other renderers, and NaN 0. */
 static float finite_value(float value) {
     const float largest = 65504.0f;
     return isfinite(value) ? value : isnan(value) ? 0.0f : copysignf(largest, value);
@@ -59,7 +59,7 @@ aur_result aur_image_radiance(const char *name, const aur_image *image, float **
     return AUR_OK;
 }
 
-/* The channels that the key `channel` names; none of alpha where there is none. */
+/* The channels selected by the parameter `channel`; none if alpha is selected but absent. */
 static aur_result choose_channels(const bitmap *self, const aur_image *image, size_t channel[3],
                                   aur_error *error) {
     if (self->channel == CHANNEL_ALPHA) {
@@ -74,7 +74,7 @@ static aur_result choose_channels(const bitmap *self, const aur_image *image, si
     return result;
 }
 
-/* What the keys make of a value of the image. */
+/* The value stored for an image value, given the parameters. */
 static float map_value(const void *context, size_t channel, float value) {
     const bitmap *const self = context;
     value = self->opaque ? 1.0f : finite_value(value);
@@ -132,7 +132,7 @@ static const aur_key keys[] = {
 
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
     bitmap *const self = texture->data;
-    /* A model's image, which is in memory. */
+    /* A model's image in memory. */
     const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
     aur_image *image = NULL;
     if (held != NULL && (held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0))
@@ -160,13 +160,13 @@ static void release(void *data) {
 }
 
 static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
-    if ((uint64_t)index < size) /* no division where nothing is to be wrapped */
+    if ((uint64_t)index < size) /* avoids the division if no wrapping is needed */
         return (size_t)index;
     const int64_t n = (int64_t)size;
     if (mode == WRAP_CLAMP)
         return (size_t)(index < 0 ? 0 : index < n ? index : n - 1);
     const int64_t period = mode == WRAP_MIRROR ? 2 * n : n;
-    /* Division of 32 bits takes a third of the time. */
+    /* 32-bit division takes a third of the time. */
     int64_t rest = index == (int32_t)index && period == (int32_t)period ? (int32_t)index % (int32_t)period
                                                                         : index % period;
     if (rest < 0)
@@ -193,27 +193,27 @@ static float height_at(const bitmap *self, int64_t x, int64_t y) {
     return aur_luminance((aur_vector){rgb[0], rgb[1], rgb[2]});
 }
 
-/* The texel left above a point, and how far beyond the middle of it the point lies, in texels. */
-typedef struct texel_place {
+/* The texel to the upper left of a point, and the point's offset from its centre, in texels. */
+typedef struct texel_position {
     int64_t i, j;
     float s, t;
-} texel_place;
+} texel_position;
 
-static bool place_of(const bitmap *self, aur_bsdf_point point, texel_place *place) {
+static bool find_texel(const bitmap *self, aur_bsdf_point point, texel_position *position) {
     const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, point.u, point.v);
     const float offset = self->filter == FILTER_NEAREST ? 0.0f : 0.5f;
     const float x = at.u * (float)self->texels.width - offset, y = at.v * (float)self->texels.height - offset;
     if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
         return false;
     const float left = floorf(x), top = floorf(y);
-    *place = (texel_place){(int64_t)left, (int64_t)top, x - left, y - top};
+    *position = (texel_position){(int64_t)left, (int64_t)top, x - left, y - top};
     return true;
 }
 
 static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
     const bitmap *const self = texture->data;
-    texel_place at;
-    if (!place_of(self, point, &at))
+    texel_position at;
+    if (!find_texel(self, point, &at))
         return (aur_vector){0};
     if (self->filter == FILTER_NEAREST)
         return texel(self, at.i, at.j);
@@ -228,12 +228,12 @@ static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
     return aur_vector_add_scaled(sum, s * t, texel_at(self, x[1], y[1]));
 }
 
-/* Of the bilinear patch that the point lies on. */
+/* Derivatives of the bilinear patch at the point. */
 static void slope(const aur_texture *texture, aur_bsdf_point point, float result[2]) {
     const bitmap *const self = texture->data;
-    texel_place at;
+    texel_position at;
     result[0] = result[1] = 0.0f;
-    if (self->filter == FILTER_NEAREST || !place_of(self, point, &at))
+    if (self->filter == FILTER_NEAREST || !find_texel(self, point, &at))
         return;
     float corner[2][2];
     for (int j = 0; j < 2; ++j)

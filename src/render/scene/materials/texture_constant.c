@@ -1,4 +1,4 @@
-/* Textures that are the same everywhere: for scenes that write a colour as one. */
+/* Constant textures: for scenes that write a colour as one. */
 #include "render/scene/materials/texture.h"
 
 typedef struct constant {

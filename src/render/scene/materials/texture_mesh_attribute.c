@@ -1,4 +1,4 @@
-/* What a mesh has at its vertices or faces, as colours. */
+/* Mesh attributes of vertices or faces, as colours. */
 #include "render/scene/materials/texture.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 typedef struct attribute {
     aur_vector scale;
     bool of_faces;
-    const char *given; /* read, and of no use afterwards */
+    const char *given; /* read, not used afterwards */
     char name[64];
 } attribute;
 
@@ -31,7 +31,7 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
             name);
     memcpy(self->name, name, strlen(name));
     *(self->of_faces ? &texture->attributes.face : &texture->attributes.vertex) = self->name;
-    texture->mean = aur_vector_scale(self->scale, 0.5f); /* a guess, that lights are chosen by */
+    texture->mean = aur_vector_scale(self->scale, 0.5f); /* a guess, used for the power of lights */
     return AUR_OK;
 }
 

@@ -1,5 +1,5 @@
-/* The table of textures, and making them by name: a new one is one file, which defines aur_texture_<name>,
- * and one line here. */
+/* Textures by name, and their creation. To add one: one file, which defines aur_texture_<name>, and one line
+ * here. */
 #include <stddef.h>
 #include <string.h>
 

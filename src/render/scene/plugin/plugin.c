@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A structure of zeros with its descriptor and its data, or NULL. */
+/* A zeroed structure with its descriptor and its data, or NULL. */
 static void *allocate(const aur_plugin_kind *kind, const aur_row *row) {
     char *const made = calloc(1, kind->size);
     size_t size = 0;

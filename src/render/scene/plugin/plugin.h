@@ -1,5 +1,5 @@
-/* Objects that a scene names by their type: each kind has a table of descriptors, and all kinds are created
- * and destroyed in the same order of steps. */
+/* Objects that a scene names by type. Each kind has a table of descriptors; all kinds are created and
+ * destroyed by the same steps. */
 #pragma once
 
 #include "points/base/keys.h"
@@ -8,11 +8,11 @@
 typedef struct aur_plugin_kind {
     const aur_table *table; /* of descriptors */
     size_t size;            /* of the structure */
-    /* Offsets of its `data`, and, in the descriptor, of their `size` and of `release`, a void (*)(void *data)
-     * that frees what they point to further and may be NULL; 0: the kind has none. */
+    /* Offsets of `data` in the structure, and in the descriptor of its `size` and of `release`, a void
+     * (*)(void *data) that frees what the data point to, and may be NULL; 0: the kind has none. */
     size_t data, data_size, data_release;
-    /* Reads what the parameters say into a structure of zeros, whose data are zeros too, and makes the rest.
-     * `context` is that of aur_plugin_create. */
+    /* Reads the parameters into the zeroed structure and data, and completes them. `context` is that of
+     * aur_plugin_create. */
     aur_result (*fill)(aur_parameters *parameters, void *object, const void *context, aur_error *error);
     /* Frees what else the structure points to, also after `fill` has failed; NULL: nothing. */
     void (*release)(void *object);
@@ -27,12 +27,12 @@ typedef struct aur_plugin_kind {
         .data_release = offsetof(aur_##name_##_descriptor, release), .fill = fill                            \
     }
 
-/* Finds the row that parameters->plugin names, allocates, fills, and refuses parameters that nobody has read.
- * `object` is the address of the pointer, which is NULL after errors. Errors: NAME, MEMORY and those of
- * `fill`, with the place in the file. */
+/* Finds the row for parameters->plugin, allocates, fills, and rejects unread parameters. `object` is the
+ * address of the pointer, which is NULL after errors. Errors: NAME, MEMORY and those of `fill`, with the
+ * location in the file. */
 aur_result aur_plugin_create(const aur_plugin_kind *kind, aur_parameters *parameters, const void *context,
                              void *object, aur_error *error);
-/* The same, where the row is known. */
+/* The same for a given row. */
 aur_result aur_plugin_create_row(const aur_plugin_kind *kind, const aur_row *row, aur_parameters *parameters,
                                  const void *context, void *object, aur_error *error);
 void aur_plugin_destroy(const aur_plugin_kind *kind, void *object); /* NULL is allowed */
