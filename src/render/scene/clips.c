@@ -1,4 +1,4 @@
-/* What the clip planes of the camera hide. */
+/* Statistics of what the camera's clip planes hide. */
 #include "points/base/error.h"
 #include "render/scene/scene_data.h"
 

@@ -1,4 +1,4 @@
-/* What a scene was read from, so that one can tell whether two renders are of the same. */
+/* Records the inputs of a scene, to determine whether two renders show the same scene. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "points/base/words.h"
 #include "render/scene/scene_data.h"
 
-/* What the stage has in place of the scene's own. */
+/* Writes the stage options that replace parts of the scene. */
 static void write_stage(const aur_scene_stage *stage, FILE *stream) {
     const double *const b = stage->background;
     if (stage->camera != NULL)
@@ -73,7 +73,7 @@ static aur_result write_file(const char *kind, const aur_xml_file *file, FILE *s
     return AUR_OK;
 }
 
-/* Files are sorted, so that each is hashed once however often it is named. */
+/* Files are sorted, so that each is hashed only once. */
 static aur_result write_lines(const aur_scene *scene, FILE *stream, aur_error *error) {
     const aur_xml_document *const document = &scene->document;
     aur_result result = write_file("scene", &document->files[0], stream, error);

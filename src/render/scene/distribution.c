@@ -3,9 +3,9 @@
 
 #include "render/scene/patches.h"
 
-/* The guide (Chen and Asau 1974): the item on which k / count of the total falls, for k = 0 .. count. It says
- * where a search is to begin, and changes no choice: in the maps of skies a binary search over all rows and
- * cells misses the caches a dozen times. Few items are found without it. */
+/* The guide table (Chen and Asau 1974): the item at k / count of the total, for k = 0 .. count. It gives the
+ * start of the search and does not change its result. For sky maps, a binary search over all rows and cells
+ * would cause about a dozen cache misses. Small distributions have no table. */
 static uint32_t *guide_of(const aur_distribution *distribution) {
     const size_t count = distribution->count;
     return count >= 16 && count < UINT32_MAX && distribution->total > 0.0
@@ -44,7 +44,7 @@ void aur_distribution_release(aur_distribution *distribution) {
     *distribution = (aur_distribution){0};
 }
 
-/* The interval of the guide that u falls in. */
+/* The interval of the guide table that contains u. */
 static size_t interval_of(const aur_distribution *distribution, double u) {
     const double count = (double)distribution->count, guess = u * count;
     return guess < count ? (size_t)guess : distribution->count - 1;
@@ -75,7 +75,7 @@ size_t aur_distribution_choose_double(const aur_distribution *distribution, doub
     if (guide != NULL) {
         const size_t k = interval_of(distribution, *u);
         const size_t first = guide[k], beyond = (size_t)guide[k + 1] + 1;
-        /* Rounding may put the item outside. */
+        /* Rounding may give an item outside of the interval. */
         if (distribution->sums[first] <= target)
             low = first;
         if (distribution->sums[beyond] > target)
@@ -88,7 +88,7 @@ size_t aur_distribution_choose_double(const aur_distribution *distribution, doub
         else
             high = middle;
     }
-    /* Rounding may lead beyond the last item whose weight is not 0. */
+    /* Rounding may give an index after the last item of non-zero weight. */
     while (low > 0 && distribution->sums[low + 1] <= distribution->sums[low])
         --low;
     const double width = distribution->sums[low + 1] - distribution->sums[low];

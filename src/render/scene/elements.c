@@ -70,7 +70,8 @@ void aur_elements_release(aur_elements *elements) {
 bool aur_element_is_curved(const aur_elements *elements, uint32_t element) {
     if (!elements->any_curved)
         return false;
-    /* The last placement that begins at or before the element; empty shapes begin where the next one does. */
+    /* The last placement that begins at or before the element; empty shapes begin at the same index as the
+     * next one. */
     size_t low = 0, high = elements->placement_count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;

@@ -1,13 +1,13 @@
-/* Elements: what a ray can hit, numbered one after another over the whole scene - every triangle, every
- * segment of a curve, and every other curved shape as one. A shape of a group counts once for each of its
- * instances. Photon maps and radiosity keep what they know of surfaces by element. */
+/* Elements: all objects that a ray can hit, numbered consecutively over the scene. Every triangle, every
+ * segment of a curve and every other curved shape is one element. A shape of a group has elements for each of
+ * its instances. Photon maps and radiosity store surface data by element. */
 #pragma once
 
 #include "render/scene/scene.h"
 
-/* One shape where it stands. */
+/* A shape, possibly in an instance. */
 typedef struct aur_placement {
-    uint32_t shape, instance; /* instance: AUR_NO_INSTANCE for shapes that are no copies */
+    uint32_t shape, instance; /* instance: AUR_NO_INSTANCE for shapes outside of groups */
     uint32_t first, count;    /* elements */
     bool curved;
 } aur_placement;
@@ -16,14 +16,13 @@ typedef struct aur_elements {
     size_t count;
     size_t placement_count;
     aur_placement *placements;
-    /* The element of a hit is shape_first[shape] + primitive, for instances after instance_first[instance].
-     */
+    /* The element of a hit is shape_first[shape] + primitive, plus instance_first[instance] for instances. */
     uint32_t *shape_first;
     uint32_t *instance_first;
     bool any_curved;
 } aur_elements;
 
-/* Errors: MEMORY, ARGUMENT when there are more elements than 32 bits can number. */
+/* Errors: MEMORY, ARGUMENT if 32 bits cannot number all elements. */
 aur_result aur_elements_create(const aur_scene *scene, aur_elements *elements);
 void aur_elements_release(aur_elements *elements);
 
@@ -37,20 +36,20 @@ bool aur_element_is_curved(const aur_elements *elements, uint32_t element);
 
 /* The area in square scene units. A curved shape in an instance is scaled by the mean scale of its map. */
 double aur_element_area(const aur_scene *scene, const aur_placement *placement, uint32_t primitive);
-/* A point in the middle of a triangle, or of a curved shape's box, and the triangle's unit normal. */
+/* The centre of a triangle or of a curved shape's bounding box, and the triangle's unit normal. */
 void aur_element_middle(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,
                         aur_vector *position, aur_vector *normal);
 
-/* The corners of a mesh's triangle, of a shape that is no copy. */
+/* The corners of a mesh triangle, of a shape outside of groups. */
 void aur_shape_corners(const aur_scene *scene, uint32_t shape, uint32_t primitive, aur_vector corner[3]);
 
-/* Coordinates in which equal areas are equal: of a triangle the barycentric u, v of the hit (u + v <= 1), of
- * a curved shape a point of the unit square. */
+/* Area-preserving coordinates: for a triangle the barycentric u, v of the hit (u + v <= 1), for a curved
+ * shape a point of the unit square. */
 void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const aur_surface *surface,
                              float coordinates[2]);
 
-/* Whether the shape is curved, and not a mesh. */
+/* Whether the shape is curved rather than a mesh. */
 bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape);
-/* Whether it is a mesh whose triangles are flat: no normals at its vertices. */
+/* Whether it is a mesh with flat triangles: without vertex normals. */
 bool aur_shape_is_flat(const aur_scene *scene, uint32_t shape);
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape); /* or AUR_NO_EMITTER */

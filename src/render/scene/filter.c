@@ -18,7 +18,8 @@ static const aur_filter filters[] = {
 
 enum { FILTER_COUNT = sizeof filters / sizeof filters[0] };
 
-/* The gaussian reaches 4 standard deviations, where it is lowered to 0: density ~ exp(-x^2/2) - exp(-8). */
+/* The gaussian is truncated at 4 standard deviations and lowered to 0 there: density ~ exp(-x^2/2) - exp(-8).
+ */
 static const float cut = 4.0f;
 static const float level = 3.3546262790251185e-4f; /* exp(-8) */
 
@@ -27,8 +28,8 @@ static float gaussian_mass(float x) {
     return 1.2533141373155003f * erff(x * 0.70710678118654752f) - level * x;
 }
 
-/* Where the mass from 0 to x is t of the whole, for t > 0.9: the gaussian itself gives the first guess,
- * Halley's method the rest. */
+/* The inverse of the normalised integral at t > 0.9: starts from the inverse of the gaussian, then applies
+ * Halley's method. */
 static float gaussian_tail(float t) {
     const float total = gaussian_mass(cut);
     float x = fminf(1.41421356f * aur_inverse_erf(fminf(t, 0.9999f)), cut);
@@ -45,7 +46,7 @@ static float gaussian_tail(float t) {
     return x;
 }
 
-/* The same for t <= 0.9, by a rational function fitted to the solution: good to 2e-6. */
+/* The same for t <= 0.9, by a rational fit with error 2e-6. */
 static float gaussian_centre(float t) {
     const float r = t * t;
     const float above = ((-0.0869674683f * r + 0.958392143f) * r - 2.09406877f) * r + 1.25231504f;
@@ -115,7 +116,7 @@ double aur_filter_value(const aur_filter *filter, double offset) {
 bool aur_filter_shares_samples(const aur_filter *filter) {
     enum { STEPS = 4096 };
     const double radius = aur_filter_radius(filter);
-    if (filter->kind >= AUR_FILTER_MITCHELL) /* no sample can be drawn by them: they are negative */
+    if (filter->kind >= AUR_FILTER_MITCHELL) /* have negative parts, so samples cannot be drawn by them */
         return true;
     if (!(radius > 0.5) || ceil(radius - 0.5) > AUR_FILTER_REACH_MAX)
         return false;

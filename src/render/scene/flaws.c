@@ -1,4 +1,4 @@
-/* What is odd about the faces of a scene. */
+/* Warnings about flawed faces of a scene. */
 #include "render/scene/scene_data.h"
 
 static void warn_of_file(const aur_shape *shape, aur_face_flaw flaw, const aur_warnings *warnings) {

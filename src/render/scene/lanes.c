@@ -16,7 +16,7 @@ static void light_lane(const aur_scene *scene, const aur_light_references *refer
     lights->reachable[lane] = one.delta ? 0.0f : 1.0f;
 }
 
-/* The lanes whose light is an environment that no other one stands beside, and which draws them together. */
+/* The lanes whose light is the scene's single environment, which samples them together. */
 static uint32_t far_lanes(const aur_scene *scene, uint32_t lanes, const float *choice, const float *u,
                           const float *v) {
     if (scene->environment_count != 1 || scene->environments[0]->descriptor->lanes == NULL ||

@@ -1,5 +1,5 @@
-/* Sixteen numbers, vectors and light samples side by side, an array a coordinate: what packets of rays
- * (render/trace) meet and need. */
+/* Sixteen numbers, vectors and light samples as structures of arrays: input and output of ray packets
+ * (render/trace). */
 #pragma once
 
 #include "render/scene/scene.h"
@@ -31,11 +31,11 @@ typedef struct aur_light_references {
 typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;
     aur_lane_vectors direction; /* set by aur_light_lanes_each only */
-    aur_lane_numbers pdf;       /* 0: no light from there */
-    aur_lane_numbers reachable; /* 1, or 0 for lights that no BSDF sample can hit */
+    aur_lane_numbers pdf;       /* 0: no light */
+    aur_lane_numbers reachable; /* 1, or 0 for lights that BSDF sampling cannot hit */
 } aur_light_lanes;
 
-/* One of them; its direction, too, where aur_light_lanes_each has drawn it. */
+/* A single lane; includes its direction if aur_light_lanes_each has sampled it. */
 static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, size_t lane) {
     return (aur_light_sample){.position = aur_lane_vector(&lights->position, lane),
                               .direction = aur_lane_vector(&lights->direction, lane),
@@ -44,14 +44,13 @@ static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, siz
                               .delta = lights->reachable[lane] == 0.0f};
 }
 
-/* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
- * aur_light_chooses, and may then be NULL. To the bits of single samples; those of environment maps are drawn
- * together. */
+/* For active lanes; results of the others are undefined. `choice` is read only if aur_light_chooses, and may
+ * otherwise be NULL. Bit-identical to single samples; environment maps are sampled together. */
 void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                           const float *choice, const float *u, const float *v, aur_light_lanes *lights);
-/* The same, but for rounding: a light that stands alone and is a rectangle is drawn by vector code. */
+/* The same up to rounding: a single rectangular light is sampled by vector code. */
 void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                             const float *choice, const float *u, const float *v, aur_light_lanes *lights);
-/* aur_environment_light for the lanes whose bit is set. */
+/* aur_environment_light for active lanes. */
 void aur_environment_lanes(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *directions,
                            aur_lane_vectors *radiance, float *pdf);

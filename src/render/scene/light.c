@@ -1,4 +1,4 @@
-/* Choosing lights, and points and directions on them. */
+/* Selection of lights, and sampling of points and directions on them. */
 #include "render/scene/scene_data.h"
 
 bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
@@ -15,7 +15,7 @@ bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *
     sample->pdf *= chosen.probability;
     sample->emitter = emitter->index;
     sample->environment = emitter->descriptor->radiance_from != NULL;
-    /* What shines from the same direction counts as one light, as it does for rays that find it. */
+    /* Overlapping environments count as one light, as for rays that reach them. */
     if (sample->environment && scene->environment_count > 1) {
         sample->radiance = aur_environment_light(scene, sample->direction, &sample->pdf);
     }
@@ -49,7 +49,7 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
     return aur_emitter_glows(emitter) ? aur_color_at(&emitter->radiance, surface->texture) : (aur_vector){0};
 }
 
-/* No ray meets it: a point, or a single direction. */
+/* Lights that no ray can hit: points and single directions. */
 static bool is_hidden(const aur_emitter *emitter) {
     return !aur_emitter_glows(emitter) && emitter->descriptor->radiance_from == NULL;
 }

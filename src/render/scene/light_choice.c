@@ -1,17 +1,17 @@
-/* Which light a point is drawn on: environments and beams by their power alone, all others by a tree that
- * knows where they are. */
+/* Selection of the light to sample: environments and beams by power alone, all others by a tree that takes
+ * their positions into account. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "points/base/random.h"
 #include "render/scene/scene_data.h"
 
-/* No weight makes a light rarer than this: estimators that find lights by drawn points alone stay right. */
+/* Minimum weight of a light: estimators that use only light sampling stay correct. */
 static double weight_of(const aur_emitter *emitter) {
     return fmax(emitter->sampling_weight, 1e-3);
 }
 
-/* Bounds of all parts of lights that have any, and `parts`; how many have power. */
+/* Collects the bounds of all light parts, and `parts`; returns the number of parts with power. */
 static size_t find_parts(aur_scene *scene, aur_light_part *parts, aur_light_bounds *bounds) {
     size_t count = 0, lit = 0;
     for (size_t i = 0; i < scene->emitter_count; ++i) {
@@ -36,7 +36,7 @@ static size_t count_parts(const aur_scene *scene) {
     return count;
 }
 
-/* Where there are several lights that have a place. */
+/* For several lights with bounds. */
 static aur_result create_tree(aur_scene *scene, aur_error *error) {
     aur_light_choice *const choice = &scene->choice;
     const size_t count = count_parts(scene);
@@ -81,15 +81,14 @@ void aur_light_choice_release(aur_light_choice *choice) {
     choice->parts = NULL;
 }
 
-/* Below the 24 binary digits of u[0] there are others that depend on u alone: a tree may have more lights
- * than these digits can choose from. */
+/* Appends bits, derived from u alone, below the 24 bits of u[0]: a tree may have more lights than 2^24. */
 static double with_more_digits(const float u[3]) {
     uint32_t bits[2];
     memcpy(bits, &u[1], sizeof bits);
     return (double)u[0] + 0x1p-24 * aur_unit_double(aur_hash2(bits[0], bits[1]));
 }
 
-/* The emitter, or with its number of all emitters the tree; *rest is what is left of u[0]. */
+/* The emitter; the number of emitters stands for the tree. *rest is the remainder of u[0]. */
 static size_t choose_emitter(const aur_scene *scene, const float u[3], double *rest) {
     const aur_light_choice *const choice = &scene->choice;
     const bool has_tree = choice->tree.node_count > 0;

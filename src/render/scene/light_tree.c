@@ -22,7 +22,7 @@ static void set_spread(aur_light_bounds *bounds, double spread) {
     bounds->spread_cosine = cos(spread);
 }
 
-/* Makes the cone of normals of `into` hold that of `other`, which is no wider. */
+/* Extends the normal cone of `into` to contain that of `other`, which is not wider. */
 static void widen_cone(aur_light_bounds *into, const aur_light_bounds *other) {
     if (!(other->spread > 0.0) && aur_dot3(into->axis, other->axis) >= into->spread_cosine)
         return;
@@ -31,7 +31,7 @@ static void widen_cone(aur_light_bounds *into, const aur_light_bounds *other) {
         return;
     const double spread = 0.5 * (into->spread + apart + other->spread);
     const double turn = spread - into->spread;
-    double across[3]; /* from the axis, towards the other one */
+    double across[3]; /* angle from the axis to that of the other */
     for (size_t d = 0; d < 3; ++d)
         across[d] = other->axis[d] - aur_dot3(into->axis, other->axis) * into->axis[d];
     if (spread >= AUR_PI || !(aur_normalize3(across) > 1e-9)) {
@@ -45,7 +45,7 @@ static void widen_cone(aur_light_bounds *into, const aur_light_bounds *other) {
     set_spread(into, spread);
 }
 
-/* An empty one has no power. */
+/* Empty bounds have no power. */
 static void add_bounds(aur_light_bounds *into, const aur_light_bounds *other) {
     if (!(other->power > 0.0))
         return;
@@ -78,8 +78,8 @@ static double squared_radius(const aur_light_bounds *bounds) {
     return sum;
 }
 
-/* How uncertain it is what the bounds hold brings: power times the size of the sphere and the measure of
- * directions in which there is light, as in the article. */
+/* The cost of the bounds, as in the article: power times the size of the sphere and the solid angle of
+ * emission. */
 static double cost_of(const aur_light_bounds *bounds) {
     const double spread = bounds->spread, end = fmin(spread + bounds->emission, AUR_PI);
     const double directions =
@@ -93,7 +93,7 @@ static double cost_of(const aur_light_bounds *bounds) {
 
 enum { BUCKETS = 12, FEW = 4, LIGHT_NUMBERS = sizeof(aur_light_children) / sizeof(float *) };
 
-/* Lights that hang together: order[first .. first + count). */
+/* A range of lights: order[first .. first + count). */
 typedef struct light_range {
     size_t first, count;
     aur_light_bounds bounds;
@@ -120,11 +120,11 @@ static light_range range_of(const light_builder *builder, size_t first, size_t c
     return range;
 }
 
-/* A plane between two buckets along an axis. */
+/* A split plane between two bins along an axis. */
 typedef struct light_split {
     double cost;
-    size_t axis, bucket; /* the last one before the plane */
-    double low, scale;   /* the bucket of a middle m is (m - low) * scale */
+    size_t axis, bucket; /* the last bin before the plane */
+    double low, scale;   /* the bin of a centre m is (m - low) * scale */
 } light_split;
 
 static size_t bucket_of(const light_split *split, const aur_light_bounds *light) {
@@ -144,7 +144,7 @@ static size_t longest_axis(const aur_light_bounds *bounds) {
     return longest;
 }
 
-/* The best plane across one axis, if it is better than *best. */
+/* The best plane along one axis, if better than *best. */
 static void try_axis(const light_builder *builder, const light_range *range, size_t axis, light_split *best) {
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < range->count; ++i) {
@@ -179,7 +179,7 @@ static void try_axis(const light_builder *builder, const light_range *range, siz
     }
 }
 
-/* Puts lights before the plane first; returns how many there are. */
+/* Partitions lights by the plane; returns the number before it. */
 static size_t partition(const light_builder *builder, const light_range *range, const light_split *split) {
     uint32_t *const order = builder->order + range->first;
     size_t before = 0;
@@ -193,8 +193,8 @@ static size_t partition(const light_builder *builder, const light_range *range, 
     return before;
 }
 
-/* Of few lights no more than the longest axis is looked at: most ranges are that small. Makes two of a range
- * of two or more lights. */
+/* Small ranges, which are the most frequent, are split along the longest axis only. Splits a range of two or
+ * more lights. */
 static void split_range(const light_builder *builder, light_range *range, light_range *other) {
     light_split best = {.cost = INFINITY};
     const size_t longest = longest_axis(&range->bounds);
@@ -211,7 +211,7 @@ static void split_range(const light_builder *builder, light_range *range, light_
 
 /* --- nodes */
 
-/* The numbers of a child in the order of aur_light_children. */
+/* Writes the bounds of a child to the arrays of aur_light_children. */
 static void child_numbers(const aur_light_bounds *bounds, double whole, float numbers[LIGHT_NUMBERS]) {
     double reach = 0.0;
     for (size_t d = 0; d < 3; ++d) {
@@ -219,7 +219,7 @@ static void child_numbers(const aur_light_bounds *bounds, double whole, float nu
         numbers[3 + d] = (float)bounds->axis[d];
         reach += fmax(fabs(bounds->lower[d]), fabs(bounds->upper[d]));
     }
-    /* Centres are rounded, as is the way to them. */
+    /* Margin for the rounding of centres and of vectors to them. */
     numbers[6] = (float)(1.000001 * sqrt(squared_radius(bounds)) + 1e-6 * reach + 1e-15);
     numbers[7] = (float)fmax(bounds->power / whole, 1e-30);
     numbers[8] = (float)cos(bounds->spread);
@@ -239,7 +239,7 @@ static bool push_node(aur_light_tree *tree, light_builder *builder, const light_
     return true;
 }
 
-/* The range that is worth most to split, or `count` where all are single lights. */
+/* The range with the largest gain from splitting, or `count` if all are single lights. */
 static size_t widest(size_t count, const light_range *parts) {
     size_t found = count;
     for (size_t i = 0; i < count; ++i)
@@ -248,7 +248,7 @@ static size_t widest(size_t count, const light_range *parts) {
     return found;
 }
 
-/* Gives the node its children, and those of them that are several lights nodes of their own. */
+/* Creates the children of a node, and recursively those of children with several lights. */
 static bool fill_node(aur_light_tree *tree, light_builder *builder, uint32_t index) {
     light_range parts[AUR_LIGHT_CHILDREN] = {builder->ranges[index]};
     const double whole = parts[0].bounds.power;
@@ -276,7 +276,7 @@ static bool fill_node(aur_light_tree *tree, light_builder *builder, uint32_t ind
     return true;
 }
 
-/* Makes arrays of the children's numbers. */
+/* Stores the children's data as arrays. */
 static bool spread_children(aur_light_tree *tree, const light_builder *builder) {
     const size_t size = tree->child_count + AUR_LIGHT_CHILDREN;
     aur_light_children *const children = &tree->children;
@@ -332,7 +332,7 @@ void aur_light_tree_release(aur_light_tree *tree) {
 
 /* --- choosing */
 
-/* What the children of a node bring, and all of them together. */
+/* Importance of the children of a node, and their sum. */
 static double importances(const aur_light_tree *tree, const aur_light_node *node,
                           const aur_light_reference *reference, aur_lane_numbers importance) {
     double total = 0.0;
@@ -342,7 +342,7 @@ static double importances(const aur_light_tree *tree, const aur_light_node *node
     return total;
 }
 
-/* The child that *u falls on, of which one is not 0. */
+/* The child selected by *u, if any has importance above 0. */
 static size_t choose_child(const aur_lane_numbers importance, size_t count, double total, double *u) {
     const double target = *u * total;
     double below = 0.0;

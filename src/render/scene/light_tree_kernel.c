@@ -1,13 +1,13 @@
-/* What the children of a node bring, about. Without branches, so that the loop becomes vector code; plain
- * operations in one order without contraction: the bits are the same everywhere. */
+/* The approximate contribution of a node's children. Branch-free, so that the loop vectorises. Operations are
+ * not contracted or reordered: results are bit-identical for all instruction sets. */
 #include "render/scene/light_tree.h"
 
-/* Cosines are wrong by rounding by less than that; a child is left out only where it is surely dark. */
+/* Bound on the rounding error of cosines: a child is skipped only if surely dark. */
 #define COSINE_MARGIN 1e-5f
-/* No cosine of a child that may be lit counts less than this. */
+/* Minimum cosine of a child that may be lit. */
 #define LEAST_COSINE 1e-3f
 
-/* Comparisons would become branches. */
+/* Branch-free: comparisons would not vectorise. */
 static inline float at_least(float x, float least) {
     return x > least ? x : least;
 }
@@ -16,15 +16,15 @@ static inline float sine_of(float cosine) {
     return sqrtf(at_least(1.0f - cosine * cosine, 0.0f));
 }
 
-/* Between what the centre says and the bound: the bound alone takes wide children for much brighter than they
- * mostly are, and the centre alone some lights for nearly dark that are not. */
+/* Averages the value at the centre and the bound. The bound alone overestimates large children, and the
+ * centre alone makes some lights nearly dark that are not. */
 static inline float mean_cosine(float center, float most) {
     return aur_smaller(0.5f * (at_least(center, LEAST_COSINE) + at_least(most, LEAST_COSINE)), 1.0f);
 }
 
 static void children_importance(const aur_light_children *given, uint32_t first,
                                 const aur_light_reference *reference, float *restrict importance) {
-    const aur_light_children all = *given; /* which the output cannot overlap */
+    const aur_light_children all = *given; /* the output must not alias these */
     const aur_vector from = reference->position, normal = reference->normal;
     const float any_side = aur_vector_dot(normal, normal) > 0.0f ? 0.0f : 1.0f;
     AUR_INDEPENDENT_LOOP
@@ -37,14 +37,14 @@ static void children_importance(const aur_light_children *given, uint32_t first,
         const float spread_sine = all.spread_sine[i];
         const float distance = at_least(aur_vector_dot(way, way), radius * radius);
         const float scale = 1.0f / sqrtf(distance);
-        /* Half the angle under which the sphere is seen; from inside it may be anywhere. */
+        /* Half the angle subtended by the sphere; from inside, any direction is possible. */
         const float seen_sine = radius * scale, seen_cosine = sine_of(seen_sine);
         const float inside = seen_sine >= 1.0f ? 1.0f : 0.0f;
 
         const float up = aur_vector_dot(normal, way) * scale, up_sine = sine_of(up);
         const float out = -aur_vector_dot(axis, way) * scale, out_sine = sine_of(out);
-        /* Cosines of angles to the normals: seen from the centre, and at most; angles less others end at 0.
-         */
+        /* Cosines of angles to the normals: at the centre, and the largest possible; differences of angles
+         * are at least 0. */
         const float facing = at_least(up, inside + any_side);
         const float less_seen = up * seen_cosine + up_sine * seen_sine;
         const float facing_most = at_least(up > seen_cosine ? 1.0f : less_seen, inside + any_side);

@@ -3,8 +3,7 @@
 
 #include "render/scene/scene_data.h"
 
-/* The first medium that a shape bounds or the camera stands in; one that nothing refers to is of no account.
- */
+/* The first medium that a shape bounds or that contains the camera; unreferenced media do not count. */
 static const aur_medium *first_of(const aur_scene *scene) {
     for (size_t i = 0; i < scene->shape_count; ++i) {
         const aur_shape *const shape = scene->shapes[i];

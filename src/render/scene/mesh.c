@@ -86,7 +86,7 @@ void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur
         turn_winding(mesh);
 }
 
-/* A mesh that is larger keeps its points only where that is wanted: they are 24 bytes each. */
+/* Larger meshes store their points in doubles, 24 bytes each, only on request. */
 enum { EXACT_VERTICES = 1 << 16 };
 
 aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_points, aur_location location,
@@ -94,7 +94,7 @@ aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_p
     mesh->positions = malloc((3 * mesh->vertex_count + 1) * sizeof(float));
     if (mesh->positions == NULL)
         return aur_fail_memory_at(error, location);
-    /* Four vertices at a time have whole vectors of coordinates. */
+    /* Four vertices at a time fill whole vectors of coordinates. */
     enum { STEP = 12 };
     double origins[STEP];
     size_t i = 0;
@@ -119,7 +119,7 @@ void aur_mesh_flip(aur_mesh *mesh) {
         mesh->normals[i] = -mesh->normals[i];
 }
 
-/* The angle between two edges, safe for thin triangles (Kahan's formula). */
+/* The angle between two edges, accurate for thin triangles (Kahan's formula). */
 static float angle_between(aur_vector a, aur_vector b) {
     a = aur_vector_normalize(a);
     b = aur_vector_normalize(b);
@@ -149,7 +149,7 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
     return AUR_OK;
 }
 
-/* Normals are rounded to floats, and so are products of sides: 1e-6 is some ten times that. */
+/* Normals are rounded to floats, and so are cross products: 1e-6 is about ten times that. */
 static bool is_flat(const aur_mesh *mesh) {
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         aur_vector corner[3];
@@ -194,7 +194,7 @@ aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error
 }
 
 aur_vector aur_extreme_triangle_normal(aur_vector a, aur_vector b, double *doubled_area) {
-    /* By a power of two, which changes no bit of the sides, to sides of about 1. */
+    /* Scales by a power of two, which is exact, to edges of about 1. */
     const float largest = fmaxf(fmaxf(fmaxf(fabsf(a.x), fabsf(a.y)), fmaxf(fabsf(a.z), fabsf(b.x))),
                                 fmaxf(fabsf(b.y), fabsf(b.z)));
     int exponent = 0;

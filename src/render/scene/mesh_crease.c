@@ -1,5 +1,5 @@
-/* Sharp edges of meshes without normals: vertices are doubled where triangles around them meet at a larger
- * angle, so that normals at vertices are means over what is smooth only. */
+/* Sharp edges of meshes without normals: vertices are duplicated where the triangles around them meet at a
+ * larger angle, so that vertex normals average only over smooth fans. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,24 +7,24 @@
 #include "points/base/vector3d.h"
 #include "render/scene/mesh.h"
 
-/* A side of a triangle at the vertex in question. */
+/* An edge of a triangle at the vertex being processed. */
 typedef struct side {
     uint32_t other;  /* the vertex at its other end */
-    uint32_t corner; /* of the triangle, among those at the vertex */
+    uint32_t corner; /* index of the triangle among those at the vertex */
 } side;
 
 typedef struct creases {
     const aur_mesh *mesh;
     float least_cosine;
-    float *normals;    /* 3 * triangle_count; zero without area */
-    size_t *firsts;    /* of each vertex in `corners` */
+    float *normals;    /* 3 * triangle_count; zero for degenerate triangles */
+    size_t *firsts;    /* first of each vertex in `corners` */
     uint32_t *corners; /* 3 * triangle + k, sorted by vertex */
     side *sides;       /* two for each corner at one vertex */
-    uint32_t *parents; /* of corners at one vertex: those of a smooth fan have one root */
+    uint32_t *parents; /* union-find over the corners at one vertex: those of a smooth fan share a root */
     uint32_t *fans;    /* the new index of the root's fan */
-    size_t copies;     /* vertices that are added */
-    uint32_t *copied;  /* of each added one: whose copy it is */
-    uint32_t *indices; /* 3 * triangle_count, the new ones */
+    size_t copies;     /* number of added vertices */
+    uint32_t *copied;  /* of each added vertex: the original */
+    uint32_t *indices; /* 3 * triangle_count, the new indices */
 } creases;
 
 static int compare_sides(const void *a, const void *b) {
@@ -60,7 +60,7 @@ static void find_normals(creases *self) {
     }
 }
 
-/* Sorts corners by their vertices. Returns the largest number of corners at one. */
+/* Sorts corners by vertex. Returns the largest number of corners at one vertex. */
 static size_t sort_corners(creases *self) {
     const aur_mesh *const mesh = self->mesh;
     size_t most = 0;
@@ -70,9 +70,10 @@ static size_t sort_corners(creases *self) {
         most = self->firsts[v + 1] > most ? self->firsts[v + 1] : most;
         self->firsts[v + 1] += self->firsts[v];
     }
-    for (size_t i = 3 * mesh->triangle_count; i-- > 0;) /* from behind, so that each vertex's stay in order */
+    for (size_t i = 3 * mesh->triangle_count;
+         i-- > 0;) /* in reverse, so that the order at each vertex is stable */
         self->corners[--self->firsts[mesh->indices[i] + 1]] = (uint32_t)i;
-    /* The ends have become beginnings: one place further. */
+    /* Ends have become beginnings: shift by one. */
     memmove(self->firsts, self->firsts + 1, mesh->vertex_count * sizeof *self->firsts);
     self->firsts[mesh->vertex_count] = 3 * mesh->triangle_count;
     return most;
@@ -84,7 +85,7 @@ static bool is_smooth(const creases *self, uint32_t a, uint32_t b) {
     return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] >= self->least_cosine;
 }
 
-/* Joins the corners at a vertex whose triangles share a smooth side, and gives each fan but the first a copy
+/* Unites the corners at a vertex whose triangles share a smooth edge, and gives each fan but the first a copy
  * of the vertex. */
 static void divide_vertex(creases *self, uint32_t vertex) {
     const uint32_t *const at = &self->corners[self->firsts[vertex]];
@@ -126,7 +127,7 @@ static bool copy_values(float **values, size_t width, const creases *self) {
     return true;
 }
 
-/* Gives the mesh its copies and indices. False: out of memory, with the mesh as it was but for room. */
+/* Applies copies and indices to the mesh. False: out of memory; the mesh is then unchanged up to capacity. */
 static bool take(creases *self, aur_mesh *mesh) {
     const size_t count = mesh->vertex_count;
     double *const points = realloc(mesh->points, (3 * (count + self->copies) + 1) * sizeof(double));
@@ -156,7 +157,7 @@ static void release(creases *self) {
 aur_result aur_mesh_split_creases(aur_mesh *mesh, double degrees, aur_location location, aur_error *error) {
     const double pi = 3.14159265358979323846;
     const size_t corners = 3 * mesh->triangle_count;
-    if (mesh->vertex_count + corners > UINT32_MAX) /* more than can be numbered, if all were copied */
+    if (mesh->vertex_count + corners > UINT32_MAX) /* index overflow if all were copied */
         return AUR_OK;
     creases self = {.mesh = mesh,
                     .least_cosine = (float)cos(degrees * pi / 180.0),

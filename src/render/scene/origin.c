@@ -10,7 +10,7 @@
 
 enum { MOST_BOXES = 2048 };
 
-/* These are in the innermost loops: fmin and fmax, which know of NaN, are calls. */
+/* In the innermost loops: fmin and fmax, which handle NaN, are calls. */
 static inline double smaller_of(double a, double b) {
     return a < b ? a : b;
 }
@@ -36,7 +36,7 @@ static aur_patch_box box_of(const aur_shape *shape, size_t primitive) {
     return box;
 }
 
-/* The box around a box that is moved. */
+/* The bounding box of a transformed box. */
 static void move(const aur_transform *to_world, aur_patch_box *box) {
     double middle[3], half[3], moved[3];
     for (size_t i = 0; i < 3; ++i) {
@@ -52,7 +52,7 @@ static void move(const aur_transform *to_world, aur_patch_box *box) {
     }
 }
 
-/* Every so many of the shape's surfaces, at least one. */
+/* Every n-th of the shape's surfaces, at least one. */
 static aur_result add_shape(aur_patch_boxes *boxes, const aur_shape *shape, const aur_transform *to_world,
                             size_t step) {
     const size_t count = aur_shape_primitives(shape), picked = (count + step - 1) / step;
@@ -112,7 +112,7 @@ void aur_patch_boxes_release(aur_patch_boxes *boxes) {
     *boxes = (aur_patch_boxes){0};
 }
 
-/* --- the choice */
+/* --- choosing the origin */
 
 double aur_patch_rounding(const aur_patch_box *box, const double origin[3]) {
     double reach = 0.0;
@@ -121,12 +121,11 @@ double aur_patch_rounding(const aur_patch_box *box, const double origin[3]) {
     return 0.5 * (double)FLT_EPSILON * reach / box->size;
 }
 
-/* Roundings, in parts of a size, that do no harm: enough to leave an origin where it is, and such as a
- * surface has that is within twice its size of the origin. */
+/* Harmless relative rounding: for keeping an existing origin, and for a surface within twice its size of the
+ * origin. */
 static const double HARMLESS = 4e-6, LEAST = 1.2e-7;
 
-/* The area whose coordinates are rounded, times by how much of its size, beyond what is harmless, or more
- * than `most`. Where all is lost it cannot become worse. */
+/* The area weighted by relative rounding, from the harmless part up to `lost`; stops above `most`. */
 static double harm_of(const aur_patch_boxes *boxes, const double origin[3], double most) {
     static const double lost = 2e-3;
     double harm = 0.0;
@@ -162,7 +161,7 @@ static double weight_of(const aur_patch_box *box, int power) {
     return box->weight * (power == 2 ? box->size * box->size : power == 1 ? box->size : 1.0);
 }
 
-/* The median of both sides of all boxes: what spans far shifts it to neither side. */
+/* The median of the lower and upper sides of all boxes: large boxes do not shift it. */
 static double median(const aur_patch_boxes *boxes, const side *sides, int power) {
     const size_t count = 2 * boxes->count;
     double total = 0.0, below = 0.0;
@@ -177,7 +176,7 @@ static double median(const aur_patch_boxes *boxes, const side *sides, int power)
     return 0.5 * (sides[low].at + sides[high].at);
 }
 
-/* Whether nothing is rounded much more from another origin. */
+/* Whether no surface is rounded much more than with another origin. */
 static bool is_as_good(const aur_patch_boxes *boxes, const double origin[3], const double other[3]) {
     for (size_t i = 0; i < boxes->count; ++i) {
         const double most = larger_of(4.0 * aur_patch_rounding(&boxes->boxes[i], origin), LEAST);
@@ -187,14 +186,14 @@ static bool is_as_good(const aur_patch_boxes *boxes, const double origin[3], con
     return true;
 }
 
-/* The origin with the fewest digits that is as good: a multiple of a power of two. */
+/* The equally good origin with the fewest digits: a multiple of a power of two. */
 static void round_origin(const aur_patch_boxes *boxes, const double best[3], double origin[3]) {
     double largest = 0.0;
     for (size_t i = 0; i < 3; ++i)
         largest = larger_of(largest, fabs(best[i]));
     int exponent;
     frexp(largest, &exponent);
-    /* In the end it is the best one itself. */
+    /* In the last step it is the best origin itself. */
     for (int k = exponent + 1; k > exponent - 60; --k) {
         for (size_t i = 0; i < 3; ++i)
             origin[i] = ldexp(nearbyint(ldexp(best[i], -k)), k) + 0.0;
@@ -214,7 +213,8 @@ aur_result aur_origin_choose(const aur_patch_boxes *boxes, double origin[3]) {
     side *const sides = malloc(2 * boxes->count * sizeof *sides);
     if (sides == NULL)
         return AUR_ERROR_MEMORY;
-    /* Where most of the area is, or of the lengths, or of the surfaces; else at some of them. */
+    /* Tries centres of most of the area, of the lengths and of the surface count; then some of the surfaces.
+     */
     for (size_t i = 0; i < 3; ++i) {
         sort_sides(boxes, i, sides);
         for (size_t k = 0; k < MEDIANS + PLACES; ++k) {

@@ -1,14 +1,15 @@
-/* The point from which the coordinates of a scene count, so that as floats they are exact wherever it stands.
- */
+/* The origin of a scene's coordinates, chosen so that floats are accurate for scenes far from the world's
+ * origin. */
 #pragma once
 
 #include "render/scene/scene_data.h"
 
-/* A surface, or a sample of many alike: a triangle, a segment of a curve or another curved shape. */
+/* A surface, or a sample that stands for several similar ones: a triangle, a segment of a curve or another
+ * curved shape. */
 typedef struct aur_patch_box {
-    double lower[3], upper[3]; /* world coordinates, or those of a group */
+    double lower[3], upper[3]; /* longest side */
     double size;               /* its longest side */
-    double weight;             /* how many surfaces it stands for */
+    double weight;             /* number of surfaces represented */
     uint32_t shape;
 } aur_patch_box;
 
@@ -17,17 +18,17 @@ typedef struct aur_patch_boxes {
     aur_patch_box *boxes;
 } aur_patch_boxes;
 
-/* Of the shapes of a group, before they are recentred, or of all that is no group and of instances, where
- * `group` is NULL: all boxes of scenes with a few thousand, else as many that are spread over all. What has
- * no size, and what is beyond AUR_REACH, is left out. Errors: MEMORY. */
+/* Boxes of the shapes of a group before they are recentred, or, if `group` is NULL, of instances and shapes
+ * outside of groups. All boxes for up to a few thousand, else an evenly distributed sample. Degenerate boxes
+ * and those beyond AUR_REACH are excluded. Errors: MEMORY. */
 aur_result aur_patch_boxes_create(const aur_scene *scene, const aur_shape_group *group,
                                   aur_patch_boxes *boxes);
 void aur_patch_boxes_release(aur_patch_boxes *boxes);
 
-/* By how much of the size of a surface its coordinates are rounded when they count from `origin`. */
+/* Rounding of a surface's coordinates relative to `origin`, as a fraction of its size. */
 double aur_patch_rounding(const aur_patch_box *box, const double origin[3]);
 
-/* A point from which as little area as can be is rounded by much of its size: 0 if that is as good as others,
- * else one with few digits, which leaves coordinates with few digits as they are. A surface that is small and
- * alone does not matter, wherever it is. Errors: MEMORY. */
+/* An origin that minimises the area with large relative rounding. It is 0 if that is as good, else a point
+ * with few digits, which preserves coordinates with few digits. A single small surface has no influence.
+ * Errors: MEMORY. */
 aur_result aur_origin_choose(const aur_patch_boxes *boxes, double origin[3]);

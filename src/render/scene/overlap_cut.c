@@ -9,7 +9,7 @@
 
 enum { MOST_CORNERS = 16, FEW_CORNERS = 8 };
 
-/* Parts narrower than this part of a triangle's extent are dropped. */
+/* Fragments narrower than this fraction of a triangle's extent are dropped. */
 static const double NARROWEST = 1e-9;
 
 typedef struct piece {
@@ -17,23 +17,23 @@ typedef struct piece {
     double corners[MOST_CORNERS][3];
 } piece;
 
-/* --- the triangles of some shapes */
+/* --- the triangles of several shapes */
 
 typedef struct triangles {
     const aur_scene *scene;
     size_t shape_count;
     uint32_t *shapes;
-    uint32_t *instances; /* whose copies of the shapes these are, or AUR_NO_INSTANCE */
-    uint32_t *members;   /* of copies: which shape of their group */
-    size_t *starts;      /* of each shape its first triangle; then how many there are */
-    uint32_t **picked;   /* of each shape those of its triangles; NULL: all */
+    uint32_t *instances; /* instance of the shapes, or AUR_NO_INSTANCE */
+    uint32_t *members;   /* for instances: index of the shape in its group */
+    size_t *starts;      /* first triangle index of each shape; then the total */
+    uint32_t **picked;   /* selected triangles of each shape; NULL: all */
 } triangles;
 
-/* Copies have at most so many triangles together, or none is looked at. */
+/* Limit on the triangles of all instances together, above which none is processed. */
 enum { MOST_COPIED = 1 << 20 };
 
-/* A mesh with more triangles than this is not compared with itself where it is rendered: that would take
- * longer than all the rest of loading it. */
+/* A rendered mesh with more triangles is not tested against itself: that would take longer than all other
+ * loading. */
 enum { LARGE_MESH = 1 << 16, FEW_SHAPES = 16 };
 
 static size_t find_shape(const triangles *t, size_t index) {
@@ -48,7 +48,7 @@ static size_t find_shape(const triangles *t, size_t index) {
     return low;
 }
 
-/* Which triangle of its shape it is. */
+/* Index of the triangle in its shape. */
 static size_t find_triangle(const triangles *t, size_t shape, size_t index) {
     const size_t place = index - t->starts[shape];
     return t->picked[shape] != NULL ? t->picked[shape][place] : place;
@@ -85,7 +85,7 @@ static box box_of(size_t count, const double *points) {
     double extent = 0.0;
     for (int d = 0; d < 3; ++d)
         extent = fmax(extent, b.upper[d] - b.lower[d]);
-    for (int d = 0; d < 3; ++d) { /* wider than triangles that overlap are apart */
+    for (int d = 0; d < 3; ++d) { /* margin wider than the distance of overlapping triangles */
         b.lower[d] -= 2e-6 * extent;
         b.upper[d] += 2e-6 * extent;
     }
@@ -99,7 +99,7 @@ static bool boxes_meet(const box *a, const box *b) {
     return meet;
 }
 
-/* Those triangles of a large mesh that are near other shapes; all where these are many. */
+/* Selects the triangles of a large mesh that are near other shapes; all of them if these are many. */
 static bool pick(const triangles *t, size_t shape, const box *boxes, size_t *count) {
     const aur_mesh *const mesh = &t->scene->shapes[t->shapes[shape]]->mesh;
     box near[FEW_SHAPES];
@@ -148,7 +148,7 @@ static bool number(triangles *t) {
             good = pick(t, i, boxes, &count);
         total += count;
     }
-    t->starts[t->shape_count] = total <= UINT32_MAX ? total : 0; /* more have no numbers */
+    t->starts[t->shape_count] = total <= UINT32_MAX ? total : 0; /* limit of 32-bit numbers */
     free(boxes);
     return good;
 }
@@ -159,7 +159,7 @@ static void add_shape(triangles *t, uint32_t shape, uint32_t instance, uint32_t 
     t->members[t->shape_count++] = member;
 }
 
-/* Groups with curved shapes are left alone. The triangles of a group; 0: it is not looked at. */
+/* Groups with curved shapes are skipped. Returns the number of triangles of a group; 0: skipped. */
 static size_t copied_triangles(const aur_scene *scene, const aur_shape_group *group) {
     size_t count = 0;
     for (size_t i = 0; i < group->count; ++i) {
@@ -179,7 +179,7 @@ static void add_copies(triangles *t, const aur_scene *scene) {
     }
 }
 
-/* Those of a group; or those of no group, and the copies of groups after them. */
+/* The triangles of a group; or those outside of groups, followed by the instances. */
 static bool collect(const aur_scene *scene, const aur_shape_group *group, triangles *t) {
     size_t most = group != NULL ? group->count : scene->shape_count, copied = 0, copies = 0;
     for (size_t i = 0; group == NULL && i < scene->instance_count && copied <= MOST_COPIED; ++i) {
@@ -217,7 +217,7 @@ static void release(triangles *t) {
     free(t->starts);
 }
 
-/* --- one triangle less others */
+/* --- a triangle minus others */
 
 typedef struct pieces {
     size_t count, capacity;
@@ -237,7 +237,7 @@ static piece clip(const piece *p, const aur_plane *plane) {
     return cut;
 }
 
-/* The plane through an edge of the cover, upright on the plane with this normal; its front is inside. */
+/* The plane through an edge of the covering triangle, perpendicular to its plane; inside is in front. */
 static aur_plane edge_plane(const double cover[3][3], size_t e, const double normal[3], double sign) {
     double along[3];
     aur_plane plane;
@@ -256,7 +256,7 @@ static aur_plane turned(aur_plane plane) {
     return plane;
 }
 
-/* What the cover leaves of a piece. */
+/* The parts of a piece outside of the covering triangle. */
 static bool subtract(piece p, const aur_plane edges[3], double narrow, pieces *left) {
     piece inside = p;
     for (int e = 0; e < 3 && inside.count > 0; ++e)
@@ -293,7 +293,7 @@ static bool divide(pieces *list) {
     return true;
 }
 
-/* `left` is what the covers leave of the triangle, counted from its first corner. */
+/* `left` is the part of the triangle not covered, relative to its first corner. */
 static bool cut_triangle(const triangles *t, const aur_overlap *covers, size_t count, pieces *left,
                          pieces *other) {
     double corners[3][3], origin[3];
@@ -335,13 +335,13 @@ static bool cut_triangle(const triangles *t, const aur_overlap *covers, size_t c
 
 /* --- meshes */
 
-/* New triangles, three corners each, and which ones they are parts of; and the triangles that they replace.
- * Both ascend. */
+/* New triangles, three corners each, with their source triangles; and the triangles that they replace. Both
+ * are ascending. */
 typedef struct replacement {
     size_t count, capacity, cut_count, cut_capacity;
     struct part {
         uint32_t source;
-        double corners[3][3]; /* from the source's first corner */
+        double corners[3][3]; /* relative to the source's first corner */
     } * parts;
     uint32_t *cut;
 } replacement;
@@ -362,7 +362,7 @@ static bool add_parts(replacement *r, uint32_t source, const pieces *left) {
     return true;
 }
 
-/* What of a source's corners a point in its plane has: its barycentric coordinates. */
+/* Barycentric coordinates of a point in the plane of the source's corners. */
 static void find_shares(const double corners[3][3], const double point[3], double shares[3]) {
     double a[3], b[3], normal[3], u[3], v[3];
     for (int d = 0; d < 3; ++d) {
@@ -387,7 +387,7 @@ static bool widen(void **array, size_t count, size_t size) {
     return good;
 }
 
-/* Makes room for vertices. */
+/* Reserves space for vertices. */
 static bool widen_mesh(aur_mesh *mesh, size_t vertices) {
     void *arrays[] = {mesh->points, mesh->normals, mesh->uvs, mesh->vertex_colors};
     const bool good =
@@ -415,7 +415,7 @@ static void normalize(float *normal) {
         normal[d] /= length;
 }
 
-/* The three vertices of a part, which become the last ones of the mesh. */
+/* Appends the three vertices of a fragment to the mesh. */
 static void add_vertices(aur_mesh *mesh, const struct part *part) {
     double corners[3][3];
     const uint32_t *const from = &mesh->indices[3 * (size_t)part->source];
@@ -434,7 +434,7 @@ static void add_vertices(aur_mesh *mesh, const struct part *part) {
     }
 }
 
-/* Triangles keep their order, with parts in the place of what was cut. */
+/* Triangles keep their order; fragments replace the triangles that were cut. */
 static bool replace(aur_mesh *mesh, const replacement *r) {
     const size_t vertices = mesh->vertex_count + 3 * r->count,
                  count = mesh->triangle_count - r->cut_count + r->count;
@@ -477,7 +477,7 @@ static bool replace(aur_mesh *mesh, const replacement *r) {
 
 /* --- scenes */
 
-/* The parts of one shape's triangles, by their overlaps with those before them. */
+/* The fragments of one shape's triangles, from their overlaps with earlier triangles. */
 static bool cut_shape(const triangles *t, const aur_overlap *overlaps, size_t count, replacement *r) {
     pieces left = {0}, other = {0};
     bool good = true;
@@ -506,7 +506,7 @@ static void note(aur_scene *scene, const triangles *t, const aur_overlap *first,
     noted->count += cut;
 }
 
-/* Parts count from a corner of their source: only the linear part of the map matters. */
+/* Fragments are relative to a corner of their source: only the linear part of the map applies. */
 static void make_local(const aur_transform *to_local, replacement *r) {
     for (size_t i = 0; i < 3 * r->count; ++i) {
         double *const corner = r->parts[i / 3].corners[i % 3];
@@ -516,7 +516,7 @@ static void make_local(const aur_transform *to_local, replacement *r) {
     }
 }
 
-/* Gives vertices the normals that they are to have before parts get theirs from them. */
+/* Computes the vertex normals that fragments interpolate. */
 static aur_result smooth(aur_shape *shape, aur_error *error) {
     aur_mesh *const mesh = &shape->mesh;
     mesh->positions = malloc((3 * mesh->vertex_count + 1) * sizeof *mesh->positions);
@@ -531,7 +531,7 @@ static aur_result smooth(aur_shape *shape, aur_error *error) {
     return result;
 }
 
-/* The overlaps of the triangles of one shape, or of a copy, whose instance has a group of its own then. */
+/* The overlaps of one shape's triangles, or of an instance, which then gets a separate group. */
 static aur_result cut_one(aur_scene *scene, const triangles *t, size_t slot, const aur_overlap *overlaps,
                           size_t count, size_t *cut, aur_error *error) {
     replacement r = {0};
@@ -557,7 +557,7 @@ static aur_result cut_one(aur_scene *scene, const triangles *t, size_t slot, con
     return result;
 }
 
-/* Cuts the shapes from the last one on, as those before, which cover it, must still be whole. */
+/* Cuts from the last shape to the first, because covering triangles must still be complete. */
 static aur_result cut_shapes(aur_scene *scene, const triangles *t, const aur_overlaps *overlaps,
                              aur_error *error) {
     size_t cut = 0;

@@ -7,42 +7,41 @@
 #include "points/base/random.h"
 #include "points/base/vector3d.h"
 
-/* A ball around a plane's normal and offset, in parts of the reach of all triangles, is put into each cell
- * that it meets; planes that are the same within rounding have a cell in common. A unit has so many cells:
- * more where balls are small, so that fewer planes that are not the same share one. */
+/* A ball around a plane's normal and offset, relative to the reach of all triangles, is entered into each
+ * cell that it meets. Planes that are equal within rounding share a cell. */
 enum { FEWEST_CELLS = 512, MOST_CELLS = 2048, CELL_BITS = 14, EXPONENTS = 257, ZERO_EXPONENT = 127 };
 
-/* Triangles are like each other if no extent is above a power of two and no altitude below a part of it,
- * which is 2^-FINE_BITS, or 2^-LIKE_BITS where more are then alike: balls are no wider than a cell. */
+/* Triangles are of typical size if no extent is above a power of two and no altitude below a fraction of it:
+ * 2^-FINE_BITS, or 2^-LIKE_BITS if that includes more triangles. Balls are then no wider than a cell. */
 enum { FINE_BITS = 3, LIKE_BITS = 7 };
 
-/* Fewer triangles are all looked at. So many tell what most are like. */
+/* Up to FEW triangles are all compared. SAMPLES triangles determine the typical size. */
 enum { FEW = 64, SAMPLES = 1024 };
 
-/* Triangles of other sizes are UNLIKE, so that products of four sides are floats. */
+/* Triangles of other sizes are UNLIKE, so that products of four edges are in the range of floats. */
 enum { LEAST_EXPONENT = ZERO_EXPONENT - 28, MOST_EXPONENT = ZERO_EXPONENT + 28 };
 
-/* So many triangles at a time are described in floats, in loops over vectors. */
+/* Triangles per block, processed in floats by vector loops. */
 enum { BLOCK = 64 };
 
 /* Floats change normals by less than a quarter of aur_overlap_tilt. */
 typedef struct block {
-    float sides[2][3][BLOCK], from[3][BLOCK]; /* from the first triangle's first corner */
+    float sides[2][3][BLOCK], from[3][BLOCK]; /* relative to the first corner of the first triangle */
     float extent[BLOCK], altitude[BLOCK];
-    float away[BLOCK];      /* of the farthest point, and twice the longest side more than that */
-    float plane[4][BLOCK];  /* normal and offset, in parts of the reach, turned to one side */
+    float away[BLOCK];      /* distance of the farthest point, plus twice the longest edge */
+    float plane[4][BLOCK];  /* normal and offset, relative to the reach, with a canonical sign */
     float tilt[BLOCK];      /* radius of the ball */
-    int32_t on_edge[BLOCK]; /* whether the plane turned over counts too */
-    uint32_t low[2][BLOCK], high[2][BLOCK]; /* cells, two sides a word, CELL_BITS each */
+    int32_t on_edge[BLOCK]; /* whether the plane with the opposite sign counts too */
+    uint32_t low[2][BLOCK], high[2][BLOCK]; /* cells, two per axis, CELL_BITS each */
 } block;
 
 typedef struct planes {
     const aur_triangle_source *triangles;
     double start[3];
-    float reach;       /* of triangles that are like each other: the largest `away`, */
+    float reach;       /* of triangles of typical size: the largest `away`, */
     float most, least; /* the largest extent and the least altitude */
-    float slack;       /* in parts of the reach */
-    float cells;       /* of a unit */
+    float slack;       /* relative to the reach */
+    float cells;       /* per unit */
     uint8_t *marks;
     uint64_t *table;
     size_t table_size, filled;
@@ -81,7 +80,7 @@ static void describe(const planes *p, block *b) {
         const float longest =
             larger_of(length_of(ax, ay, az), larger_of(length_of(bx, by, bz), length_of(cx, cy, cz)));
         const float nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-        /* Without area it is all zero. */
+        /* All zero for a degenerate triangle. */
         const float length = length_of(nx, ny, nz), scale = 1.0F / larger_of(length, FLT_MIN);
         b->altitude[i] = length / larger_of(longest, FLT_MIN);
         b->away[i] = length_of(fx, fy, fz) + 3.0F * longest;
@@ -96,7 +95,8 @@ static void describe(const planes *p, block *b) {
     }
 }
 
-/* x <= 2^(this - ZERO_EXPONENT), and more than half of that; of 0 and numbers without normal form 0. */
+/* The exponent: x <= 2^(this - ZERO_EXPONENT), and more than half of that; of zero and subnormal numbers 0.
+ */
 static uint32_t exponent_of(float x) {
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -123,7 +123,7 @@ static size_t least_unlike(const sizes *all, int bits, float *most) {
     return least;
 }
 
-/* What most of the triangles are like, by some of them. False: they cannot be told apart. */
+/* The size of most triangles, from a sample. False: there is no typical size. */
 static bool choose_sizes(planes *p) {
     const size_t count = p->triangles->count;
     sizes all = {0};
@@ -157,7 +157,8 @@ static bool choose_sizes(planes *p) {
     /* Few balls should meet several cells. */
     for (p->cells = FEWEST_CELLS; p->cells < MOST_CELLS && 2.0 * width * (double)p->cells < 0.25;)
         p->cells *= 2.0F;
-    /* Far from the origin, where coordinates are too coarse, balls would have more cells than two a side. */
+    /* Far from the origin, where coordinates are too coarse, balls would meet more than two cells per axis.
+     */
     return p->reach > 0.0F && p->reach < 1e18F && width * (double)p->cells < 1.0;
 }
 
@@ -185,7 +186,7 @@ static inline uint32_t cell_of(float x, float cells) {
     return (uint32_t)(int32_t)((within + 2.0F) * cells);
 }
 
-/* The cells that the balls meet: two a side at most. */
+/* The cells that the ball meets: at most two per axis. */
 static void find_cells(const planes *p, block *b, float sign) {
     const float cells = p->cells;
     for (size_t k = 0; k < 2; ++k) {
@@ -205,7 +206,7 @@ static bool enter_ball(planes *p, const block *b, size_t i, size_t index) {
         return enter(p, low, index);
     static const uint32_t masks[4] = {0, (1U << CELL_BITS) - 1, ~0U << CELL_BITS, ~0U};
     const uint32_t apart[2] = {low[0] ^ high[0], low[1] ^ high[1]};
-    /* Bits of the sides on which it lies in two cells. */
+    /* Bit mask of the axes with two cells. */
     const uint32_t both =
         (uint32_t)((apart[0] & masks[1]) != 0) | (uint32_t)((apart[0] & masks[2]) != 0) << 1 |
         (uint32_t)((apart[1] & masks[1]) != 0) << 2 | (uint32_t)((apart[1] & masks[2]) != 0) << 3;
@@ -220,7 +221,7 @@ static bool enter_ball(planes *p, const block *b, size_t i, size_t index) {
     return true;
 }
 
-/* Floats have lost the area of some that are narrow. */
+/* In floats, narrow triangles may have lost their area. */
 static bool has_area(const planes *p, size_t index) {
     double corners[3][3];
     aur_plane plane;
@@ -232,8 +233,8 @@ static bool is_like(const planes *p, const block *b, size_t i) {
     return b->extent[i] <= p->most && b->altitude[i] >= p->least && b->away[i] <= p->reach;
 }
 
-/* Planes are the same whichever way they look: the normal is turned to one side, and counts for both sides
- * near its edge. */
+/* Opposite normals describe the same plane: the normal gets a canonical sign, and near the sign change both
+ * signs are entered. */
 static bool mark_block(planes *p, block *b, size_t first, size_t count, size_t *unlike) {
     bool any_on_edge = false, good = true;
     load(p, first, count, 0, b);

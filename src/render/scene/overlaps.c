@@ -9,12 +9,12 @@
 #include "points/base/parallel.h"
 #include "points/base/vector3d.h"
 
-/* Parts of an extent. */
+/* Fractions of an extent. */
 static const double EVENLY = 1.2e-7, NARROW = 3e-6, EXACT = 1e-12;
 
-/* --- one pair */
+/* --- a pair of triangles */
 
-/* These are in the innermost loops: fmin and fmax, which know of NaN, are calls. */
+/* In the innermost loops: fmin and fmax, which handle NaN, are calls. */
 static inline double smaller_of(double a, double b) {
     return a < b ? a : b;
 }
@@ -35,7 +35,7 @@ static double extent_of(const double corners[3][3]) {
     return extent;
 }
 
-/* Counts both from a corner of the first, so that no digits are lost far from the origin. Returns the
+/* Subtracts a corner of the first from both, so that no digits are lost far from the origin. Returns the
  * largest coordinate. */
 static double localize(double first[3][3], double second[3][3]) {
     double largest = 0.0;
@@ -49,7 +49,7 @@ static double localize(double first[3][3], double second[3][3]) {
     return largest;
 }
 
-/* The part of the second triangle over the first one: at most 6 corners. */
+/* The part of the second triangle above the first one: at most 6 corners. */
 static size_t cut_to(const double first[3][3], const double normal[3], const double second[3][3],
                      double part[8][3]) {
     double other[8][3];
@@ -78,7 +78,7 @@ static void find_heights(const aur_plane *plane, size_t count, const double (*co
     }
 }
 
-/* Whether two planes are evenly apart at the corners of both triangles, and not the same one rounded. */
+/* Whether two planes have an even distance at the corners of both triangles, beyond rounding. */
 static bool is_apart(double low, double high, double extent, double known, bool opposite, bool doubles) {
     const double far = fmax(fabs(low), fabs(high));
     if (far <= EXACT * extent + known || high - low > 0.2 * far)
@@ -91,7 +91,7 @@ static inline bool is_same(const double a[3], const double b[3]) {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Whether the plane that is upright on an edge of the first triangle has the second one beyond it. */
+/* Whether the second triangle is outside of the plane perpendicular to an edge of the first. */
 static bool is_beyond_edge(const double first[3][3], const double second[3][3], const double normal[3]) {
     const double *const opposite[3] = {first[2], first[0], first[1]};
     for (int e = 0; e < 3; ++e) {
@@ -112,7 +112,7 @@ static bool is_beyond_edge(const double first[3][3], const double second[3][3], 
     return false;
 }
 
-/* What most pairs, which are neighbours in a mesh, are told apart by; the rest is looked at closely. */
+/* Rejects most pairs, which are neighbours in a mesh, by a fast test. */
 static bool are_apart(const double larger[3][3], const double smaller[3][3], double slack) {
     double a[3], b[3], normal[3], low = INFINITY, high = -INFINITY;
     for (int d = 0; d < 3; ++d) {
@@ -141,7 +141,7 @@ static double altitude_of(const double corners[3][3], double area) {
     return 2.0 * area / sqrt(longest);
 }
 
-/* Whether one plane is more inclined to the other than by what coordinates are rounded. */
+/* Whether the angle between the planes exceeds the rounding of coordinates. */
 static bool are_inclined(const aur_plane *plane, const aur_plane *other, bool opposite, double tilt) {
     double between[3];
     for (int d = 0; d < 3; ++d)
@@ -149,8 +149,8 @@ static bool are_inclined(const aur_plane *plane, const aur_plane *other, bool op
     return aur_length3(between) > tilt;
 }
 
-/* What heights over the larger one's plane are rounded by goes by this extent: coordinates along an axis move
- * the plane as much as it is turned to that axis, wherever its corners are. */
+/* The extent that bounds the rounding of heights over the larger triangle's plane: a coordinate along an axis
+ * shifts the plane in proportion to the normal's component, independent of the corners' position. */
 static double height_extent(const double larger[3][3], const double smaller[3][3], const double normal[3]) {
     double extent = extent_of(smaller);
     for (int d = 0; d < 3; ++d)
@@ -158,7 +158,7 @@ static double height_extent(const double larger[3][3], const double smaller[3][3
     return smaller_of(extent, extent_of(larger));
 }
 
-/* The triangles are given with the larger one first. */
+/* The larger triangle is first. */
 static bool overlap(double larger[3][3], double smaller[3][3], double extent, bool doubles, bool *opposite) {
     const double largest = localize(larger, smaller);
     const double known = aur_overlap_slack(0.0, largest);
@@ -198,12 +198,12 @@ static bool overlap(double larger[3][3], double smaller[3][3], double extent, bo
 
 enum { LEAF = 4, BLOCK = 1024 };
 
-/* More pairs of one block, as thousands of copies in one place have, are left out. */
+/* Limit of pairs per block; the rest is skipped, as with thousands of instances in one place. */
 enum { MOST_PAIRS = 1 << 18 };
 
 typedef struct node {
     float lower[3], upper[3];
-    uint32_t first, count, skip; /* of `order`; the node after all below this one */
+    uint32_t first, count, skip; /* range in `order`; the next node after the subtree */
 } node;
 
 typedef struct search {
@@ -220,7 +220,7 @@ static void find_corners(const search *s, size_t index, double corners[3][3]) {
     s->triangles->corners(s->triangles->context, index, 1, (double(*)[3][3])corners);
 }
 
-/* Wider than rounding and the distances across which triangles overlap. */
+/* Wider than rounding and the distance of overlapping triangles. */
 static void include(const search *s, const double corners[3][3], float lower[3], float upper[3]) {
     const double slack = aur_overlap_slack(extent_of(corners), 0.0);
     for (int d = 0; d < 3; ++d) {
@@ -365,7 +365,7 @@ static size_t list_marked(search *s, const uint8_t *marks, uint8_t least) {
     return count;
 }
 
-/* Lists in `order` those triangles that may overlap others. */
+/* Lists in `order` the triangles that may overlap others. */
 static bool choose(search *s, size_t *count) {
     uint8_t *const marks = malloc(s->triangles->count);
     const size_t unlike = marks != NULL ? aur_planes_mark(s->triangles, marks) : SIZE_MAX;
@@ -431,7 +431,7 @@ static bool try_pair(const search *s, const item *a, const item *b, aur_overlaps
     memcpy(corners[0], a->corners, sizeof corners[0]);
     memcpy(corners[1], b->corners, sizeof corners[1]);
     const double extents[2] = {extent_of(a->corners), extent_of(b->corners)};
-    /* Of two that are as large the first one, whatever the tree looks like. */
+    /* Of two equally large triangles the first one, independent of the tree. */
     const int larger = extents[1] > extents[0] || (extents[1] == extents[0] && b->index < a->index);
     aur_overlap made = {a->index < b->index ? a->index : b->index, a->index < b->index ? b->index : a->index,
                         false};
@@ -440,7 +440,7 @@ static bool try_pair(const search *s, const item *a, const item *b, aur_overlaps
            append(found, capacity, made);
 }
 
-/* Pairs of a leaf's triangles with each other, and with those of the leaves after it. */
+/* Pairs of a leaf's triangles with each other, and with those of later leaves. */
 static bool search_leaf(const search *s, size_t leaf, aur_overlaps *found, size_t *capacity) {
     const node *const own = &s->nodes[leaf];
     item items[LEAF], others[LEAF];

@@ -5,7 +5,7 @@
 
 #include "points/base/array.h"
 
-/* A copy of `bytes` and as many more as arrays of meshes have; NULL stays NULL, which is no failure. */
+/* A copy of `bytes`, plus the padding of mesh arrays; NULL stays NULL, which is not an error. */
 static void *copy_of(const void *array, size_t bytes, bool *good) {
     void *const copy = array != NULL ? calloc(1, bytes + sizeof(double)) : NULL;
     if (copy != NULL)
@@ -23,7 +23,7 @@ static aur_shape *copy_shape(const aur_shape *from) {
     const aur_mesh *const mesh = &from->mesh;
     const size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
     made->file = copy_of(from->file, from->file != NULL ? strlen(from->file) + 1 : 0, &good);
-    made->flaws = (aur_face_flaws){0}; /* those of the first copy are told */
+    made->flaws = (aur_face_flaws){0}; /* flaws are reported for the original */
     made->mesh.points = copy_of(mesh->points, 3 * vertices * sizeof(double), &good);
     made->mesh.normals = copy_of(mesh->normals, 3 * vertices * sizeof(float), &good);
     made->mesh.uvs = copy_of(mesh->uvs, 2 * vertices * sizeof(float), &good);

@@ -1,12 +1,12 @@
-/* From the coordinates of files, which are doubles, to those of rays, which are floats and count from an
+/* Conversion from file coordinates, which are doubles, to render coordinates, which are floats relative to an
  * origin near the scene. */
 #include "render/scene/origin.h"
 
-/* A shape that is rounded by so much of its size, or of the sizes of its triangles, is not exact. */
+/* Relative rounding, by the size of a shape or of its triangles, above which the shape is inaccurate. */
 static const double COARSE = 1e-3, COARSE_SHARE = 0.01;
 
-/* Of the boxes from number `first` on that belong to one shape: how many they are, and whether much of it is
- * too small for where it stands; then *worst is one of these. */
+/* The number of boxes from `first` on that belong to one shape, and whether much of it is too small for its
+ * distance from the origin; *worst is then one of these boxes. */
 static size_t judge_shape(const aur_patch_boxes *boxes, size_t first, const double origin[3],
                           const aur_patch_box **worst) {
     double all = 0.0, coarse = 0.0;
@@ -28,7 +28,7 @@ static size_t judge_shape(const aur_patch_boxes *boxes, size_t first, const doub
     return count;
 }
 
-/* What no origin can make exact. */
+/* Warns of shapes that are inaccurate with any origin. */
 static void warn_of_rounding(const aur_scene *scene, const aur_patch_boxes *boxes,
                              const aur_warnings *warnings) {
     const aur_patch_box *first = NULL, *worst;
@@ -57,7 +57,7 @@ static aur_result choose(const aur_scene *scene, const aur_shape_group *group, c
     return result == AUR_OK ? result : aur_fail_memory(error);
 }
 
-/* Groups have origins of their own, so that copies of what is modelled far away are as exact as others. */
+/* Groups have separate origins, so that instances of distant geometry are as accurate as others. */
 static aur_result recenter_group(aur_scene *scene, aur_shape_group *group, aur_error *error) {
     aur_result result = choose(scene, group, NULL, group->origin, error);
     for (size_t i = 0; i < group->count && result == AUR_OK; ++i)

@@ -1,4 +1,4 @@
-/* Loading a scene, and asking it about itself. */
+/* Loading and querying a scene. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,8 +16,8 @@ static void find_sphere(aur_scene *scene) {
     scene->radius = radius > 0.0f ? 1.001f * radius : 1.0f;
 }
 
-/* The largest coordinate of a shape in the world, either side of 0. Corners beyond what Embree takes (1.8e18)
- * are left out: it draws no triangle that has one. */
+/* The largest world coordinate of a shape, by magnitude. Corners beyond Embree's limit (1.8e18) are ignored:
+ * Embree does not intersect triangles with such corners. */
 static double reach_of(const aur_shape *shape, const double origin[3]) {
     double reach = 0.0;
     for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
@@ -34,7 +34,7 @@ static double reach_of(const aur_shape *shape, const double origin[3]) {
     return reach;
 }
 
-/* Rays leave surfaces by at least 1e-9 (AUR_LEAST_OFFSET), which in a tiny scene is as far as walls are. */
+/* Ray offsets are at least 1e-9 (AUR_LEAST_OFFSET), comparable to distances in a tiny scene. */
 static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
     const double width = 2.0 * (double)scene->radius;
     if (width < 1e-5)
@@ -42,7 +42,7 @@ static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
                     "the scene is %.2g wide, too small to be exact: scale it to 1e-5 or more", width);
 }
 
-/* The largest coordinate of the scene's bounds, counted from a point that is `origin` from its own. */
+/* The largest coordinate of the scene's bounds relative to a point at `origin` from the scene's origin. */
 static double bounds_reach(const aur_scene *scene, const double origin[3]) {
     const double sides[6] = {scene->lower.x, scene->lower.y, scene->lower.z,
                              scene->upper.x, scene->upper.y, scene->upper.z};
@@ -52,8 +52,8 @@ static double bounds_reach(const aur_scene *scene, const double origin[3]) {
     return reach;
 }
 
-/* Where rays may begin, in the space of an instance, must not be beyond what Embree takes, with room for
- * what lies around the scene. */
+/* Ray origins, transformed to the space of an instance, must be within Embree's limit, with a margin for the
+ * scene's surroundings. */
 static aur_result check_instance(const aur_instance *instance, double reach, aur_error *error) {
     const double *const m = instance->to_local.m;
     for (size_t i = 0; i < 3; ++i)
@@ -65,7 +65,7 @@ static aur_result check_instance(const aur_instance *instance, double reach, aur
     return AUR_OK;
 }
 
-/* How far a camera reaches from the origin. */
+/* The camera's largest distance from the origin. */
 static double sensor_reach(const aur_sensor *sensor) {
     double reach = 0.0;
     for (size_t i = 0; i < 12; ++i)
@@ -75,10 +75,10 @@ static double sensor_reach(const aur_sensor *sensor) {
     return reach;
 }
 
-/* Refuses what is so far away that Embree would end the process. */
+/* Rejects scenes so large or distant that Embree would abort the process. */
 static aur_result check_reach(const aur_scene *scene, aur_error *error) {
     double reach = bounds_reach(scene, scene->origin);
-    const double most = 1.00001 * AUR_REACH; /* bounds are a little wider than shapes */
+    const double most = 1.00001 * AUR_REACH; /* bounds are slightly larger than shapes */
     for (size_t i = 0; reach > most && i < scene->shape_count; ++i) {
         const aur_shape *const shape = scene->shapes[i];
         if (!shape->grouped && reach_of(shape, scene->origin) > most)
@@ -98,7 +98,7 @@ static aur_result check_reach(const aur_scene *scene, aur_error *error) {
     return AUR_OK;
 }
 
-/* Of those that do not add up with others there may be one. */
+/* Only one environment that does not add to others is allowed. */
 static aur_result add_environment(aur_scene *scene, const aur_emitter *emitter, aur_error *error) {
     for (size_t i = 0; i < scene->environment_count && !emitter->descriptor->adds; ++i) {
         const aur_emitter *const first = scene->environments[i];
@@ -114,7 +114,7 @@ static aur_result add_environment(aur_scene *scene, const aur_emitter *emitter, 
     return AUR_OK;
 }
 
-/* Lights on meshes without area give no light: they are left out with a warning, as such faces are. */
+/* Lights on degenerate meshes emit nothing: they are ignored with a warning, like degenerate faces. */
 static void leave_out_dark_lights(aur_scene *scene, const aur_warnings *warnings) {
     size_t kept = 0, count = 0;
     aur_location first = {0};
@@ -164,7 +164,7 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     return result == AUR_OK ? aur_light_choice_create(scene, error) : result;
 }
 
-/* From the file at `path`, or from `data`, where it is given. */
+/* Reads the file at `path`, or `data` if not NULL. */
 static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
                        bool keep_points, aur_overlap_rule rule, aur_scene **scene, aur_error *error) {
     *scene = NULL;

@@ -1,4 +1,4 @@
-/* What transport sees of a scene: rays and what they hit, lights, the camera, and the film's settings. */
+/* The scene interface for transport: rays and hits, lights, the camera, and film settings. */
 #pragma once
 
 #include <aureole-render/scene.h>
@@ -7,7 +7,7 @@
 #include "points/base/keys.h"
 #include "render/scene/materials/bsdf.h"
 
-/* `direction` is of unit length. Hits are accepted for nearest < distance < farthest. */
+/* `direction` is a unit vector. Hits are accepted for nearest < distance < farthest. */
 typedef struct aur_ray {
     aur_vector origin;
     float nearest;
@@ -20,32 +20,33 @@ typedef struct aur_hit {
     float u, v; /* barycentric: (1-u-v) a + u b + v c */
     uint32_t shape;
     uint32_t primitive; /* triangle of the shape */
-    uint32_t instance;  /* which copy of the shape, or AUR_NO_INSTANCE */
+    uint32_t instance;  /* the instance hit, or AUR_NO_INSTANCE */
 } aur_hit;
 
 #define AUR_NO_INSTANCE UINT32_MAX
 
-/* A point on a surface with all that shading needs. */
+/* A surface point with everything needed for shading. */
 typedef struct aur_surface {
     aur_vector position;
-    aur_vector geometric_normal; /* unit, on the side the shape's winding and flip_normals give */
+    aur_vector geometric_normal; /* unit, on the side given by the shape's winding and flip_normals */
     aur_frame frame;             /* frame.z is the shading normal, on the side of geometric_normal */
     aur_bsdf_point texture;      /* texture coordinates */
     const aur_bsdf *bsdf;        /* never NULL */
-    float offset;                /* how far beside it rays begin (aur_surface_offset) */
+    float offset;                /* offset of ray origins (aur_surface_offset) */
     uint32_t shape, primitive;
-    uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
+    uint32_t emitter; /* index of the shape's light, or AUR_NO_EMITTER */
 } aur_surface;
 
 #define AUR_NO_EMITTER UINT32_MAX
 
-/* The nearest hit; false when there is none. */
+/* The nearest hit; false if there is none. */
 AUR_INTERNAL bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
-/* Whether anything lies on the ray, between its nearest and farthest distance. */
+/* Whether anything intersects the ray between its nearest and farthest distance. */
 AUR_INTERNAL bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 
-/* Calls `found` with each surface (its shape, primitive and instance) that may be within `radius` of a point,
- * however they lie: rays tell apart only what floats tell apart. Others may be among them. */
+/* Calls `found` for each surface (shape, primitive and instance) that may be within `radius` of a point, in
+ * any orientation. The result is conservative. Needed because rays only resolve distances to float precision.
+ */
 AUR_INTERNAL void aur_scene_near(const aur_scene *scene, aur_vector point, float radius,
                                  void (*found)(void *context, const aur_hit *place), void *context);
 
@@ -65,13 +66,13 @@ static inline float aur_surface_rounding(aur_vector reach, aur_vector normal) {
                       fabsf(normal.z) * fabsf(reach.z));
 }
 
-/* How far beside a surface rays begin, so that they never meet it. */
+/* Offset of ray origins from a surface, so that rays never hit it again. */
 #define AUR_LEAST_OFFSET 1e-9f
 static inline float aur_surface_offset(aur_vector reach, aur_vector normal) {
     return aur_surface_rounding(reach, normal) + AUR_LEAST_OFFSET;
 }
 
-/* The same of points of a triangle. */
+/* The same for points of a triangle. */
 static inline float aur_triangle_offset(aur_vector a, aur_vector b, aur_vector c, aur_vector normal) {
     const aur_vector reach = {aur_larger(fabsf(a.x), aur_larger(fabsf(b.x), fabsf(c.x))),
                               aur_larger(fabsf(a.y), aur_larger(fabsf(b.y), fabsf(c.y))),
@@ -112,25 +113,25 @@ static inline aur_vector aur_point_target(aur_vector from, aur_vector position, 
     return aur_surface_target(from, position, back, 1.2e-7f * aur_vector_dot_absolute(position, back));
 }
 
-/* A point beside the surface, on the side of `direction`. */
+/* A point offset from the surface, on the side of `direction`. */
 static inline aur_vector aur_surface_leave(const aur_surface *surface, aur_vector direction) {
     const float side = aur_vector_dot(direction, surface->geometric_normal) < 0.0f ? -1.0f : 1.0f;
     return aur_vector_add_scaled(surface->position, side * surface->offset, surface->geometric_normal);
 }
 
-/* A ray that leaves the surface without meeting it again; farthest is infinite. */
+/* A ray that leaves the surface without hitting it again; farthest is infinite. */
 static inline aur_ray aur_surface_ray(const aur_surface *surface, aur_vector direction) {
     return (aur_ray){aur_surface_leave(surface, direction), 0.0f, direction, INFINITY};
 }
 
-/* A ray from one point to another. It meets no surface on which the other is an aur_surface_target. */
+/* A ray between two points. It does not hit a surface for which the second point is an aur_surface_target. */
 static inline aur_ray aur_ray_between(aur_vector from, aur_vector target) {
     const aur_vector way = aur_vector_subtract(target, from);
     const float distance = aur_vector_length(way);
     return (aur_ray){from, 0.0f, aur_vector_scale(way, 1.0f / aur_larger(distance, 1e-30f)), distance};
 }
 
-/* The same from a point beside the surface. */
+/* The same from a point offset from the surface. */
 static inline aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target) {
     return aur_ray_between(aur_surface_leave(surface, aur_vector_subtract(target, surface->position)),
                            target);
@@ -139,61 +140,59 @@ static inline aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector 
 /* --- lights */
 
 typedef struct aur_light_sample {
-    aur_vector position;  /* just before the light (aur_surface_target), where rays towards it end; beyond the
-                             scene for lights that are infinitely far */
-    aur_vector normal;    /* of the light there */
+    aur_vector position;  /* just before the light (aur_surface_target), as end of shadow rays; beyond the
+                             scene for infinitely distant lights */
+    aur_vector normal;    /* normal of the light there */
     aur_vector direction; /* unit, from the reference point to the light */
     float distance;
-    aur_vector radiance; /* RGB, towards the reference point, before visibility; 0 behind the light */
-    float pdf;           /* a steradian at the reference point, the choice of the light included */
-    bool delta; /* a point or one direction: no ray finds the light, so nothing is to be weighed against it;
-                   radiance / pdf is the light's irradiance on a surface that faces it */
+    aur_vector radiance; /* RGB, towards the reference point, without visibility; 0 behind the light */
+    float pdf;           /* pdf by solid angle at the reference point, including the selection of the light */
+    bool delta; /* a point or single direction: rays cannot hit the light, so there is no MIS; radiance / pdf
+                   is its irradiance on a surface that faces it */
     uint32_t emitter; /* its index */
-    bool environment; /* what aur_scene_environment gives, too */
+    bool environment; /* also included in aur_scene_environment */
 } aur_light_sample;
 
-/* Where light arrives. An integrator that draws a point on a light and asks for the pdf of what a ray finds
- * has the same reference for both. */
+/* The reference point of light sampling. For MIS, the integrator passes the same reference to sampling and to
+ * pdf queries. */
 typedef struct aur_light_reference {
     aur_vector position;
-    /* Unit, on the side that is lit: light from behind may be left out, which then costs no look-up of what
-     * shines there. Or 0, where light counts from all sides alike. */
+    /* Unit normal on the lit side: light from behind may be skipped, which saves its evaluation. 0: light
+     * from all directions counts equally. */
     aur_vector normal;
 } aur_light_reference;
 
-/* Draws a point on a light: u[0] chooses the light in proportion to its power, u[1], u[2] the point, on
- * rectangles nearly in proportion to the cosine at the reference's normal. False when the scene has no light
- * or the point cannot be seen from there (pdf 0). */
+/* Samples a point on a light: u[0] selects the light in proportion to its power, u[1], u[2] the point, on
+ * rectangles nearly in proportion to the cosine at the reference's normal. False if the scene has no light,
+ * or the point is not visible from the reference (pdf 0). */
 AUR_INTERNAL bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference,
                                           const float u[3], aur_light_sample *sample);
-bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
-/* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
+bool aur_light_chooses(const aur_scene *scene); /* u[0] is used: several lights, or a mesh */
+/* The pdf with which aur_light_sample_direct samples the point `surface` of a light, from `reference`. */
 float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,
                            const aur_surface *surface);
-/* Radiance that `surface` emits towards the unit direction `view` (world); 0 when it is no light or seen from
- * behind. */
+/* Radiance emitted by `surface` in the unit direction `view` (world); 0 for surfaces that are not lights, and
+ * from behind. */
 AUR_INTERNAL aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface,
                                              aur_vector view);
 
-/* Light from beyond the scene, for rays that hit nothing: the radiance that arrives from the unit `direction`
- * (which points out of the scene), 0 without an environment; and the pdf with which aur_light_sample_direct
- * would draw that direction. */
+/* Environment lighting, for rays that hit nothing: the radiance from the unit `direction` (pointing out of
+ * the scene), 0 without an environment; and the pdf with which aur_light_sample_direct samples it. */
 bool aur_scene_has_environment(const aur_scene *scene);
 AUR_INTERNAL aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction);
 float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction);
 /* Both at once. */
 aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, float *pdf);
 
-/* The same for rays of the camera: a scene may have another background than its light. */
+/* The same for camera rays: the visible background may differ from the environment. */
 bool aur_scene_has_background(const aur_scene *scene);
 aur_vector aur_scene_background(const aur_scene *scene, aur_vector direction);
 
-/* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
- * distributed direction. *power is the light's power: each of n particles carries 1/n of it, in watts (RGB).
- * `hidden`: no ray meets the light, which is a point or a single direction. False when the scene has no
- * light. */
+/* An emitted particle: u[0] selects the light by power, u[1], u[2] the point, u[3], u[4] a cosine-distributed
+ * direction. *power is the light's power: each of n particles carries 1/n of it, in watts (RGB). `hidden`: a
+ * light that rays cannot hit, as a point or a single direction. False if the scene has no light. */
 bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power, bool *hidden);
-/* Whether there is such a light. */
+/* Whether the scene has a light that rays cannot hit. */
 bool aur_scene_has_hidden_light(const aur_scene *scene);
 
 AUR_INTERNAL size_t aur_scene_emitter_count(const aur_scene *scene);
@@ -203,24 +202,24 @@ AUR_INTERNAL size_t aur_scene_emitter_count(const aur_scene *scene);
 typedef struct aur_medium aur_medium; /* render/scene/medium.h */
 
 bool aur_scene_has_media(const aur_scene *scene);
-/* The one that the camera stands in; NULL: none. */
+/* The medium that contains the camera; NULL: none. */
 const aur_medium *aur_scene_camera_medium(const aur_scene *scene);
-/* What a ray that leaves a surface in `direction` is in: *medium, NULL for none, stays as it is where the
- * shape bounds no medium. */
+/* The medium of a ray that leaves a surface in `direction`: *medium (NULL: none) is unchanged if the shape
+ * bounds no medium. */
 void aur_surface_medium(const aur_scene *scene, const aur_surface *surface, aur_vector direction,
                         const aur_medium **medium);
-/* How far the light of a sample goes through media to `reference`: without end from an environment, and from
- * a light of one direction twice as far as the scene's sphere reaches, as in Mitsuba 3: else a fog without
- * bounds would have no sun. */
+/* The distance through media of a light sample to `reference`: infinite for an environment; for directional
+ * light twice the radius of the scene's sphere, as in Mitsuba 3. Otherwise unbounded fog would absorb all
+ * sunlight. */
 float aur_light_reach(const aur_scene *scene, const aur_light_sample *sample, aur_vector reference);
-/* An UNSUPPORTED error where the scene has media, with the place of the first: "WHAT takes no media". */
+/* An UNSUPPORTED error if the scene has media, at the location of the first: "WHAT takes no media". */
 AUR_INTERNAL aur_result aur_scene_refuse_media(const aur_scene *scene, const char *what, aur_error *error);
-/* A warning there. */
+/* A warning in that case. */
 void aur_scene_warn_of_media(const aur_scene *scene, const char *what, const aur_warnings *warnings);
 
 /* --- camera and film */
 
-/* A scene needs no camera unless it is rendered: a FORMAT error, with the place, where there is none. */
+/* A FORMAT error, with location, if the scene has no camera: only rendering requires one. */
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error);
 
 /* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the image; width and
@@ -228,10 +227,10 @@ aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error);
 void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                     const float lens[2], aur_ray *ray);
 
-/* Of cameras all whose rays begin at one point: that point, and where a direction from there is seen. */
+/* For cameras whose rays share one origin: that point, and the projection of a direction from it. */
 typedef struct aur_film_point {
-    float x, y;        /* in pixels, within the image or not */
-    float solid_angle; /* of a pixel there */
+    float x, y;        /* in pixels, inside or outside of the image */
+    float solid_angle; /* solid angle of a pixel there */
 } aur_film_point;
 bool aur_camera_is_pinhole(const aur_scene *scene);
 aur_vector aur_camera_position(const aur_scene *scene);
@@ -239,21 +238,21 @@ aur_vector aur_camera_position(const aur_scene *scene);
 bool aur_camera_see(const aur_scene *scene, size_t width, size_t height, aur_vector direction,
                     aur_film_point *point);
 
-/* A point in space as the camera sees it. */
+/* A point in space, projected to the film. */
 typedef struct aur_camera_link {
     aur_film_point film; /* of the point; its solid angle is seen from `origin` */
-    aur_vector origin;   /* of the camera's ray there: its place, or a point of its lens */
+    aur_vector origin;   /* origin of the camera's ray: its position, or a point of its lens */
     aur_vector direction;
     float distance;
-    float nearest; /* the part of the distance in which nothing is seen */
+    float nearest; /* the fraction of the distance hidden by the near clip plane */
 } aur_camera_link;
-/* Whether the camera has such links: a lens, or a point that all rays leave. */
+/* Whether the camera supports such connections: it has a lens, or a common origin of all rays. */
 bool aur_camera_connects(const aur_scene *scene);
-/* False for points that the camera cannot see, whatever lies between. lens[2] in [0,1). */
+/* False for points outside of the camera's view; occlusion is ignored. lens[2] in [0,1). */
 bool aur_camera_connect(const aur_scene *scene, size_t width, size_t height, const float lens[2],
                         aur_vector point, aur_camera_link *link);
 
-/* Sixteen camera rays, an array a coordinate. */
+/* Sixteen camera rays, as arrays per coordinate. */
 enum { AUR_CAMERA_LANES = 16 };
 
 typedef struct aur_camera_lanes {
@@ -261,11 +260,11 @@ typedef struct aur_camera_lanes {
     float nearest[AUR_CAMERA_LANES], farthest[AUR_CAMERA_LANES];
 } aur_camera_lanes;
 
-/* aur_camera_ray of sixteen film points and points of the lens: the same bits. */
+/* aur_camera_ray for sixteen film points and lens points: bit-identical. */
 void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const float *x, const float *y,
                      const float *lens_u, const float *lens_v, aur_camera_lanes *rays);
 
-/* What the mean radiance along rays is to be multiplied by: pi for irradiance, else 1. */
+/* The factor from mean radiance along rays to the measured quantity: pi for irradiance, else 1. */
 float aur_camera_factor(const aur_scene *scene);
 /* Whether the camera's rays depend on `lens`. */
 bool aur_camera_has_lens(const aur_scene *scene);
@@ -273,59 +272,57 @@ bool aur_camera_has_lens(const aur_scene *scene);
 /* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2), mitchell (B =
  * C = 1/3, radius 2), catmullrom (2), lanczos (3), as Mitsuba 3 defines them. */
 typedef struct aur_filter aur_filter;
-const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
+const aur_filter *aur_filter_find(const char *name); /* NULL: out of range */
 const char *aur_filter_name(const aur_filter *filter);
 double aur_filter_radius(const aur_filter *filter); /* in pixels */
-/* The filter along one axis, so many pixels from its centre; not normalised. */
+/* The unnormalised filter along one axis, at this distance from its centre in pixels. */
 double aur_filter_value(const aur_filter *filter, double offset);
-/* Whether a pixel gains by weighing the samples of its neighbours, too: samples spread evenly, each weighed
- * by w, are worth (int w)^2 / int w^2 of one pixel's along an axis, and samples drawn by |w|
- * (int w)^2 / (int |w|)^2. Filters of a radius up to 0.5 reach no neighbour; those that reach farther than
+/* Whether samples contribute to neighbouring pixels too. Relative to one pixel's samples, the efficiency
+ * along an axis is (int w)^2 / int w^2 for evenly distributed samples with weight w, and (int w)^2 / (int
+ * |w|)^2 for samples drawn by |w|. Filters of radius up to 0.5 reach no neighbour; those above
  * AUR_FILTER_REACH_MAX would need too much memory. */
 bool aur_filter_shares_samples(const aur_filter *filter);
-/* For filters that are not negative, box, tent and gaussian: the offset from the pixel's centre, in pixels,
- * that u in [0,1) stands for where samples are drawn by the filter. */
+/* For non-negative filters (box, tent and gaussian): the offset from the pixel's centre, in pixels, sampled
+ * in proportion to the filter by u in [0,1). */
 float aur_filter_sample(const aur_filter *filter, float u);
 
-/* What a scene says of its image. */
+/* Image settings of a scene. */
 typedef struct aur_film_settings {
     size_t width, height;
-    size_t crop_x0, crop_x1, crop_y0, crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole */
+    size_t crop_x0, crop_x1, crop_y0, crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole image */
     const aur_filter *filter;
 } aur_film_settings;
 
 const aur_film_settings *aur_scene_film(const aur_scene *scene);
-/* At most 2^30, as many as a sampler can count. */
+/* At most 2^30, the limit of samplers. */
 #define AUR_SAMPLES_PER_PIXEL_MAX ((int64_t)1 << 30)
-/* What the scene was read from, a line each: "scene NAME HASH", "file NAME HASH" for all that it names,
- * sorted, and "define NAME=VALUE". The text is allocated with malloc. Errors: OPEN when a file is gone,
- * MEMORY. */
+/* The inputs of the scene, one per line: "scene NAME HASH", "file NAME HASH" for all referenced files,
+ * sorted, and "define NAME=VALUE". The text is malloc'ed. Errors: OPEN if a file has been removed, MEMORY. */
 aur_result aur_scene_contents(const aur_scene *scene, char **lines, aur_error *error);
-/* What traces the rays, in words: images made with other words differ in the last bits. */
+/* Describes the ray tracing kernels: if the description differs, images differ by rounding. */
 enum { AUR_SCENE_TRACER_CAPACITY = 96 };
 void aur_scene_describe_tracer(const aur_scene *scene, size_t capacity, char *text);
 size_t aur_scene_samples_per_pixel(const aur_scene *scene);
 const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
-/* The integrator as the scene has it; its plugin may be one that Aureole does not know. */
+/* The integrator of the scene file; its plugin may be unsupported. */
 const aur_parameters *aur_scene_integrator(const aur_scene *scene);
 
 /* --- geometry, for photon maps and radiosity */
 
-/* All coordinates but those of what is read or written count from this point of the world, near which most of
- * the scene is: as floats they are as exact wherever it stands. `origin` lasts as long as the scene. */
+/* The world position of the origin of internal coordinates, near most of the scene, so that floats are
+ * accurate. Only input and output use world coordinates. `origin` is valid as long as the scene. */
 AUR_INTERNAL const double *aur_scene_origin(const aur_scene *scene);
-/* A point of the world in such coordinates. */
+/* A world point in internal coordinates. */
 static inline aur_vector aur_place_from(const double origin[3], const double point[3]) {
     return (aur_vector){(float)(point[0] - origin[0]), (float)(point[1] - origin[1]),
                         (float)(point[2] - origin[2])};
 }
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
-/* Embree's scene, for code that traces rays by itself: all shapes but those of groups, whose instances it
- * holds. */
+/* Embree's scene, for code that traces rays directly: all shapes outside of groups, and the groups'
+ * instances. */
 struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
-/* What Embree's devices are made with for so many primitives: one thread below a million, else as many as are
- * given, 0 for all that there are; no huge pages below 2^15; and kernels for no wider instructions than
- * aur_isa_of_rays(). */
+/* Configuration of Embree's devices for this number of primitives: one thread below a million, else `threads`
+ * (0: all); no huge pages below 2^15; instruction sets up to aur_isa_of_rays(). */
 enum { AUR_EMBREE_CONFIGURATION_CAPACITY = 48 };
 void aur_embree_configuration(size_t primitives, size_t threads,
                               char text[AUR_EMBREE_CONFIGURATION_CAPACITY]);
@@ -336,20 +333,20 @@ typedef struct aur_triangle {
     aur_bsdf_point texture[3];
 } aur_triangle;
 
-/* A scene that is made of triangle meshes and lit by them alone: UNSUPPORTED, with the place, for any other
- * shape, for copies of shape groups and for lights that are no surface. */
+/* Checks that the scene consists of triangle meshes and is lit only by them. UNSUPPORTED, with location, for
+ * other shapes, instances, and lights that are not surfaces. */
 aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error);
 
 size_t aur_scene_shape_count(const aur_scene *scene);
-/* Triangles of a shape; hits number them from 0. */
+/* Number of triangles of a shape; hits number them from 0. */
 size_t aur_scene_shape_triangles(const aur_scene *scene, size_t shape);
 void aur_scene_triangle(const aur_scene *scene, size_t shape, size_t index, aur_triangle *triangle);
 const aur_bsdf *aur_scene_shape_bsdf(const aur_scene *scene, size_t shape);
 aur_location aur_scene_shape_location(const aur_scene *scene, size_t shape);
-/* What a mesh emits on the side of its normal at a texture coordinate, and whether that varies; 0 for shapes
- * that are no light. */
+/* Emission of a mesh on the side of its normal at a texture coordinate, and whether it varies; 0 for shapes
+ * that are not lights. */
 aur_vector aur_scene_shape_emission(const aur_scene *scene, size_t shape, aur_bsdf_point point);
 bool aur_scene_shape_emission_varies(const aur_scene *scene, size_t shape);
 
-/* Tables of what the loader itself makes. */
+/* Tables of plugins created by the loader itself. */
 extern const aur_table aur_film_table, aur_sampler_table;

@@ -1,4 +1,4 @@
-/* Rays of the camera, one and sixteen. */
+/* Camera rays, single and in packets of sixteen. */
 #include "render/scene/sensor.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ static aur_vector to_world_direction(const float m[12], aur_vector v) {
                         m[8] * v.x + m[9] * v.y + m[10] * v.z};
 }
 
-/* The camera that a film point belongs to; of a batch, one part with its own x and width. */
+/* The camera of a film point; in a batch, the part with its x and width. */
 static const aur_sensor *choose_part(const aur_sensor *sensor, float *x, float *width) {
     if (sensor->part_count == 0)
         return sensor;
@@ -45,14 +45,14 @@ void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x
     const float aspect = wide / (float)height;
     aur_ray local = {.origin = {0.0f, 0.0f, 0.0f}};
     sensor->descriptor->ray(sensor, aspect, x / wide, y / (float)height, lens, &local);
-    if (sensor->shape != NULL) { /* the shape stands in the world */
+    if (sensor->shape != NULL) { /* the shape is in world coordinates */
         *ray = local;
         return;
     }
     const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
     ray->origin =
         aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
-    /* The clip depths are along local z; a scaled camera scales them. */
+    /* Clip depths are along local z, and scale with the camera. */
     const aur_vector direction = to_world_direction(sensor->to_world, local.direction);
     const float unit_depth = aur_vector_length(direction) / local.direction.z;
     ray->direction = aur_vector_normalize(direction);
@@ -62,7 +62,7 @@ void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x
 
 static void pinhole_rays(const aur_sensor *given, float width, float height, const float *restrict x,
                          const float *restrict y, aur_camera_lanes *restrict rays) {
-    const aur_sensor sensor = *given; /* which the rays cannot overlap */
+    const aur_sensor sensor = *given; /* rays must not alias these */
     const float aspect = width / height, half = aur_sensor_half_width(&sensor, aspect);
     for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
         const aur_vector local = aur_sensor_direction(&sensor, half, aspect, x[k] / width, y[k] / height);
@@ -126,8 +126,8 @@ aur_vector aur_camera_position(const aur_scene *scene) {
     return (aur_vector){m[3], m[7], m[11]};
 }
 
-/* A direction by its slopes in camera space, z = 1, and its depth, by Cramer's rule from the columns of
- * to_world; false behind the camera. */
+/* A direction as slopes in camera space, z = 1, and its depth, by Cramer's rule from the columns of to_world;
+ * false behind the camera. */
 static bool in_camera_space(const aur_sensor *sensor, aur_vector direction, aur_vector *slope, float *depth) {
     const float *const m = sensor->to_world;
     const aur_vector x = {m[0], m[4], m[8]}, y = {m[1], m[5], m[9]}, z = {m[2], m[6], m[10]};
@@ -141,7 +141,8 @@ static bool in_camera_space(const aur_sensor *sensor, aur_vector direction, aur_
     return true;
 }
 
-/* Where the film has a ray with these slopes from the camera's centre; `slope`: those of the ray itself. */
+/* The film point of a ray with these slopes from the camera's centre; `slope`: the slopes of the ray itself.
+ */
 static aur_film_point film_point_of(const aur_sensor *sensor, size_t width, size_t height, aur_vector seen,
                                     aur_vector slope) {
     const float aspect = (float)width / (float)height, half = aur_sensor_half_width(sensor, aspect);

@@ -1,4 +1,4 @@
-/* Cameras. Each stands in a file of the folder sensors and has one line in sensors/table.c. */
+/* Cameras. To add one: a file in the folder sensors, and one line in sensors/table.c. */
 #pragma once
 
 #include "points/base/keys.h"
@@ -18,41 +18,40 @@ typedef struct aur_sensor aur_sensor;
 
 typedef struct aur_sensor_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor */
-    /* Reads its keys; may be NULL where it has none but those of all cameras. */
+    /* Reads its parameters; may be NULL if it has only those of all cameras. */
     aur_result (*create)(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
-    /* The ray in camera space through the film point; `aspect` is width over height and x, y are in [0, 1], y
-     * downwards. The direction is of any length; the origin is that of the camera unless it is set.
-     * NULL for a batch, each part of which has its own. */
+    /* The ray in camera space through a film point; `aspect` is width over height, and x, y are in [0, 1], y
+     * downwards. The direction may have any length; the origin is the camera's unless set. NULL for a batch,
+     * whose parts have theirs. */
     void (*ray)(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2], aur_ray *ray);
-    /* Makes what its rays need when all shapes stand in the scene's coordinates; may be NULL. Errors: MEMORY.
-     */
+    /* Completes its data after all shapes are in scene coordinates; may be NULL. Errors: MEMORY. */
     aur_result (*prepare)(aur_sensor *sensor, aur_error *error);
-    float factor;    /* of the radiance along its rays; 0: 1, and the rays are in camera space */
-    bool is_pinhole; /* all rays begin at the origin, in directions aur_sensor_direction */
+    float factor;    /* factor of the radiance along its rays; 0: 1, with rays in camera space */
+    bool is_pinhole; /* all rays start at the origin, in directions aur_sensor_direction */
 } aur_sensor_descriptor;
 
 struct aur_sensor {
     const aur_sensor_descriptor *descriptor;
-    double place[3];    /* where it stands */
-    float to_world[12]; /* row major 3x4, to coordinates that count from the scene's origin */
+    double place[3];    /* position in the world */
+    float to_world[12]; /* row major 3x4, to coordinates relative to the scene's origin */
     float near_clip, far_clip;
-    float offset_x, offset_y; /* principal point, as a share of the film */
+    float offset_x, offset_y; /* principal point, as a fraction of the film */
     aur_fov_axis axis;
     float tangent; /* of half the field of view, along `axis` */
     float aperture_radius, focus_distance;
-    const struct aur_shape *shape;   /* on which rays begin; NULL: none */
-    aur_distribution triangles;      /* of that, where it is a mesh, by area */
-    const struct aur_medium *medium; /* which it stands in; NULL: none */
-    size_t part_count;               /* of a batch; else 0 */
+    const struct aur_shape *shape;   /* shape on which rays start; NULL: none */
+    aur_distribution triangles;      /* triangles of that mesh, by area */
+    const struct aur_medium *medium; /* medium that contains it; NULL: none */
+    size_t part_count;               /* number of cameras in a batch; else 0 */
     struct aur_sensor *const *parts;
 };
 
 extern const aur_table aur_sensor_table;
 
-/* Builds the sensor that parameters->plugin names. */
+/* Builds the sensor of parameters->plugin. */
 aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
 
-/* The scene's origin has been chosen, and all shapes count from it. Errors: MEMORY. */
+/* Converts to coordinates relative to the scene's origin, after all shapes. Errors: MEMORY. */
 aur_result aur_sensor_recenter(aur_sensor *sensor, const double origin[3], aur_error *error);
 /* Frees what the sensor points to. */
 void aur_sensor_release(aur_sensor *sensor);
@@ -60,7 +59,7 @@ void aur_sensor_release(aur_sensor *sensor);
 /* Half the film's width at z = 1. */
 float aur_sensor_half_width(const aur_sensor *sensor, float aspect);
 
-/* The direction with z = 1 through the film point, by half the film's width. */
+/* The direction with z = 1 through a film point, given half the film's width. */
 static inline aur_vector aur_sensor_direction(const aur_sensor *sensor, float half, float aspect, float x,
                                               float y) {
     /* +x is the left of the image. */
@@ -79,7 +78,7 @@ typedef enum aur_filter_kind {
     AUR_FILTER_LANCZOS
 } aur_filter_kind;
 
-/* Pixels; samples are drawn by filters that reach farther. */
+/* Limit in pixels; wider filters draw samples by the filter. */
 enum { AUR_FILTER_REACH_MAX = 16 };
 
 struct aur_filter {
@@ -91,5 +90,5 @@ struct aur_filter {
 
 extern const aur_table aur_filter_table;
 
-/* The filter that parameters->plugin names, with its parameters. */
+/* The filter of parameters->plugin, with its parameters. */
 aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error);

@@ -7,7 +7,7 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
     const double discriminant = b * b - a * c;
     if (!(discriminant >= 0.0) || !(a > 0.0))
         return false;
-    /* This form has no cancellation between b and the square root. */
+    /* This form avoids cancellation between b and the square root. */
     const double q = -(b + copysign(sqrt(discriminant), b));
     double first = q / a, second = q != 0.0 ? c / q : first;
     if (first > second) {
@@ -19,7 +19,7 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
     return *root > nearest && *root < farthest;
 }
 
-/* Of two triangles, (0, 1, 2) and (0, 2, 3). */
+/* Two triangles, (0, 1, 2) and (0, 2, 3). */
 static void round_parallelogram(const aur_mesh *mesh, aur_shape_point *point) {
     const aur_vector a = aur_mesh_position(mesh, 0), b = aur_mesh_position(mesh, 1);
     const aur_vector c = aur_mesh_position(mesh, 2), d = aur_mesh_position(mesh, 3), n = point->normal;
@@ -85,7 +85,7 @@ void aur_shape_place(const aur_shape_input *input, aur_shape *shape) {
 
 aur_result aur_shape_similarity(const aur_shape_input *input, double *scale, aur_error *error) {
     const double *const m = input->to_world.m;
-    double product[6]; /* of columns: xx, yy, zz, xy, yz, zx */
+    double product[6]; /* dot products of columns: xx, yy, zz, xy, yz, zx */
     for (size_t i = 0; i < 3; ++i) {
         product[i] = m[i] * m[i] + m[4 + i] * m[4 + i] + m[8 + i] * m[8 + i];
         const size_t j = (i + 1) % 3;
@@ -131,7 +131,7 @@ void aur_shape_release_attributes(aur_shape *shape) {
 void aur_shape_curved_bounds(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]) {
     const aur_curves *const curves = &shape->curves;
     if (curves->segment_count == 0) {
-        shape->curved->bounds(shape, primitive, lower, upper); /* `center` is 0 as yet */
+        shape->curved->bounds(shape, primitive, lower, upper); /* `center` is still 0 */
         for (size_t d = 0; d < 3; ++d) {
             lower[d] += shape->place[d];
             upper[d] += shape->place[d];

@@ -10,7 +10,7 @@ static aur_vector interpolate(const float *values, const uint32_t *index, const 
     return sum;
 }
 
-/* The steps in which u grows by 1 and v stays, and the other way round. */
+/* The tangents: steps that increase u by 1 at constant v, and vice versa. */
 static void mesh_tangents(const aur_mesh *mesh, const uint32_t *index, const aur_vector edge[2],
                           aur_vector tangents[2]) {
     tangents[0] = edge[0];
@@ -32,8 +32,8 @@ static void mesh_tangents(const aur_mesh *mesh, const uint32_t *index, const aur
                          1.0f / determinant);
 }
 
-/* Of a triangle so large or thin that its sides' product leaves the range of floats; one without area faces
- * the ray. */
+/* Normal of a triangle so large or thin that its cross product overflows or underflows floats; a degenerate
+ * one faces the ray. */
 static aur_vector unusual_normal(const aur_vector edge[2], const aur_ray *ray) {
     const aur_vector normal = aur_extreme_triangle_normal(edge[0], edge[1], NULL);
     return aur_vector_is_zero(normal) ? aur_vector_scale(ray->direction, -1.0f) : normal;
@@ -89,8 +89,8 @@ static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur
     surface->frame.y = tangents[1];
 }
 
-/* frame.z is unit; frame.x is made perpendicular to it where the material asks which way it points. What x
- * and y were, the steps of the texture coordinates, is kept for bumpy materials. */
+/* frame.z is unit; frame.x is made perpendicular to it if the material depends on its direction. The original
+ * tangents are stored for bump mapping. */
 static void finish_frame(const aur_bsdf *bsdf, aur_surface *surface) {
     if (aur_vector_dot(surface->frame.z, surface->geometric_normal) < 0.0f)
         surface->frame.z = aur_vector_scale(surface->frame.z, -1.0f);
@@ -121,8 +121,8 @@ static void shape_surface(const aur_shape *shape, const aur_ray *ray, const aur_
         mesh_surface(shape, ray, hit, surface);
 }
 
-/* Embree brings the origins of rays to the group's own space: what that rounds there, in products of the
- * matrix with a point and with the point that is the group's origin. */
+/* Embree transforms ray origins to the group's space. Bounds its rounding, in products of the matrix with a
+ * point and with the group's origin. */
 static float instance_rounding(const aur_instance *instance, aur_vector position, aur_vector local_normal) {
     const double *const m = instance->to_local.m, *const w = instance->to_world.m;
     const double from[3] = {fabs((double)position.x) + fabs(w[3]), fabs((double)position.y) + fabs(w[7]),
@@ -134,7 +134,7 @@ static float instance_rounding(const aur_instance *instance, aur_vector position
                                 local_normal);
 }
 
-/* Finds the surface in the group's own space, and then moves it to the instance. What is 1 along the unit
+/* Finds the surface in the group's space, then transforms it to the instance. A distance of 1 along the unit
  * normal n there is 1 / |to_local^T n| along the normal here. */
 static void instance_surface(const aur_instance *instance, const aur_shape *shape, const aur_ray *ray,
                              const aur_hit *hit, aur_surface *surface) {

@@ -35,7 +35,7 @@ bool aur_transform_rotate(const double axis[3], double degrees, aur_transform *r
     double a[3] = {axis[0], axis[1], axis[2]};
     if (!normalize(a) || !isfinite(degrees))
         return false;
-    /* Quarter turns are exact, as people who write 90 expect. */
+    /* Multiples of 90 degrees are exact, as expected by users who type 90. */
     const double turns = remainder(degrees, 360.0);
     double s = sin(turns * AUR_PI / 180.0);
     double c = cos(turns * AUR_PI / 180.0);
@@ -177,7 +177,7 @@ static bool is_within_reach(const aur_transform *a, const aur_transform *inverse
     return true;
 }
 
-/* The entries of a map bound how much it stretches, those of its inverse how much it shrinks. */
+/* The entries of a map bound its stretching, those of its inverse its shrinking. */
 bool aur_transform_is_within_reach(const aur_transform *a) {
     aur_transform inverse;
     return aur_transform_inverse(a, &inverse) && is_within_reach(a, &inverse);

@@ -1,4 +1,4 @@
-/* Volumes: values that vary over space. Each stands in a file of the folder volumes and has one line in
+/* Volumes: values that vary over space. To add one: a file in the folder volumes, and one line in
  * volumes/table.c. */
 #pragma once
 
@@ -8,49 +8,50 @@
 typedef struct aur_volume aur_volume;
 
 typedef struct aur_volume_descriptor {
-    aur_row
-        row; /* first, so that a row of the table is its descriptor; its keys are read into volume->data */
-    size_t size; /* of what volume->data points to: zeroed before the keys are read, freed in the end */
-    /* Reads what keys do not, and sets the fields of the volume below. */
+    aur_row row; /* first, so that a row of the table is its descriptor; its parameters are read into
+                    volume->data */
+    size_t size; /* size of volume->data: zeroed before parameters are read, freed in the end */
+    /* Reads the remaining parameters, and sets the fields of the volume below. */
     aur_result (*create)(aur_parameters *parameters, aur_volume *volume, aur_error *error);
-    void (*release)(void *data); /* what volume->data points to further; NULL: nothing */
+    void (*release)(void *data); /* frees what volume->data points to; NULL: nothing */
     aur_vector (*evaluate)(const aur_volume *volume, aur_vector position);
-    /* The largest value of any channel in a box of the unit cube; for volumes that vary. */
+    /* The largest value of any channel in a box of the unit cube; for varying volumes. */
     float (*maximum_within)(const aur_volume *volume, const float lower[3], const float upper[3]);
 } aur_volume_descriptor;
 
 struct aur_volume {
     const aur_volume_descriptor *descriptor;
     void *data;
-    float minimum, maximum; /* of any channel anywhere */
-    bool constant;          /* else it lies in the unit cube of its own space: */
+    float minimum, maximum; /* maximum over all channels and positions */
+    bool constant;          /* if false, the volume is in the unit cube of its local space: */
     aur_transform to_world;
-    float to_local[12]; /* row major 3x4, from the scene, whose origin has been chosen: aur_volume_recenter */
+    float
+        to_local[12]; /* row major 3x4, from scene coordinates relative to the origin: aur_volume_recenter */
     size_t voxels[3];
 };
 
 extern const aur_table aur_volume_table;
 
-/* Builds the volume that parameters->plugin names. A grid's `filename` must already be a path that opens. */
+/* Builds the volume of parameters->plugin. A grid's `filename` must already be resolved. */
 aur_result aur_volume_create(aur_parameters *parameters, aur_volume **volume, aur_error *error);
 void aur_volume_destroy(aur_volume *volume);
-/* Finds `to_local` for a scene whose coordinates count from `origin`. */
+/* Computes `to_local` for scene coordinates relative to `origin`. */
 void aur_volume_recenter(aur_volume *volume, const double origin[3]);
 
-/* A value of a medium: the same everywhere, or a volume. */
+/* A parameter of a medium: a constant, or a volume. */
 typedef struct aur_volume_value {
     aur_vector constant;
     const aur_volume *volume; /* NULL: constant */
 } aur_volume_value;
 
-/* A row for tables of keys, of what aur_volume_value_read reads. */
+/* A row for tables of parameters, for aur_volume_value_read. */
 #define AUR_VOLUME_KEY(name_, default_, help_)                                                               \
     AUR_KEY_READ_APART(AUR_KEY_ITEM, name_, default_, help_), .words = (const char *const[]) {               \
         "number", "color", "volume", NULL                                                                    \
     }
 
-/* Reads the value of a key, which is `fallback` where it is not given; `name` is a string literal. Errors:
- * FORMAT, with the place, for what is no number, colour or volume, or is below 0 or above `maximum`. */
+/* Reads the value of a parameter, by default `fallback`; `name` is a string literal. Errors: FORMAT, with
+ * location, for values that are not a number, colour or volume, or are below 0 or above `maximum`. */
 aur_result aur_volume_value_read(aur_parameters *parameters, const char *name, float fallback, float maximum,
                                  aur_volume_value *value, aur_error *error);
 
@@ -59,7 +60,7 @@ static inline aur_vector aur_volume_value_at(const aur_volume_value *value, aur_
                                  : value->volume->descriptor->evaluate(value->volume, position);
 }
 
-/* A point and a direction in the volume's own space, a step along a ray being a step there. */
+/* A point and a direction in the volume's local space; the ray parameter is preserved. */
 static inline aur_vector aur_volume_local_direction(const aur_volume *volume, aur_vector direction) {
     const float *const m = volume->to_local;
     return (aur_vector){m[0] * direction.x + m[1] * direction.y + m[2] * direction.z,
