@@ -116,8 +116,8 @@ static aur_result copy_options(aur_adaptive *adaptive, aur_renderer *renderer,
     adaptive->options.sampler = adaptive->sampler;
     adaptive->options.filter = adaptive->filter;
     adaptive->options.integrator = NULL;
-    const bool kept = adaptive->sampler != NULL && (options->filter == NULL || adaptive->filter != NULL);
-    return kept ? AUR_OK : aur_fail_memory(error);
+    const bool copied = adaptive->sampler != NULL && (options->filter == NULL || adaptive->filter != NULL);
+    return copied ? AUR_OK : aur_fail_memory(error);
 }
 
 static aur_result prepare(aur_adaptive *adaptive, aur_renderer *renderer, const aur_render_options *given,

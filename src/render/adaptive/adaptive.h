@@ -25,7 +25,7 @@ struct aur_adaptive {
     bool races; /* ... and that is going on */
     aur_race race;
     char *path;     /* the integrator of path tracing; NULL where the integrator is named */
-    size_t place;   /* in the race's order, of the candidate */
+    size_t rank;    /* of the candidate in the race */
     size_t row;     /* the candidate's in the table; AUR_RACE_PATH where the integrator is named */
     size_t photons; /* of each replica's map */
     aur_corrections corrections;

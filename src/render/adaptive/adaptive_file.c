@@ -30,7 +30,7 @@ static void transfer_bytes(transfer *to, void *data, size_t bytes) {
 static const struct field {
     size_t offset, bytes;
 } fields[] = {
-    FIELD(place),
+    FIELD(rank),
     FIELD(others.all),
     FIELD(race.order_count),
     FIELD(race.order),
@@ -102,7 +102,7 @@ aur_result aur_adaptive_save(const aur_adaptive *adaptive, const char *path, aur
 }
 
 static bool is_damaged(const aur_adaptive *adaptive) {
-    bool damaged = adaptive->place >= AUR_RACE_ROWS || adaptive->race.order_count > AUR_RACE_ROWS;
+    bool damaged = adaptive->rank >= AUR_RACE_ROWS || adaptive->race.order_count > AUR_RACE_ROWS;
     for (size_t i = 0; i < AUR_RACE_ROWS; ++i)
         damaged = damaged || adaptive->race.order[i] >= AUR_RACE_ROWS;
     return damaged;

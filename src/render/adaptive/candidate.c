@@ -39,11 +39,11 @@ static aur_result allocate(aur_candidate *candidate, aur_error *error) {
     candidate->scratch = calloc(2 * pixels, sizeof *candidate->scratch);
     candidate->values = calloc(2 * pixels, sizeof *candidate->values);
     candidate->weights = calloc(pixels, sizeof *candidate->weights);
-    const bool made = candidate->values != NULL && candidate->weights != NULL && candidate->targets != NULL &&
-                      candidate->earlier != NULL && candidate->variances != NULL &&
-                      candidate->measured != NULL && candidate->pixels != NULL &&
-                      candidate->spreads != NULL && candidate->scratch != NULL;
-    return made ? AUR_OK : aur_fail_memory(error);
+    const bool allocated =
+        candidate->values != NULL && candidate->weights != NULL && candidate->targets != NULL &&
+        candidate->earlier != NULL && candidate->variances != NULL && candidate->measured != NULL &&
+        candidate->pixels != NULL && candidate->spreads != NULL && candidate->scratch != NULL;
+    return allocated ? AUR_OK : aur_fail_memory(error);
 }
 
 aur_result aur_candidate_create(aur_renderer *renderer, const aur_render_options *options,

@@ -129,13 +129,13 @@ aur_result aur_adaptive_take(aur_adaptive *adaptive, size_t row, size_t photons,
                           adaptive->candidate.integrator, adaptive->path);
 }
 
-/* Continues with the candidate at position `place` in the race's order. */
-static aur_result take_ranked(aur_adaptive *adaptive, size_t place, aur_error *error) {
+/* Continues with the candidate of this rank in the race. */
+static aur_result take_ranked(aur_adaptive *adaptive, size_t rank, aur_error *error) {
     const aur_race *const race = &adaptive->race;
-    const size_t row = race->order[place];
+    const size_t row = race->order[rank];
     const double work = adaptive->target.rays > 0 ? (double)adaptive->target.rays : race->entries[row].need;
     adaptive->others = aur_adaptive_spent(adaptive);
-    adaptive->place = place;
+    adaptive->rank = rank;
     return aur_adaptive_take(
         adaptive, row, row == AUR_RACE_PATH ? 0 : aur_race_photons(work, adaptive->target.replicas), error);
 }
@@ -216,10 +216,10 @@ static aur_result reject(aur_adaptive *adaptive, bool too_large, aur_error *erro
     snprintf(entry->reason, sizeof entry->reason, "rejected: %s",
              too_large ? "the bias of its photon map is more than half of the target error"
                        : "more rays are needed to bound the bias of its photon map than are saved");
-    size_t place = adaptive->place + 1;
-    while (place + 1 < race->order_count && race->order[place] != AUR_RACE_PATH && !too_large)
-        ++place;
-    return take_ranked(adaptive, place < race->order_count ? place : race->order_count - 1, error);
+    size_t rank = adaptive->rank + 1;
+    while (rank + 1 < race->order_count && race->order[rank] != AUR_RACE_PATH && !too_large)
+        ++rank;
+    return take_ranked(adaptive, rank < race->order_count ? rank : race->order_count - 1, error);
 }
 
 aur_result aur_adaptive_check_bias(aur_adaptive *adaptive, bool last, bool *again, aur_error *error) {

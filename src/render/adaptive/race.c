@@ -194,25 +194,25 @@ static double work_of(const aur_race *race, size_t row, double mean_root) {
 static aur_result measure(aur_race *race, size_t blocks, aur_error *error) {
     double(*const means)[3] = calloc(blocks, sizeof *means);
     aur_error_weight *const weights = calloc(blocks, sizeof *weights);
-    bool made = means != NULL && weights != NULL;
-    if (made) {
+    bool allocated = means != NULL && weights != NULL;
+    if (allocated) {
         mean_of_blocks(race, blocks, means);
         aur_error_weigh(race->measure, blocks, (const double(*)[3])means, (const double(*)[3])means, weights);
     }
-    for (size_t i = 0; i < AUR_RACE_ROWS && made; ++i) {
+    for (size_t i = 0; i < AUR_RACE_ROWS && allocated; ++i) {
         double sum = 0.0;
         if (!is_measured(&race->entries[i], blocks))
             continue;
         double *const roots = realloc(race->entries[i].roots, blocks * sizeof *roots);
-        made = roots != NULL;
-        for (size_t b = 0; b < blocks && made; ++b)
+        allocated = roots != NULL;
+        for (size_t b = 0; b < blocks && allocated; ++b)
             sum += roots[b] = root_variance(race, i, b, &weights[b]);
-        race->entries[i].roots = made ? roots : race->entries[i].roots;
+        race->entries[i].roots = allocated ? roots : race->entries[i].roots;
         race->entries[i].need = work_of(race, i, sum / (double)blocks);
     }
     free(means);
     free(weights);
-    return made ? AUR_OK : aur_fail_memory(error);
+    return allocated ? AUR_OK : aur_fail_memory(error);
 }
 
 static size_t best_of(const aur_race *race, size_t blocks) {

@@ -63,11 +63,11 @@ static aur_result add_part(merger *all, const char *path, aur_checkpoint *part, 
         if (result != AUR_OK)
             return result;
     }
-    const char **const place = &all->paths[shard[0] - 1];
-    if (*place != NULL)
+    const char **const entry = &all->paths[shard[0] - 1];
+    if (*entry != NULL)
         return aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "part %zu of %zu is given twice: also %s",
-                           shard[0], shard[1], *place);
-    *place = path;
+                           shard[0], shard[1], *entry);
+    *entry = path;
     if (!is_finished(part->films[0], shard[0] - 1, shard[1], samples))
         return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
                            "part %zu of %zu is not finished: render it on with --resume", shard[0], shard[1]);

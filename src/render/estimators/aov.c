@@ -221,19 +221,19 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
     aur_view_sample(tile->view, x, y, index, &sample);
     aur_hit hit;
     aur_surface surface;
-    const bool seen = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
-    if (seen)
+    const bool found = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
+    if (found)
         aur_scene_surface(integrator->scene, &sample.ray, &hit, &surface);
     const aur_vector radiance = data->nested->descriptor->radiance(data->nested, &sample, &tile->counters);
     const aov_sample at = {.radiance = aur_tile_measured(tile, radiance),
                            .ray = &sample.ray,
-                           .hit = seen ? &hit : NULL,
+                           .hit = found ? &hit : NULL,
                            .surface = &surface,
                            .origin = aur_scene_origin(integrator->scene)};
     float values[3 + CHANNEL_CAPACITY] = {0};
     put(at.radiance, values);
     for (size_t i = 0, channel = 3; i < data->count; ++i) {
-        if (seen || data->aovs[i]->evaluate == variance)
+        if (found || data->aovs[i]->evaluate == variance)
             data->aovs[i]->evaluate(&at, &values[channel]);
         channel += strlen(data->aovs[i]->letters);
     }

@@ -66,12 +66,12 @@ static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, c
     const aur_ray ray = aur_surface_ray(shading->surface, sample.light);
     aur_hit hit;
     aur_surface surface;
-    const bool met = aur_scene_intersect(scene, &ray, &hit);
-    if (met)
+    const bool found = aur_scene_intersect(scene, &ray, &hit);
+    if (found)
         aur_scene_surface(scene, &ray, &hit, &surface);
     float light_pdf;
     const aur_vector emission =
-        aur_vertex_emission(scene, &bounce, ray.direction, met ? &surface : NULL, &light_pdf);
+        aur_vertex_emission(scene, &bounce, ray.direction, found ? &surface : NULL, &light_pdf);
     if (aur_vector_is_zero(emission))
         return (aur_vector){0};
     return aur_vector_scale(aur_vector_multiply(sample.weight, emission),

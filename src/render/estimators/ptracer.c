@@ -235,10 +235,10 @@ static aur_vector camera_light(const round_work *work, const aur_camera_sample *
     for (uint32_t depth = 1; depth <= self->max_depth && depth <= MOST_PANES; ++depth) {
         aur_surface surface;
         const bool hide = self->hide_emitters && depth == 1;
-        const bool met = aur_visible_surface(scene, hide, &walk.ray, &surface, counters);
-        if (met || !hide)
-            aur_walk_add_emission(scene, met ? &surface : NULL, &walk);
-        if (!met || depth == self->max_depth)
+        const bool found = aur_visible_surface(scene, hide, &walk.ray, &surface, counters);
+        if (found || !hide)
+            aur_walk_add_emission(scene, found ? &surface : NULL, &walk);
+        if (!found || depth == self->max_depth)
             break;
         const aur_vector direction = walk.ray.direction;
         const aur_shading shading = aur_shading_at(&surface, aur_vector_scale(direction, -1.0f));

@@ -22,8 +22,8 @@ aur_result aur_blocks_create(size_t width, size_t height, aur_blocks *blocks, au
     /* First the blocks of points in sequence, then the blocks that no point has hit. */
     for (size_t i = 0; i < 65 * all && blocks->count < all; ++i) {
         const double x = fmod(0.5 + (double)i / g, 1.0), y = fmod(0.5 + (double)i / (g * g), 1.0);
-        const size_t met = (size_t)(y * (double)rows) * columns + (size_t)(x * (double)columns);
-        const size_t block = i < 64 * all ? met : i - 64 * all;
+        const size_t hit_block = (size_t)(y * (double)rows) * columns + (size_t)(x * (double)columns);
+        const size_t block = i < 64 * all ? hit_block : i - 64 * all;
         if (!taken[block])
             blocks->order[blocks->count++] = block;
         taken[block] = true;

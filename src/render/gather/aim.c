@@ -155,10 +155,10 @@ void aur_gather_sweep_start(const aur_gather_points *surface_points, const aur_g
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_point *const surface_point = &surface_points->at[lane];
-        const aur_bsdf_lobe *const own = &surface_point->lobes[lobe];
-        if (own->factor != NULL)
+        const aur_bsdf_lobe *const bsdf_lobe = &surface_point->lobes[lobe];
+        if (bsdf_lobe->factor != NULL)
             sweep->factored |= 1u << lane;
-        sweep->times_cosine[lane] = own->times_cosine;
+        sweep->times_cosine[lane] = bsdf_lobe->times_cosine;
         sweep->rotations[lane] = sweep->together && lane != first
                                      ? sweep->rotations[first]
                                      : aur_gather_rotation_at(surface_points, rule, lane, lobe);

@@ -96,12 +96,13 @@ static bool is_diffuse(const aur_gather_plan *plan, const aur_gather_point *surf
     size_t gathered = 0;
     bool diffuse = false;
     for (size_t i = 0; i < surface_point->lobe_count; ++i) {
-        const aur_bsdf_lobe *const own = &surface_point->lobes[i];
-        const bool has_formula = own->shape == AUR_LOBE_SHAPE_COSINE_POWER;
-        if (!aur_gather_plan_gathers(plan, own) || !aur_gather_point_has(surface_point, i))
+        const aur_bsdf_lobe *const bsdf_lobe = &surface_point->lobes[i];
+        const bool has_formula = bsdf_lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER;
+        if (!aur_gather_plan_gathers(plan, bsdf_lobe) || !aur_gather_point_has(surface_point, i))
             continue;
         ++gathered;
-        diffuse = has_formula && own->diffuse && own->exponent == 1.0f && own->factor == NULL;
+        diffuse =
+            has_formula && bsdf_lobe->diffuse && bsdf_lobe->exponent == 1.0f && bsdf_lobe->factor == NULL;
         *lobe = i;
     }
     return gathered == 1 && diffuse && plan->rules.lobes[0].rule.square == NULL;

@@ -61,10 +61,10 @@ static aur_result find_or_trace(const aur_integrator_context *context,
     *map = NULL;
     if (scene != NULL && (whole = malloc(strlen(key) + strlen(scene) + 2)) != NULL) {
         sprintf(whole, "%s\n%s", key, scene);
-        char *const kept = aur_cache_file_read("photons", whole, &size);
-        if (kept != NULL)
-            *map = aur_irradiance_map_unpack(context->scene, size, kept);
-        free(kept);
+        char *const stored = aur_cache_file_read("photons", whole, &size);
+        if (stored != NULL)
+            *map = aur_irradiance_map_unpack(context->scene, size, stored);
+        free(stored);
     }
     aur_result result = AUR_OK;
     if (*map != NULL) {
@@ -95,12 +95,13 @@ static aur_result find_map(const aur_gather_settings *p, const aur_integrator_co
     *found = aur_cache_find(context->cache, key);
     if (*found == NULL) {
         photons.sampler = sampler;
-        aur_irradiance_map *made;
+        aur_irradiance_map *created;
         result = find_or_trace(context, &(aur_irradiance_map_options){photons, p->photons_per_texel}, key,
-                               &made, error);
-        if (result == AUR_OK && aur_cache_store(context->cache, key, made, made->rays, destroy_map) != AUR_OK)
+                               &created, error);
+        if (result == AUR_OK &&
+            aur_cache_store(context->cache, key, created, created->rays, destroy_map) != AUR_OK)
             result = aur_fail_memory(error);
-        *found = result == AUR_OK ? made : NULL;
+        *found = result == AUR_OK ? created : NULL;
     }
     aur_sampler_destroy(sampler);
     return result;
@@ -149,15 +150,15 @@ static aur_result find_bright(const aur_integrator_context *context, const aur_i
     *found = aur_cache_find(context->cache, key);
     if (*found != NULL)
         return AUR_OK;
-    aur_bright_texels *const made = malloc(sizeof *made);
-    if (made == NULL)
+    aur_bright_texels *const created = malloc(sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    aur_result result = aur_bright_texels_create(context->scene, map, classes, made, error);
+    aur_result result = aur_bright_texels_create(context->scene, map, classes, created, error);
     if (result != AUR_OK)
-        free(made);
-    else if (aur_cache_store(context->cache, key, made, 0, destroy_bright) != AUR_OK)
+        free(created);
+    else if (aur_cache_store(context->cache, key, created, 0, destroy_bright) != AUR_OK)
         result = aur_fail_memory(error);
-    *found = result == AUR_OK ? made : NULL;
+    *found = result == AUR_OK ? created : NULL;
     return result;
 }
 
@@ -211,16 +212,16 @@ aur_result aur_gather_plan_create(const aur_gather_settings *p, const aur_gather
     *plan = calloc(1, sizeof **plan);
     if (*plan == NULL)
         return aur_fail_memory(error);
-    aur_integrator_context own = *context;
+    aur_integrator_context local = *context;
     if (p->split > 0)
-        own.samples_per_pixel = p->split;
+        local.samples_per_pixel = p->split;
     (*plan)->scene = context->scene;
     (*plan)->policy = *p;
-    (*plan)->samples_per_pattern = own.samples_per_pixel;
-    (*plan)->part_stride = aur_gather_part_stride(own.samples_per_pixel);
+    (*plan)->samples_per_pattern = local.samples_per_pixel;
+    (*plan)->part_stride = aur_gather_part_stride(local.samples_per_pixel);
     (*plan)->renews = p->split > 0;
     (*plan)->seed = aur_hash2(context->seed, p->pattern_seed);
-    const aur_result result = compile(*plan, p, method, &own, error);
+    const aur_result result = compile(*plan, p, method, &local, error);
     if (result != AUR_OK) {
         aur_gather_plan_destroy(*plan);
         *plan = NULL;

@@ -118,15 +118,15 @@ bool aur_gather_pool_irradiance(bool near, aur_pixel_strata *strata) {
             const int surface = tile->surface_of[pixel][k];
             if (surface == NO_SURFACE)
                 continue;
-            aur_stratum *const own = &strata[pixel].strata[k];
+            aur_stratum *const stratum_at = &strata[pixel].strata[k];
             const aur_vector mean = pooled_irradiance(tile, pixel % SIDE, pixel / SIDE, surface);
-            const aur_vector light = aur_vector_multiply(own->pooled.coefficient, mean);
-            own->sum[0] += (double)light.x;
-            own->sum[1] += (double)light.y;
-            own->sum[2] += (double)light.z;
-            own->pool_adds[0] += (double)light.x;
-            own->pool_adds[1] += (double)light.y;
-            own->pool_adds[2] += (double)light.z;
+            const aur_vector light = aur_vector_multiply(stratum_at->pooled.coefficient, mean);
+            stratum_at->sum[0] += (double)light.x;
+            stratum_at->sum[1] += (double)light.y;
+            stratum_at->sum[2] += (double)light.z;
+            stratum_at->pool_adds[0] += (double)light.x;
+            stratum_at->pool_adds[1] += (double)light.y;
+            stratum_at->pool_adds[2] += (double)light.z;
         }
     free(tile);
     return true;

@@ -67,16 +67,16 @@ static float lambda(float alpha, float height) {
 
 aur_ggx_view aur_ggx_rule_view(const aur_ggx_rule *rule, size_t rotation, bool mirrored, aur_vector view) {
     const float height = fminf(fabsf(view.z), 1.0f), radians = acosf(height);
-    aur_ggx_view seen = {.square = (const float(*)[2])rule->square + rotation * rule->count,
-                         .circles = atan2f(view.y, view.x) * (0.5f / AUR_PI_F),
-                         .sign = mirrored ? -1.0f : 1.0f,
-                         .mass = (float)aur_weight_table_mass(rule->table, (double)radians, 0.0),
-                         .alpha = rule->alpha,
-                         .lambda = lambda(rule->alpha, height)};
-    const size_t row = aur_weight_table_locate(rule->table, rotation, radians, &seen.part);
-    seen.below = aur_weight_table_row(rule->table, row);
-    seen.above = seen.below + aur_weight_table_width(rule->table);
-    return seen;
+    aur_ggx_view rotated = {.square = (const float(*)[2])rule->square + rotation * rule->count,
+                            .circles = atan2f(view.y, view.x) * (0.5f / AUR_PI_F),
+                            .sign = mirrored ? -1.0f : 1.0f,
+                            .mass = (float)aur_weight_table_mass(rule->table, (double)radians, 0.0),
+                            .alpha = rule->alpha,
+                            .lambda = lambda(rule->alpha, height)};
+    const size_t row = aur_weight_table_locate(rule->table, rotation, radians, &rotated.part);
+    rotated.below = aur_weight_table_row(rule->table, row);
+    rotated.above = rotated.below + aur_weight_table_width(rule->table);
+    return rotated;
 }
 
 float aur_ggx_view_weight(const aur_ggx_view *view, size_t index, float height) {

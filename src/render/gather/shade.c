@@ -129,13 +129,13 @@ static void gather_lobe(const aur_gather_points *surface_points, uint32_t lanes,
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_point *const surface_point = &surface_points->at[lane];
-        const aur_bsdf_lobe *const own = &surface_point->lobes[lobe];
-        if (lobe >= surface_point->lobe_count || !aur_gather_plan_gathers(surface_points->plan, own) ||
+        const aur_bsdf_lobe *const bsdf_lobe = &surface_point->lobes[lobe];
+        if (lobe >= surface_point->lobe_count || !aur_gather_plan_gathers(surface_points->plan, bsdf_lobe) ||
             !aur_gather_point_has(surface_point, lobe))
             continue;
-        if (own->shape == AUR_LOBE_SHAPE_SAMPLED && surface_point->ggx != NULL)
+        if (bsdf_lobe->shape == AUR_LOBE_SHAPE_SAMPLED && surface_point->ggx != NULL)
             ggx |= 1u << lane;
-        else if (own->shape == AUR_LOBE_SHAPE_SAMPLED)
+        else if (bsdf_lobe->shape == AUR_LOBE_SHAPE_SAMPLED)
             sampled |= 1u << lane;
         else
             ruled |= 1u << lane;

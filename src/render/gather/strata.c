@@ -54,8 +54,8 @@ bool aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const a
     if (aur_has_lane(sums->pooled_lanes, lane)) {
         stratum->gathers += 1.0f;
         add_pooled(&stratum->pooled, &sums->pooled[lane]);
-        const aur_gather_pooled *const own = &sums->pooled[lane];
-        const aur_vector light = aur_vector_multiply(own->coefficient, own->irradiance);
+        const aur_gather_pooled *const local = &sums->pooled[lane];
+        const aur_vector light = aur_vector_multiply(local->coefficient, local->irradiance);
         stratum->pool_adds[0] -= (double)light.x;
         stratum->pool_adds[1] -= (double)light.y;
         stratum->pool_adds[2] -= (double)light.z;
@@ -158,11 +158,11 @@ static void find_surroundings(const aur_gather_plan *plan, size_t left, size_t t
     glance *seen[AUR_PACKET_SIZE];
     const size_t reach = self->reach, surface_points = self->side * self->side;
     for (size_t i = 0; i < surface_points; ++i) {
-        const aur_pixel_strata *const own = tile_pixel(self, i);
+        const aur_pixel_strata *const local = tile_pixel(self, i);
         self->seen[i] = (glance){0};
-        if (equal_counts && own != NULL && own->count > 0) {
-            for (uint32_t k = 0; k < own->count; ++k)
-                see(&self->seen[i], own->strata[k].key);
+        if (equal_counts && local != NULL && local->count > 0) {
+            for (uint32_t k = 0; k < local->count; ++k)
+                see(&self->seen[i], local->strata[k].key);
             continue;
         }
         const size_t column = left + i % self->side, row = top + i / self->side; /* too many by the reach */

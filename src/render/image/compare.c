@@ -157,9 +157,9 @@ static void false_color(double t, float color[3]) {
                                      {0.70, 0.17, 0.40}, {0.90, 0.33, 0.25}, {0.98, 0.58, 0.15},
                                      {0.98, 0.82, 0.35}, {1.00, 1.00, 0.88}};
     const size_t last = sizeof ramp / sizeof ramp[0] - 1;
-    const double place = t * (double)last;
-    const size_t below = place < (double)last ? (size_t)place : last - 1;
-    const double fraction = place - (double)below;
+    const double position = t * (double)last;
+    const size_t below = position < (double)last ? (size_t)position : last - 1;
+    const double fraction = position - (double)below;
     for (size_t c = 0; c < 3; ++c)
         color[c] = (float)aur_srgb_decode((1.0 - fraction) * ramp[below][c] + fraction * ramp[below + 1][c]);
 }

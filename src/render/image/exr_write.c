@@ -100,8 +100,8 @@ static exr_result_t write_chunks(exr_context_t context, const aur_image *image, 
         }
         for (int c = 0; c < pipeline.channel_count; ++c) {
             exr_coding_channel_info_t *const channel = &pipeline.channels[c];
-            const size_t place = aur_image_find_channel(image, channel->channel_name);
-            channel->encode_from_ptr = (const uint8_t *)(rows + place);
+            const size_t index = aur_image_find_channel(image, channel->channel_name);
+            channel->encode_from_ptr = (const uint8_t *)(rows + index);
             channel->user_bytes_per_element = sizeof(float);
             channel->user_data_type = EXR_PIXEL_FLOAT;
             channel->user_pixel_stride = (int32_t)(image->channel_count * sizeof(float));

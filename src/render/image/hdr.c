@@ -219,8 +219,9 @@ static aur_result decode_lines(hdr_input *input, const hdr_header *header, const
         }
         const size_t line = header->backward[0] ? header->lines - 1 - i : i;
         for (size_t k = 0; k < length; ++k) {
-            const size_t place = header->backward[1] ? length - 1 - k : k;
-            const size_t pixel = header->columns ? place * image->width + line : line * image->width + place;
+            const size_t column = header->backward[1] ? length - 1 - k : k;
+            const size_t pixel =
+                header->columns ? column * image->width + line : line * image->width + column;
             decode_pixel(header, planes + k, length, image->data + 3 * pixel);
         }
     }

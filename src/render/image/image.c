@@ -27,23 +27,23 @@ static aur_result create(size_t width, size_t height, size_t channel_count, floa
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "an image of %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values",
                         width, height, channel_count);
-    aur_image *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_image *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    made->width = width;
-    made->height = height;
-    made->channel_count = channel_count;
-    made->data_is_owned = data == NULL;
-    made->data = data != NULL ? data : calloc(width * height * channel_count, sizeof *made->data);
-    made->channel_names = calloc(channel_count, sizeof *made->channel_names);
-    if (made->data == NULL || made->channel_names == NULL) {
-        aur_image_destroy(made);
+    created->width = width;
+    created->height = height;
+    created->channel_count = channel_count;
+    created->data_is_owned = data == NULL;
+    created->data = data != NULL ? data : calloc(width * height * channel_count, sizeof *created->data);
+    created->channel_names = calloc(channel_count, sizeof *created->channel_names);
+    if (created->data == NULL || created->channel_names == NULL) {
+        aur_image_destroy(created);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu x %zu pixels with %zu channels",
                         width, height, channel_count);
     }
     for (size_t c = 0; c < channel_count; ++c)
-        strcpy(made->channel_names[c], default_name(channel_count, c));
-    *image = made;
+        strcpy(created->channel_names[c], default_name(channel_count, c));
+    *image = created;
     return AUR_OK;
 }
 
@@ -141,8 +141,8 @@ aur_result aur_image_check_claim(const aur_image_source *source, const char *for
 aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
                             aur_image **selected, aur_error *error) {
     *selected = NULL;
-    aur_image *made;
-    aur_result result = aur_image_create(image->width, image->height, count, &made, error);
+    aur_image *created;
+    aur_result result = aur_image_create(image->width, image->height, count, &created, error);
     if (result != AUR_OK)
         return result;
     const size_t pixels = image->width * image->height;
@@ -152,15 +152,15 @@ aur_result aur_image_select(const aur_image *image, size_t count, const char *co
             char list[512];
             aur_image_list_channels(image, sizeof list, list);
             result = aur_fail(error, AUR_ERROR_NAME, "there is no channel '%s', only %s", names[i], list);
-            aur_image_destroy(made);
+            aur_image_destroy(created);
             return result;
         }
-        memcpy(made->channel_names[i], image->channel_names[c], AUR_CHANNEL_NAME_CAPACITY);
+        memcpy(created->channel_names[i], image->channel_names[c], AUR_CHANNEL_NAME_CAPACITY);
         for (size_t p = 0; p < pixels; ++p)
-            made->data[p * count + i] = image->data[p * image->channel_count + c];
+            created->data[p * count + i] = image->data[p * image->channel_count + c];
     }
-    made->chosen = count == 1 || count == 3;
-    *selected = made;
+    created->chosen = count == 1 || count == 3;
+    *selected = created;
     return AUR_OK;
 }
 

@@ -292,7 +292,7 @@ static void draw_lights(aur_path_group *g, const float *choice, const float *u, 
 static void draw_candidates(aur_path_group *g) {
     aur_vertex_lanes *const lanes = &g->lanes;
     const aur_vertex_kernels *const kernels = g->data->kernels;
-    aur_vertex_candidates kept = {0};
+    aur_vertex_candidates selected = {0};
     for (uint32_t i = 0; i < g->candidates; ++i) {
         aur_lane_numbers choice, u, v;
         float shift[3];
@@ -303,9 +303,9 @@ static void draw_candidates(aur_path_group *g) {
             v[k] = aur_candidate_number(lanes->light_v[k], shift[2]);
         }
         draw_lights(g, choice, u, v);
-        kernels->consider(lanes, &g->shadows, &kept);
+        kernels->consider(lanes, &g->shadows, &selected);
     }
-    kernels->choose(&kept, g->candidates, lanes, &g->shadows);
+    kernels->choose(&selected, g->candidates, lanes, &g->shadows);
 }
 
 /* Adds direct light. */

@@ -13,11 +13,11 @@ static void trace_probes(aur_path_group *g, aur_tile *tile, const size_t *x, con
     g->preset = 0;
     for (uint32_t rest = g->data->probes != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        aur_vector seen;
-        if (!aur_edge_probe(g->data->probes, tile, x[k], y[k], g->index, &seen))
+        aur_vector emission;
+        if (!aur_edge_probe(g->data->probes, tile, x[k], y[k], g->index, &emission))
             continue;
         g->preset |= 1u << k;
-        aur_lane_set(&g->lanes.sum, k, seen);
+        aur_lane_set(&g->lanes.sum, k, emission);
     }
 }
 

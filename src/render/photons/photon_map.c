@@ -255,13 +255,13 @@ aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *ele
     *map = (aur_photon_map){0};
     if (aur_scene_emitter_count(scene) == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "photon map: the scene has no light");
-    aur_sampler *own = NULL;
+    aur_sampler *default_sampler = NULL;
     aur_result result = check_memory(options, error);
     if (result == AUR_OK && options->sampler == NULL)
-        result = aur_sampler_create("sobol", 1, NULL, &own, error);
+        result = aur_sampler_create("sobol", 1, NULL, &default_sampler, error);
     if (result != AUR_OK)
         return result;
-    const aur_sampler *const sampler = own != NULL ? own : options->sampler;
+    const aur_sampler *const sampler = default_sampler != NULL ? default_sampler : options->sampler;
     batch work = {.scene = scene,
                   .elements = elements,
                   .options = options,
@@ -271,7 +271,7 @@ aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *ele
     result = trace_until_enough(map, &work, error);
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
         free(work.chunks[i].photons);
-    aur_sampler_destroy(own);
+    aur_sampler_destroy(default_sampler);
     if (result != AUR_OK)
         aur_photon_map_release(map);
     return result;

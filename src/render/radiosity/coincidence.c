@@ -122,12 +122,12 @@ static void sort_items(item *items, size_t count) {
 }
 
 static void make_node(search *s, size_t index, size_t first, size_t count) {
-    node *const made = &s->nodes[index];
-    *made = (node){.bounds = s->items[first].bounds, .first = first, .count = count};
+    node *const created = &s->nodes[index];
+    *created = (node){.bounds = s->items[first].bounds, .first = first, .count = count};
     for (size_t i = first + 1; i < first + count; ++i)
         for (size_t k = 0; k < 3; ++k) {
-            made->bounds.low[k] = fminf(made->bounds.low[k], s->items[i].bounds.low[k]);
-            made->bounds.high[k] = fmaxf(made->bounds.high[k], s->items[i].bounds.high[k]);
+            created->bounds.low[k] = fminf(created->bounds.low[k], s->items[i].bounds.low[k]);
+            created->bounds.high[k] = fmaxf(created->bounds.high[k], s->items[i].bounds.high[k]);
         }
     if (count <= LEAF)
         return;

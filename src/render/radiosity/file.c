@@ -130,14 +130,14 @@ static aur_result read_solution(aur_word_reader *in, const aur_scene *scene, con
     result = aur_radiosity_create(scene, &head.options, radiosity, error);
     if (result != AUR_OK)
         return result;
-    aur_radiosity *const made = *radiosity;
-    if (made->scene.hash != head.numbers[0] || made->scene.patch_count != head.numbers[1])
+    aur_radiosity *const created = *radiosity;
+    if (created->scene.hash != head.numbers[0] || created->scene.patch_count != head.numbers[1])
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
                            "the solution was made for another scene: triangles, materials or lights differ");
-    made->paths = head.numbers[2];
-    memcpy(&made->change, &head.numbers[3], sizeof made->change);
-    for (size_t r = 0; r < made->options.randomizations; ++r)
-        each_number(&made->tallies[r], get_number, in);
+    created->paths = head.numbers[2];
+    memcpy(&created->change, &head.numbers[3], sizeof created->change);
+    for (size_t r = 0; r < created->options.randomizations; ++r)
+        each_number(&created->tallies[r], get_number, in);
     if (!aur_word_check(in))
         return damaged(path, "its numbers are damaged", error);
     return AUR_OK;

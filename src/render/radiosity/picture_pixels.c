@@ -90,7 +90,7 @@ static aur_vector direct_light(const workspace *work, const aur_radiosity_surfac
     return permuted ? aur_vector_scale(sum, (float)points) : sum;
 }
 
-static bool shows(const workspace *work, aur_radiosity_component component) {
+static bool includes_component(const workspace *work, aur_radiosity_component component) {
     return work->image->component == AUR_RADIOSITY_ALL || work->image->component == component;
 }
 
@@ -109,14 +109,14 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
         return made;
     made.triangle = surface_point.triangle << 1 | (surface_point.patch == surface_point.triangle);
     made.throughput = aur_vector_multiply(path, surface_point.albedo);
-    if (shows(work, AUR_RADIOSITY_EMISSION))
+    if (includes_component(work, AUR_RADIOSITY_EMISSION))
         made.rest = aur_vector_multiply(path, surface_point.emission);
     if (aur_vector_is_zero(surface_point.albedo))
         return made;
-    if (shows(work, AUR_RADIOSITY_DIRECT))
+    if (includes_component(work, AUR_RADIOSITY_DIRECT))
         made.rest = aur_vector_add(
             made.rest, aur_vector_multiply(path, direct_light(work, &surface_point, pixel, index, points)));
-    if (shows(work, AUR_RADIOSITY_INDIRECT))
+    if (includes_component(work, AUR_RADIOSITY_INDIRECT))
         made.irradiance = aur_radiosity_gather(work->image, &surface_point, aur_mix64(hash + 1));
     return made;
 }

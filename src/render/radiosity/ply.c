@@ -28,12 +28,12 @@ aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *p
     const double scale = exp2(exposure);
     for (size_t i = 0; i < count; ++i) {
         const aur_radiosity_triangle *const t = &scene->triangles[i];
-        aur_radiosity_triangle_result seen;
-        aur_radiosity_result(radiosity, i, &seen);
+        aur_radiosity_triangle_result solved;
+        aur_radiosity_result(radiosity, i, &solved);
         float radiance[3];
         unsigned char color[3];
         for (size_t c = 0; c < 3; ++c) {
-            radiance[c] = (float)seen.radiance[c];
+            radiance[c] = (float)solved.radiance[c];
             color[c] = (unsigned char)(255.0 * aur_srgb_encode(scale * (double)radiance[c]) + 0.5);
         }
         const aur_vector corner[3] = {t->corner, aur_vector_add(t->corner, t->edge[0]),

@@ -9,16 +9,16 @@
 
 enum { LINE = 64, MEAN_POINTS = 1024 };
 
-static aur_result allocate(aur_radiosity_scene *made, size_t shapes, aur_error *error) {
-    const size_t count = made->triangle_count;
-    const size_t bytes = (count * sizeof *made->triangles + LINE - 1) / LINE * LINE;
-    made->triangles = aligned_alloc(LINE, bytes);
-    made->areas = malloc(count * sizeof *made->areas);
-    made->emission = malloc(count * sizeof *made->emission);
-    made->first = malloc(shapes * sizeof *made->first);
-    made->behind = malloc(count * sizeof *made->behind);
-    if (made->triangles != NULL && made->areas != NULL && made->emission != NULL && made->first != NULL &&
-        made->behind != NULL)
+static aur_result allocate(aur_radiosity_scene *created, size_t shapes, aur_error *error) {
+    const size_t count = created->triangle_count;
+    const size_t bytes = (count * sizeof *created->triangles + LINE - 1) / LINE * LINE;
+    created->triangles = aligned_alloc(LINE, bytes);
+    created->areas = malloc(count * sizeof *created->areas);
+    created->emission = malloc(count * sizeof *created->emission);
+    created->first = malloc(shapes * sizeof *created->first);
+    created->behind = malloc(count * sizeof *created->behind);
+    if (created->triangles != NULL && created->areas != NULL && created->emission != NULL &&
+        created->first != NULL && created->behind != NULL)
         return AUR_OK;
     return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory for %zu triangles", count);
 }
@@ -103,16 +103,16 @@ static uint64_t hash_vector(uint64_t hash, aur_vector v) {
     return aur_hash2(aur_hash2(aur_hash2(hash, bits[0]), bits[1]), bits[2]);
 }
 
-static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t variant, aur_radiosity_scene *made,
-                            size_t *next, aur_error *error) {
+static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t variant,
+                            aur_radiosity_scene *created, size_t *next, aur_error *error) {
     const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
     const bool mirror = is_mirror(bsdf);
     const size_t count = aur_scene_shape_triangles(scene, shape);
-    made->first[shape] = (uint32_t)*next;
+    created->first[shape] = (uint32_t)*next;
     for (size_t i = 0; i < count; ++i, ++*next) {
         aur_triangle corners;
         aur_scene_triangle(scene, shape, i, &corners);
-        aur_radiosity_triangle *const t = &made->triangles[*next];
+        aur_radiosity_triangle *const t = &created->triangles[*next];
         *t = (aur_radiosity_triangle){.corner = corners.corner[0],
                                       .edge = {aur_vector_subtract(corners.corner[1], corners.corner[0]),
                                                aur_vector_subtract(corners.corner[2], corners.corner[0])},
@@ -125,34 +125,34 @@ static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t varia
         if (bsdf->scatters_from_behind && !mirror)
             t->albedo[1] = mean_over(scene, shape, &corners, -1.0f);
         if (!aur_vector_is_zero(t->albedo[1])) {
-            made->behind[made->patch_count - made->triangle_count] = (uint32_t)*next;
-            t->back = (uint32_t)made->patch_count++;
+            created->behind[created->patch_count - created->triangle_count] = (uint32_t)*next;
+            t->back = (uint32_t)created->patch_count++;
         }
-        made->areas[*next] = area_of(t->edge);
-        made->area += made->areas[*next];
+        created->areas[*next] = area_of(t->edge);
+        created->area += created->areas[*next];
         const aur_vector emission = mean_over(scene, shape, &corners, 0.0f);
-        made->emission[*next] = emission;
-        if (!isfinite(made->areas[*next]) || !aur_vector_is_finite(emission))
+        created->emission[*next] = emission;
+        if (!isfinite(created->areas[*next]) || !aur_vector_is_finite(emission))
             return aur_fail_at(error, aur_scene_shape_location(scene, shape), AUR_ERROR_FORMAT,
                                "radiosity: triangle %zu of this shape %s", i,
-                               !isfinite(made->areas[*next]) ? "is too large: its area is not finite"
-                                                             : "emits a radiance that is not finite");
+                               !isfinite(created->areas[*next]) ? "is too large: its area is not finite"
+                                                                : "emits a radiance that is not finite");
         if (!aur_vector_is_zero(emission)) {
             t->flags |= AUR_RADIOSITY_GLOWS;
             if (aur_scene_shape_emission_varies(scene, shape))
                 t->flags |= AUR_RADIOSITY_TEXTURED_LIGHT;
-            made->glow_area += made->areas[*next];
+            created->glow_area += created->areas[*next];
         }
         for (size_t k = 0; k < 3; ++k)
-            made->hash = hash_vector(made->hash, corners.corner[k]);
-        made->hash = hash_vector(hash_vector(made->hash, t->albedo[0]), t->albedo[1]);
-        made->hash = aur_hash2(hash_vector(made->hash, emission), t->flags);
+            created->hash = hash_vector(created->hash, corners.corner[k]);
+        created->hash = hash_vector(hash_vector(created->hash, t->albedo[0]), t->albedo[1]);
+        created->hash = aur_hash2(hash_vector(created->hash, emission), t->flags);
     }
     return AUR_OK;
 }
 
 /* Warns of the part of a shape's material that radiosity ignores, and of an albedo of 1. */
-static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity_scene *made,
+static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity_scene *created,
                        const aur_warnings *warnings) {
     const aur_location location = aur_scene_shape_location(scene, shape);
     const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
@@ -161,10 +161,10 @@ static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity
         aur_warn_at(warnings, location,
                     "radiosity: only the diffuse part of the material '%s' is taken into account",
                     bsdf->descriptor->row.name);
-    const size_t first = made->first[shape], count = aur_scene_shape_triangles(scene, shape);
+    const size_t first = created->first[shape], count = aur_scene_shape_triangles(scene, shape);
     for (size_t i = first; i < first + count; ++i) {
-        const float albedo =
-            fmaxf(aur_vector_max(made->triangles[i].albedo[0]), aur_vector_max(made->triangles[i].albedo[1]));
+        const float albedo = fmaxf(aur_vector_max(created->triangles[i].albedo[0]),
+                                   aur_vector_max(created->triangles[i].albedo[1]));
         if (albedo < 1.0f)
             continue;
         aur_warn_at(
@@ -176,20 +176,20 @@ static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity
     }
 }
 
-static aur_result check_light(const aur_radiosity_scene *made, aur_error *error) {
-    if (aur_scene_emitter_count(made->scene) == 0)
+static aur_result check_light(const aur_radiosity_scene *created, aur_error *error) {
+    if (aur_scene_emitter_count(created->scene) == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "radiosity: the scene has no light");
-    for (size_t i = 0; i < made->triangle_count; ++i)
-        if ((made->triangles[i].flags & AUR_RADIOSITY_GLOWS) != 0 && made->areas[i] > 0.0)
+    for (size_t i = 0; i < created->triangle_count; ++i)
+        if ((created->triangles[i].flags & AUR_RADIOSITY_GLOWS) != 0 && created->areas[i] > 0.0)
             return AUR_OK;
     return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                    made->glow_area > 0.0 ? "radiosity: the lights have no area"
-                                          : "radiosity: the lights emit no radiance");
+                    created->glow_area > 0.0 ? "radiosity: the lights have no area"
+                                             : "radiosity: the lights emit no radiance");
 }
 
 aur_result aur_radiosity_scene_create(const aur_scene *scene, uint64_t variant, const aur_warnings *warnings,
-                                      aur_radiosity_scene *made, aur_error *error) {
-    *made = (aur_radiosity_scene){.scene = scene, .hash = UINT64_C(0x7261646973637631)};
+                                      aur_radiosity_scene *created, aur_error *error) {
+    *created = (aur_radiosity_scene){.scene = scene, .hash = UINT64_C(0x7261646973637631)};
     aur_result result = aur_scene_refuse_media(scene, "radiosity", error);
     if (result == AUR_OK)
         result = aur_scene_check_triangles(scene, error);
@@ -197,26 +197,26 @@ aur_result aur_radiosity_scene_create(const aur_scene *scene, uint64_t variant, 
         return result;
     const size_t shapes = aur_scene_shape_count(scene);
     for (size_t i = 0; i < shapes; ++i)
-        made->triangle_count += aur_scene_shape_triangles(scene, i);
-    if (made->triangle_count == 0)
+        created->triangle_count += aur_scene_shape_triangles(scene, i);
+    if (created->triangle_count == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "radiosity: the scene has no triangles");
-    if (made->triangle_count > UINT32_MAX / 4)
+    if (created->triangle_count > UINT32_MAX / 4)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "radiosity: %zu triangles are too many: the limit is %u", made->triangle_count,
+                        "radiosity: %zu triangles are too many: the limit is %u", created->triangle_count,
                         UINT32_MAX / 4);
-    made->patch_count = made->triangle_count;
-    result = allocate(made, shapes, error);
+    created->patch_count = created->triangle_count;
+    result = allocate(created, shapes, error);
     size_t next = 0;
     for (size_t i = 0; i < shapes && result == AUR_OK; ++i)
-        result = add_shape(scene, i, variant, made, &next, error);
+        result = add_shape(scene, i, variant, created, &next, error);
     if (result == AUR_OK)
-        result = check_light(made, error);
+        result = check_light(created, error);
     if (result != AUR_OK) {
-        aur_radiosity_scene_release(made);
+        aur_radiosity_scene_release(created);
         return result;
     }
     for (size_t i = 0; i < shapes; ++i)
-        warn_about(scene, i, made, warnings);
+        warn_about(scene, i, created, warnings);
     return AUR_OK;
 }
 

@@ -42,7 +42,7 @@ typedef struct aur_radiosity_scene {
  * with lights of no area; warnings for albedos of 1 and for materials whose glossy part is ignored. `variant`
  * other than 0 turns every local frame by a random angle. */
 aur_result aur_radiosity_scene_create(const aur_scene *scene, uint64_t variant, const aur_warnings *warnings,
-                                      aur_radiosity_scene *made, aur_error *error);
+                                      aur_radiosity_scene *created, aur_error *error);
 void aur_radiosity_scene_release(aur_radiosity_scene *scene);
 
 /* The triangle of a patch. */

@@ -48,21 +48,21 @@ static aur_result warn_of_coincidences(aur_radiosity *radiosity, aur_error *erro
     return AUR_OK;
 }
 
-static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *error) {
-    const aur_radiosity_options *const options = &made->options;
-    made->change = NAN;
-    made->sequence = strdup(options->sequence != NULL ? options->sequence : "sobol");
-    if (made->sequence == NULL)
+static aur_result make(aur_radiosity *created, const aur_scene *scene, aur_error *error) {
+    const aur_radiosity_options *const options = &created->options;
+    created->change = NAN;
+    created->sequence = strdup(options->sequence != NULL ? options->sequence : "sobol");
+    if (created->sequence == NULL)
         return aur_fail_memory(error);
-    made->options.sequence = made->sequence;
+    created->options.sequence = created->sequence;
     aur_result result =
-        aur_radiosity_scene_create(scene, options->variant, &options->warnings, &made->scene, error);
+        aur_radiosity_scene_create(scene, options->variant, &options->warnings, &created->scene, error);
     if (result == AUR_OK)
-        result = aur_radiosity_walk_create(&made->scene, options, &made->walk, error);
+        result = aur_radiosity_walk_create(&created->scene, options, &created->walk, error);
     if (result == AUR_OK)
-        result = aur_radiosity_tallies_create(options->randomizations, made->scene.patch_count,
-                                              &made->tallies, error);
-    return result == AUR_OK ? warn_of_coincidences(made, error) : result;
+        result = aur_radiosity_tallies_create(options->randomizations, created->scene.patch_count,
+                                              &created->tallies, error);
+    return result == AUR_OK ? warn_of_coincidences(created, error) : result;
 }
 
 aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
@@ -75,16 +75,16 @@ aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_opti
         result = check_options(&local, error);
     if (result != AUR_OK)
         return result;
-    aur_radiosity *const made = calloc(1, sizeof *made);
-    if (made == NULL)
+    aur_radiosity *const created = calloc(1, sizeof *created);
+    if (created == NULL)
         return aur_fail_memory(error);
-    made->options = local;
-    result = make(made, scene, error);
+    created->options = local;
+    result = make(created, scene, error);
     if (result != AUR_OK) {
-        aur_radiosity_destroy(made);
+        aur_radiosity_destroy(created);
         return result;
     }
-    *radiosity = made;
+    *radiosity = created;
     return AUR_OK;
 }
 

@@ -183,10 +183,10 @@ static inline uint64_t quanta(double power, aur_radiosity_tally *tally) {
     return (uint64_t)MOST_QUANTA;
 }
 
-static inline void multiply(double power[3], aur_vector kept) {
-    power[0] *= (double)kept.x;
-    power[1] *= (double)kept.y;
-    power[2] *= (double)kept.z;
+static inline void multiply(double power[3], aur_vector throughput) {
+    power[0] *= (double)throughput.x;
+    power[1] *= (double)throughput.y;
+    power[2] *= (double)throughput.z;
 }
 
 static uint64_t channels(const double power[3], aur_radiosity_tally *tally) {
@@ -218,14 +218,14 @@ static bool trace_to_patch(block *b, size_t i, size_t flight, aur_ray *ray, aur_
     const aur_radiosity_scene *const scene = b->walk->scene;
     if ((scene->triangles[aur_radiosity_triangle_at(scene, hit)].flags & AUR_RADIOSITY_MIRROR) == 0)
         return true;
-    aur_vector kept = {1.0f, 1.0f, 1.0f};
+    aur_vector throughput = {1.0f, 1.0f, 1.0f};
     const aur_radiosity_end end =
-        aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &kept);
+        aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &throughput);
     if (end != AUR_RADIOSITY_HIT) {
         ++*(end == AUR_RADIOSITY_NONE ? &b->tally->lost : &b->tally->trapped);
         return false;
     }
-    multiply(p->power, kept);
+    multiply(p->power, throughput);
     return true;
 }
 

@@ -291,24 +291,24 @@ bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray) {
 }
 
 typedef struct near_query {
-    void (*found)(void *context, const aur_hit *place);
+    void (*found)(void *context, const aur_hit *hit);
     void *context;
     uint32_t shapes; /* instances are numbered after them */
 } near_query;
 
 static bool take_near(struct RTCPointQueryFunctionArguments *arguments) {
     const near_query *const query = arguments->userPtr;
-    const aur_hit place = {.shape = arguments->geomID,
-                           .primitive = arguments->primID,
-                           .instance = arguments->context->instStackSize == 0
-                                           ? AUR_NO_INSTANCE
-                                           : arguments->context->instID[0] - query->shapes};
-    query->found(query->context, &place);
+    const aur_hit hit = {.shape = arguments->geomID,
+                         .primitive = arguments->primID,
+                         .instance = arguments->context->instStackSize == 0
+                                         ? AUR_NO_INSTANCE
+                                         : arguments->context->instID[0] - query->shapes};
+    query->found(query->context, &hit);
     return false;
 }
 
 void aur_scene_near(const aur_scene *scene, aur_vector point, float radius,
-                    void (*found)(void *context, const aur_hit *place), void *context) {
+                    void (*found)(void *context, const aur_hit *hit), void *context) {
     near_query near = {found, context, (uint32_t)scene->shape_count};
     struct RTCPointQuery query = {.x = point.x, .y = point.y, .z = point.z, .radius = radius};
     struct RTCPointQueryContext stack;

@@ -40,11 +40,11 @@ static void lanes_surface(aur_vertex_lanes *restrict lanes, const aur_packet *re
 }
 
 static uint32_t lanes_tilted(const aur_vertex_lanes *lanes, size_t first) {
-    const aur_vector place = aur_lane_vector(&lanes->position, first);
+    const aur_vector reference = aur_lane_vector(&lanes->position, first);
     const aur_vector normal = aur_vector_scale(aur_lane_vector(&lanes->normal, first), lanes->side[first]);
     uint32_t tilted = 0;
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const aur_vector offset = aur_vector_subtract(aur_lane_vector(&lanes->position, k), place);
+        const aur_vector offset = aur_vector_subtract(aur_lane_vector(&lanes->position, k), reference);
         const float alike = aur_vector_dot(aur_lane_vector(&lanes->normal, k), normal) * lanes->side[k];
         tilted |= aur_is_off_plane(offset, normal, alike) << k;
     }

@@ -224,13 +224,13 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
 static bool step(const aur_volume_path *data, const aur_scene *scene, volume_walk *walk, bool *edge,
                  aur_counters *counters) {
     aur_hit hit;
-    const bool met = aur_scene_intersect(scene, &walk->ray, &hit);
+    const bool found = aur_scene_intersect(scene, &walk->ray, &hit);
     if (walk->medium != NULL) {
         const float u = walk->fresh ? walk->pairs[AUR_PATH_LOBE][1] : aur_draw_unit(&walk->state.hash);
         float way;
         walk->fresh = false;
         if (walk->medium->descriptor->travel(
-                walk->medium, &walk->ray, met ? hit.distance : walk->ray.farthest, u, &walk->state, &way)) {
+                walk->medium, &walk->ray, found ? hit.distance : walk->ray.farthest, u, &walk->state, &way)) {
             *edge = true;
             return walk->depth < data->max_depth && scatter_in_medium(data, scene, way, walk, counters);
         }
@@ -240,7 +240,7 @@ static bool step(const aur_volume_path *data, const aur_scene *scene, volume_wal
             return false;
     }
     const bool hides = data->hide_emitters && walk->depth == 1;
-    if (!met) {
+    if (!found) {
         if (!hides)
             add_emission(scene, NULL, walk);
         return false;
