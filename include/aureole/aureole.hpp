@@ -1,7 +1,6 @@
-/* libaureole in C++17: owners that free what they hold, spans for arrays, exceptions for errors. Everything
- * is inline and calls the C functions, whose headers say what arguments mean; objects may be moved, not
- * copied, and where C takes a NULL pointer there is a default argument. An empty (moved-from) object has only
- * its destructor. */
+/* libaureole in C++17: owning classes, spans for arrays, exceptions for errors. Everything is inline and
+ * calls the C functions; the C headers document the arguments. Objects can be moved, not copied; NULL
+ * pointers of C are default arguments. Only the destructor of an empty (moved-from) object may be called. */
 #ifndef AUREOLE_AUREOLE_HPP
 #define AUREOLE_AUREOLE_HPP
 
@@ -30,7 +29,7 @@ namespace aureole {
 #if __cplusplus >= 202002L
 using std::span;
 #else
-/* The part of std::span that is asked for here: a pointer and a number. */
+/* The required part of std::span: a pointer and a size. */
 template <class T> class span {
   public:
     constexpr span() noexcept = default;
@@ -68,7 +67,7 @@ template <class T> class span {
 };
 #endif
 
-/* What a failed call throws; what() is "FILE:LINE:COLUMN: message" as far as that is known. */
+/* The exception of a failed call; what() is "FILE:LINE:COLUMN: message", or the parts that are set. */
 class error : public std::runtime_error {
   public:
     explicit error(const aur_error &found) : std::runtime_error(text(found)), found_(found) {
@@ -115,7 +114,7 @@ template <auto Destroy> struct destroyer {
 
 template <class T, auto Destroy> using owner = std::unique_ptr<T, destroyer<Destroy>>;
 
-/* A caller's function that throws: what it threw goes on behind the library's call. */
+/* Calls a caller's function: its exception is rethrown after the library's call. */
 template <class Function> struct guarded {
     Function &function;
     std::exception_ptr thrown{};
@@ -150,8 +149,8 @@ inline void require(bool right, const char *message) {
 
 } // namespace detail
 
-/* An option struct with its defaults: options<aur_weights_options>(aur_weights_options_init), with what the
- * function takes before the struct after it. */
+/* An option struct with its defaults: options<aur_weights_options>(aur_weights_options_init), followed by the
+ * function's arguments before the struct. */
 template <class Options, class Init, class... Inputs> Options options(Init init, Inputs... inputs) {
     Options filled{};
     filled.size = sizeof filled;
@@ -159,7 +158,7 @@ template <class Options, class Init, class... Inputs> Options options(Init init,
     return filled;
 }
 
-/* A set of the unit cube made ready (aur_pointset). */
+/* A prepared set of the unit cube (aur_pointset). */
 class point_set {
   public:
     point_set(const std::string &set, const aur_pointset_options &options) {
@@ -177,7 +176,7 @@ class point_set {
     std::size_t dimension() const noexcept {
         return aur_pointset_dimension(owned_.get());
     }
-    /* As many points from `first` on as fill the span. */
+    /* Fills the span with points from `first` on. */
     void fill(std::uint64_t first, span<double> points) const {
         detail::call(aur_pointset_points, owned_.get(), first, points.size() / dimension(), points.size(),
                      points.data());
@@ -195,7 +194,7 @@ class point_set {
     detail::owner<aur_pointset, aur_pointset_destroy> owned_;
 };
 
-/* A set of directions made ready (aur_directions). */
+/* A prepared set of directions (aur_directions). */
 class directions {
   public:
     directions(const std::string &set, const aur_directions_options &options) {
@@ -211,8 +210,7 @@ class directions {
     std::uint64_t size() const noexcept {
         return aur_directions_size(owned_.get());
     }
-    /* As many unit vectors from `first` on as fill the span, three numbers each; and their weights unless
-     * empty. */
+    /* Fills the span with unit vectors from `first` on, three numbers each; and the weights unless empty. */
     void fill(std::uint64_t first, span<double> xyz, span<double> weights = {}) const {
         const std::size_t count = xyz.size() / 3;
         detail::require(weights.empty() || weights.size() >= count,
@@ -233,7 +231,7 @@ class directions {
     detail::owner<aur_directions, aur_directions_destroy> owned_;
 };
 
-/* Points that the library made or read (aur_points). */
+/* Points that the library computed or read (aur_points). */
 class points {
   public:
     points(const std::string &set, const aur_points_request &request) {
@@ -259,7 +257,7 @@ class points {
     span<const double> coordinates() const noexcept {
         return {view().coordinates, view().count * view().stride};
     }
-    /* Empty where they are all equal. */
+    /* Empty if all are equal. */
     span<const double> weights() const noexcept {
         return {view().weights, view().weights != nullptr ? view().count : 0};
     }
@@ -270,7 +268,7 @@ class points {
     detail::owner<aur_points, aur_points_destroy> owned_;
 };
 
-/* The caller's coordinates as the view that measures take; `coordinates` must outlive it. */
+/* The caller's coordinates as a view for measures; `coordinates` must outlive it. */
 inline aur_points_view view_of(aur_domain domain, std::size_t dimension, span<const double> coordinates) {
     return aur_points_view_of(domain, coordinates.size() / dimension, dimension, coordinates.data());
 }
@@ -326,8 +324,8 @@ inline std::vector<double> optimal_weights(
 }
 
 /* The integral of function(span<const double> points, span<const double> along, span<double> values), which
- * fills options.values values per point; `along` is empty where there is no axis. `results`, unless null,
- * gets the value and interval of each. What the function throws is thrown on. */
+ * fills options.values values per point; `along` is empty without an axis. `results`, unless null, becomes
+ * the value and interval of each. Exceptions of the function are rethrown. */
 template <class Function>
 aur_integral integrate(Function &&function, const aur_integrate_options &options,
                        std::vector<aur_estimated> *results = nullptr) {
@@ -353,7 +351,7 @@ aur_integral integrate(Function &&function, const aur_integrate_options &options
     return found;
 }
 
-/* Which of some points is nearest (aur_nearest). */
+/* Nearest neighbours among points (aur_nearest). */
 class nearest {
   public:
     explicit nearest(const aur_points_view &view) {
@@ -361,7 +359,7 @@ class nearest {
         detail::call(aur_nearest_create, &view, &made);
         owned_.reset(made);
     }
-    /* Per query the indices of options.neighbours points, nearest first. */
+    /* The indices of options.neighbours points per query, nearest first. */
     std::vector<std::size_t> find(span<const double> queries, std::size_t dimension,
                                   const aur_nearest_options &options =
                                       aureole::options<aur_nearest_options>(aur_nearest_options_init)) const {

@@ -58,7 +58,7 @@ typedef struct aur_integrate_options {
 
     aur_region region; /* replaces `domain` */
     size_t dimension;  /* of CUBE: 1 to AUR_INTEGRATE_DIMENSION_MAX */
-    size_t values;     /* of the function: 1 to AUR_INTEGRATE_VALUES_MAX; 0 stands for 1 */
+    size_t values;     /* of the function: 1 to AUR_INTEGRATE_VALUES_MAX; 0: 1 */
     /* Values are separate integrals: each has its own target error and its own warnings. Otherwise they are
      * the components of one: the target is relative to the largest of them. */
     bool separate;

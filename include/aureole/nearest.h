@@ -20,7 +20,7 @@ AUR_API void aur_nearest_destroy(aur_nearest *nearest); /* NULL is allowed */
 
 typedef struct aur_nearest_options {
     size_t size;       /* sizeof the caller's struct */
-    size_t neighbours; /* of each query: at least 1 and at most the number of points; 0 stands for 1 */
+    size_t neighbours; /* of each query: at least 1 and at most the number of points; 0: 1 */
     size_t threads;    /* 0: all */
     aur_progress progress;
 } aur_nearest_options;

@@ -94,8 +94,8 @@ typedef struct aur_pointset aur_pointset;
 
 typedef struct aur_pointset_options {
     size_t size;           /* sizeof the caller's struct */
-    uint64_t count;        /* points of the set: at least 1; 0 stands for all points of file:PATH */
-    size_t dimension;      /* 0 stands for 2, or for what a file, a vector or a set of one dimension has */
+    uint64_t count;        /* points of the set: at least 1; 0: all points of file:PATH */
+    size_t dimension;      /* 0: 2, or that of a file, a vector or a set of one dimension */
     aur_scramble scramble; /* NONE, DIGIT, OWEN, SHIFT or ROTATE */
     uint64_t seed;         /* of scrambling and of random sets */
     aur_warnings warnings; /* "n is not a power of two", ... */

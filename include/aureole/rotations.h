@@ -74,7 +74,7 @@ AUR_API size_t aur_symmetry_group(aur_symmetry symmetry, double *group) AUR_NONN
 AUR_API aur_result aur_symmetry_reduce(aur_symmetry symmetry, size_t count, double *wxyz, aur_error *error)
     AUR_NONNULL(3);
 /* Selects the rotations in the fundamental zone among `count`, in their order, with w >= 0; returns their
- * number. A rotation on the zone's boundary, within 1e-12, is kept. 0 for a symmetry out of range. */
+ * number. Rotations on the zone's boundary, within 1e-12, are selected. 0 for a symmetry out of range. */
 AUR_API size_t aur_symmetry_select(aur_symmetry symmetry, size_t count, double *wxyz) AUR_NONNULL(3);
 
 #ifdef __cplusplus

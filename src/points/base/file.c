@@ -80,7 +80,7 @@ static int open_nameless(const char *path) {
 
 /* The new file gets the owner, the group and the mode of the replaced one, as far as permitted. If the group
  * cannot be set, the new group gets the permissions of others. */
-static void keep_status(int descriptor, const struct stat *old) {
+static void copy_status(int descriptor, const struct stat *old) {
     mode_t mode = old->st_mode & 07777;
     if (fchown(descriptor, old->st_uid, old->st_gid) != 0 && fchown(descriptor, (uid_t)-1, old->st_gid) != 0)
         mode = (mode & 0707) | (mode & 07) << 3;
@@ -140,7 +140,7 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
         if (descriptor < 0)
             descriptor = take_name(writer, -1);
         if (descriptor >= 0 && exists)
-            keep_status(descriptor, &status);
+            copy_status(descriptor, &status);
         writer->stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
         if (writer->stream == NULL && descriptor >= 0)
             close(descriptor);

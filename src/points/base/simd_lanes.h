@@ -213,7 +213,7 @@ static inline void aur_lanes_store2(double *to, aur_reals x, aur_reals y, bool s
 #if defined(__AVX2__)
 /* Writes the lanes whose mask is set contiguously, and arbitrary values up to AUR_LANES numbers; returns the
  * number of lanes set. */
-static inline size_t aur_lanes_keep(double *to, aur_words mask, aur_reals values) {
+static inline size_t aur_lanes_compress(double *to, aur_words mask, aur_reals values) {
 #if defined(__AVX512F__)
     const __mmask8 selected = _mm512_movepi64_mask((__m512i)mask);
     _mm512_storeu_pd(to, _mm512_maskz_compress_pd(selected, (__m512d)values));

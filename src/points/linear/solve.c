@@ -109,7 +109,7 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
                            size, size);
 }
 
-double aur_hold_sum(size_t size, double *solution, const double *ones) {
+double aur_constrain_sum(size_t size, double *solution, const double *ones) {
     double sum = 0.0, ones_sum = 0.0;
     for (size_t i = 0; i < size; ++i) {
         sum += solution[i];

@@ -15,7 +15,7 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
 
 /* Changes a solution of K X = z, in place, to the one that minimises the error subject to sum 1; `ones`
  * solves K X = 1. Returns the Lagrange multiplier of the constraint. */
-double aur_hold_sum(size_t size, double *solution, const double *ones);
+double aur_constrain_sum(size_t size, double *solution, const double *ones);
 
 /* MEMORY with the required size if the matrix of a system is larger than the machine's memory. */
 aur_result aur_check_system_size(size_t size, aur_error *error);

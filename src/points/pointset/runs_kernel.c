@@ -150,8 +150,8 @@ static size_t ascent(aur_ascent *ascent, size_t capacity, double *out) {
         const aur_words c = aur_lanes_multiply_low(index, zero + (AUR_GOLDEN_LOW >> 32));
         const aur_words d = aur_lanes_multiply_low(index, zero + (uint32_t)AUR_GOLDEN_LOW);
         const aur_words phase = (a << 32) + b + ((c + (d >> 32)) >> 32);
-        made += aur_lanes_keep(out + made, (aur_words)((signed_words)index < count),
-                               aur_lanes_unit(ascent->start + phase));
+        made += aur_lanes_compress(out + made, (aur_words)((signed_words)index < count),
+                                   aur_lanes_unit(ascent->start + phase));
         const signed_words moved = (signed_words)(index + jump - ascent->modulus);
         index = (aur_words)moved + ((aur_words)(moved < 0) & ascent->modulus);
     }

@@ -414,7 +414,7 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     for (size_t k = 0; k < 2; ++k) {
         double *const solution = right + k * remaining;
         if (constrained)
-            aur_hold_sum(remaining, solution, right + 2 * remaining);
+            aur_constrain_sum(remaining, solution, right + 2 * remaining);
         size_t at = 0;
         for (size_t i = 0; i < n; ++i) {
             weights[k * n + i] = taken[i] ? solution[at] : 0.0;

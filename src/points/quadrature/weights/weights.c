@@ -154,7 +154,7 @@ static void distribute(const weights_system *system, size_t k, double *weights, 
     double *const solution = system->right + k * system->group_count;
     const double *const z = system->z + k * system->count;
     const double multiplier =
-        system->options.sum_constraint ? aur_hold_sum(system->group_count, solution, system->ones) : 0.0;
+        system->options.sum_constraint ? aur_constrain_sum(system->group_count, solution, system->ones) : 0.0;
     double total = 0.0, linear = 0.0, squares = 0.0, plain = 0.0;
     for (size_t i = 0; i < system->count; ++i) {
         const size_t g = system->group[i];

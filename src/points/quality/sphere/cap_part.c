@@ -105,7 +105,7 @@ static void add_side(part_work *work, const double a[3], const double b[3]) {
 }
 
 /* Whether a convex polygon contains the direction. */
-static bool holds(size_t count, const double (*corners)[3], const double direction[3]) {
+static bool contains(size_t count, const double (*corners)[3], const double direction[3]) {
     for (size_t i = 0; i < count; ++i) {
         double normal[3];
         aur_cross3(corners[i], corners[i + 1 < count ? i + 1 : 0], normal);
@@ -121,7 +121,7 @@ static void add_rim(part_work *work, size_t count, const double (*corners)[3]) {
     const double off_axis = hypot(x[0], x[1]), sine = work->rim->sine;
     const double opposite[3] = {off_axis > 0.0 ? -sine * x[0] / off_axis : sine,
                                 off_axis > 0.0 ? -sine * x[1] / off_axis : 0.0, work->rim->cosine};
-    const bool held = holds(count, corners, opposite);
+    const bool held = contains(count, corners, opposite);
     if (held)
         reach(work, opposite);
     work->part.sides += work->exits == 0 ? held : work->exits;

@@ -97,7 +97,7 @@ static bool cut_cell(const cells *work, const cell_frame *frame, cell_work *scra
     return true;
 }
 
-static void keep_corners(const cells *work, size_t index, const cell_frame *frame, const aur_cell *cell) {
+static void store_corners(const cells *work, size_t index, const cell_frame *frame, const aur_cell *cell) {
     for (size_t i = 0; i < cell->count; ++i) {
         double *const row = work->rows + AUR_CORNER_COLUMNS * (work->first_row[index] + i);
         row[0] = (double)(index + 1);
@@ -106,7 +106,7 @@ static void keep_corners(const cells *work, size_t index, const cell_frame *fram
 }
 
 /* The area is NAN if a cell of a cap is not a polygon. */
-static bool find_figures(const cells *work, const cell_frame *frame, cell_work *scratch, size_t coincident,
+static bool measure_cell(const cells *work, const cell_frame *frame, cell_work *scratch, size_t coincident,
                          aur_voronoi_cell *found) {
     const aur_cell *const cell = &scratch->cell;
     if (work->rim == NULL) {
@@ -138,8 +138,8 @@ static aur_result find_cell(const cells *work, size_t index, cell_work *scratch)
         if (2.0 * aur_cell_radius(&scratch->cell) > angle && angle < AUR_PI)
             continue;
         if (work->rows != NULL)
-            keep_corners(work, index, &frame, &scratch->cell);
-        else if (!find_figures(work, &frame, scratch, coincident, &work->result[index]))
+            store_corners(work, index, &frame, &scratch->cell);
+        else if (!measure_cell(work, &frame, scratch, coincident, &work->result[index]))
             return AUR_ERROR_MEMORY;
         return AUR_OK;
     }

@@ -98,7 +98,7 @@ static double distance_of(aur_domain domain, double square) {
 }
 
 /* The nearer end of a point is found first; the other end is skipped. */
-static void keep(const batch *b, size_t query, size_t count, const aur_found *found) {
+static void select_found(const batch *b, size_t query, size_t count, const aur_found *found) {
     const size_t points = b->nearest->count;
     size_t *const indices = b->indices + query * b->neighbours;
     size_t selected = 0;
@@ -127,7 +127,7 @@ static aur_result find_some(void *context, size_t item) {
             b->refused[item] = q + 1;
             break;
         }
-        keep(b, q, aur_tree_find(b->nearest->tree, query, requested, found), found);
+        select_found(b, q, aur_tree_find(b->nearest->tree, query, requested, found), found);
     }
     free(found);
     return AUR_OK;
