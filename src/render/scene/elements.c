@@ -14,7 +14,7 @@ static size_t count_placements(const aur_scene *scene) {
 }
 
 /* Adds a placement; elements->count grows by its primitives. */
-static void place(const aur_scene *scene, aur_elements *elements, uint32_t shape, uint32_t instance) {
+static void add_placement(const aur_scene *scene, aur_elements *elements, uint32_t shape, uint32_t instance) {
     const aur_shape *const s = scene->shapes[shape];
     elements->placements[elements->placement_count++] =
         (aur_placement){.shape = shape,
@@ -31,14 +31,14 @@ static void number_all(const aur_scene *scene, aur_elements *elements) {
         if (scene->shapes[i]->grouped)
             continue;
         elements->shape_first[i] = (uint32_t)elements->count;
-        place(scene, elements, (uint32_t)i, AUR_NO_INSTANCE);
+        add_placement(scene, elements, (uint32_t)i, AUR_NO_INSTANCE);
     }
     for (size_t i = 0; i < scene->instance_count; ++i) {
         const aur_shape_group *const group = scene->instances[i]->group;
         elements->instance_first[i] = (uint32_t)elements->count;
         for (size_t k = 0; k < group->count; ++k) {
             elements->shape_first[group->shapes[k]] = (uint32_t)elements->count - elements->instance_first[i];
-            place(scene, elements, group->shapes[k], (uint32_t)i);
+            add_placement(scene, elements, group->shapes[k], (uint32_t)i);
         }
     }
 }

@@ -34,8 +34,8 @@ float aur_light_reach(const aur_scene *scene, const aur_light_sample *sample, au
         return INFINITY;
     if (!scene->emitters[sample->emitter]->descriptor->is_far)
         return sample->distance;
-    const float beside = aur_vector_length(aur_vector_subtract(scene->center, reference));
-    return 2.0f * aur_larger(scene->radius, beside);
+    const float distance_to_center = aur_vector_length(aur_vector_subtract(scene->center, reference));
+    return 2.0f * aur_larger(scene->radius, distance_to_center);
 }
 
 aur_result aur_scene_refuse_media(const aur_scene *scene, const char *what, aur_error *error) {

@@ -50,8 +50,8 @@ static size_t find_shape(const triangles *t, size_t index) {
 
 /* Index of the triangle in its shape. */
 static size_t find_triangle(const triangles *t, size_t shape, size_t index) {
-    const size_t place = index - t->starts[shape];
-    return t->picked[shape] != NULL ? t->picked[shape][place] : place;
+    const size_t offset = index - t->starts[shape];
+    return t->picked[shape] != NULL ? t->picked[shape][offset] : offset;
 }
 
 static void corners_of(const aur_mesh *mesh, size_t triangle, double corners[3][3]) {
@@ -540,7 +540,7 @@ static aur_result cut_one(aur_scene *scene, const triangles *t, size_t slot, con
     if (result == AUR_OK && t->instances[slot] != AUR_NO_INSTANCE) {
         aur_instance *const instance = scene->instances[t->instances[slot]];
         if (instance->group->shapes[t->members[slot]] == t->shapes[slot])
-            result = aur_instance_own_group(scene, instance, error);
+            result = aur_instance_separate_group(scene, instance, error);
         if (result == AUR_OK)
             shape = scene->shapes[instance->group->shapes[t->members[slot]]];
         make_local(&instance->to_local, &r);

@@ -55,14 +55,14 @@ static inline float length_of(float x, float y, float z) {
     return sqrtf(x * x + y * y + z * z);
 }
 
-static void load(const planes *p, size_t first, size_t count, size_t place, block *b) {
+static void load(const planes *p, size_t first, size_t count, size_t offset, block *b) {
     double corners[BLOCK][3][3];
     p->triangles->corners(p->triangles->context, first, count, corners);
     for (size_t k = 0; k < count; ++k)
         for (size_t d = 0; d < 3; ++d) {
-            b->sides[0][d][place + k] = (float)(corners[k][1][d] - corners[k][0][d]);
-            b->sides[1][d][place + k] = (float)(corners[k][2][d] - corners[k][0][d]);
-            b->from[d][place + k] = (float)(corners[k][0][d] - p->start[d]);
+            b->sides[0][d][offset + k] = (float)(corners[k][1][d] - corners[k][0][d]);
+            b->sides[1][d][offset + k] = (float)(corners[k][2][d] - corners[k][0][d]);
+            b->from[d][offset + k] = (float)(corners[k][0][d] - p->start[d]);
         }
 }
 

@@ -79,9 +79,10 @@ static void find_heights(const aur_plane *plane, size_t count, const double (*co
 }
 
 /* Whether two planes have an even distance at the corners of both triangles, beyond rounding. */
-static bool is_apart(double low, double high, double extent, double known, bool opposite, bool doubles) {
+static bool is_apart(double low, double high, double extent, double coordinate_slack, bool opposite,
+                     bool doubles) {
     const double far = fmax(fabs(low), fabs(high));
-    if (far <= EXACT * extent + known || high - low > 0.2 * far)
+    if (far <= EXACT * extent + coordinate_slack || high - low > 0.2 * far)
         return false;
     const bool facing = opposite && low > 0.0;
     return facing || doubles || far > EVENLY * extent;
@@ -161,7 +162,7 @@ static double height_extent(const double larger[3][3], const double smaller[3][3
 /* The larger triangle is first. */
 static bool overlap(double larger[3][3], double smaller[3][3], double extent, bool doubles, bool *opposite) {
     const double largest = localize(larger, smaller);
-    const double known = aur_overlap_slack(0.0, largest);
+    const double coordinate_slack = aur_overlap_slack(0.0, largest);
     if (are_apart((const double(*)[3])larger, (const double(*)[3])smaller,
                   aur_overlap_slack(extent, largest)))
         return false;
@@ -183,10 +184,10 @@ static bool overlap(double larger[3][3], double smaller[3][3], double extent, bo
     if (are_inclined(&plane, &other, *opposite, tilt))
         return false;
     find_heights(&other, 3, (const double(*)[3])larger, *opposite ? 1.0 : -1.0, &low, &high);
-    if (is_apart(low, high, thick, known, *opposite, doubles))
+    if (is_apart(low, high, thick, coordinate_slack, *opposite, doubles))
         return false;
     const size_t count = cut_to((const double(*)[3])larger, plane.normal, (const double(*)[3])smaller, part);
-    if (count < 3 || aur_polygon_width(count, (const double(*)[3])part) <= NARROW * extent + known)
+    if (count < 3 || aur_polygon_width(count, (const double(*)[3])part) <= NARROW * extent + coordinate_slack)
         return false;
     low = INFINITY;
     high = -INFINITY;
@@ -442,17 +443,17 @@ static bool try_pair(const search *s, const item *a, const item *b, aur_overlaps
 
 /* Pairs of a leaf's triangles with each other, and with those of later leaves. */
 static bool search_leaf(const search *s, size_t leaf, aur_overlaps *found, size_t *capacity) {
-    const node *const own = &s->nodes[leaf];
+    const node *const self = &s->nodes[leaf];
     item items[LEAF], others[LEAF];
-    load_leaf(s, own, items);
-    for (size_t i = 0; i < own->count; ++i)
-        for (size_t m = i + 1; m < own->count; ++m)
+    load_leaf(s, self, items);
+    for (size_t i = 0; i < self->count; ++i)
+        for (size_t m = i + 1; m < self->count; ++m)
             if (!try_pair(s, &items[i], &items[m], found, capacity))
                 return false;
     for (size_t k = 0; k < s->node_count;) {
         const node *const n = &s->nodes[k];
-        if (n->first + n->count <= own->first + own->count ||
-            !boxes_meet(own->lower, own->upper, n->lower, n->upper)) {
+        if (n->first + n->count <= self->first + self->count ||
+            !boxes_meet(self->lower, self->upper, n->lower, n->upper)) {
             k = n->skip;
             continue;
         }
@@ -460,7 +461,7 @@ static bool search_leaf(const search *s, size_t leaf, aur_overlaps *found, size_
         if (n->count > LEAF)
             continue;
         load_leaf(s, n, others);
-        for (size_t i = 0; i < own->count; ++i)
+        for (size_t i = 0; i < self->count; ++i)
             for (size_t m = 0; m < n->count; ++m)
                 if (!try_pair(s, &items[i], &others[m], found, capacity))
                     return false;

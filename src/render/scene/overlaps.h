@@ -79,4 +79,4 @@ size_t aur_planes_mark(const aur_triangle_source *triangles, uint8_t *marks);
 
 /* Gives the instance a separate group with copies of its shapes, all of them meshes in doubles. Errors:
  * MEMORY. */
-aur_result aur_instance_own_group(aur_scene *scene, aur_instance *instance, aur_error *error);
+aur_result aur_instance_separate_group(aur_scene *scene, aur_instance *instance, aur_error *error);

@@ -37,7 +37,7 @@ static aur_shape *copy_shape(const aur_shape *from) {
     return NULL;
 }
 
-aur_result aur_instance_own_group(aur_scene *scene, aur_instance *instance, aur_error *error) {
+aur_result aur_instance_separate_group(aur_scene *scene, aur_instance *instance, aur_error *error) {
     const aur_shape_group *const from = instance->group;
     if (!aur_array_reserve(&scene->groups, &scene->group_capacity, scene->group_count + 1,
                            sizeof *scene->groups) ||

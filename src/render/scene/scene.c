@@ -284,8 +284,8 @@ void aur_scene_destroy(aur_scene *scene) {
 
 aur_result aur_scene_get_description(const aur_scene *scene, aur_scene_description *description,
                                      aur_error *error) {
-    aur_scene_description own = {
-        .size = sizeof own,
+    aur_scene_description made = {
+        .size = sizeof made,
 
         .shapes = scene->shape_count,
         .emitters = scene->emitter_count,
@@ -297,15 +297,15 @@ aur_result aur_scene_get_description(const aur_scene *scene, aur_scene_descripti
         .sampler = scene->sampler,
         .filter = aur_filter_name(scene->film.filter),
     };
-    aur_vector_to_doubles(scene->lower, own.lower);
-    aur_vector_to_doubles(scene->upper, own.upper);
+    aur_vector_to_doubles(scene->lower, made.lower);
+    aur_vector_to_doubles(scene->upper, made.upper);
     for (size_t i = 0; i < 3; ++i) {
-        own.lower[i] += scene->origin[i];
-        own.upper[i] += scene->origin[i];
+        made.lower[i] += scene->origin[i];
+        made.upper[i] += scene->origin[i];
     }
     for (size_t i = 0; i < scene->shape_count; ++i)
-        own.triangles += scene->shapes[i]->mesh.triangle_count;
-    return aur_description_write(&own, sizeof own, description, "aur_scene_description", error);
+        made.triangles += scene->shapes[i]->mesh.triangle_count;
+    return aur_description_write(&made, sizeof made, description, "aur_scene_description", error);
 }
 
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {

@@ -144,11 +144,11 @@ void aur_shape_curved_bounds(const aur_shape *shape, size_t primitive, double lo
     }
     for (size_t i = 0; i < (curves->smooth ? 4u : 2u); ++i) {
         const size_t point = curves->firsts[primitive] + i;
-        const double *const place = &curves->places[3 * point],
+        const double *const center = &curves->places[3 * point],
                             radius = (double)curves->points[4 * point + 3];
         for (size_t d = 0; d < 3; ++d) {
-            lower[d] = place[d] - radius < lower[d] ? place[d] - radius : lower[d];
-            upper[d] = place[d] + radius > upper[d] ? place[d] + radius : upper[d];
+            lower[d] = center[d] - radius < lower[d] ? center[d] - radius : lower[d];
+            upper[d] = center[d] + radius > upper[d] ? center[d] + radius : upper[d];
         }
     }
 }

@@ -143,12 +143,12 @@ static void instance_surface(const aur_instance *instance, const aur_shape *shap
     local.direction = aur_transform_direction_f(&instance->to_local, ray->direction);
     shape_surface(shape, &local, hit, surface);
     surface->position = aur_transform_point_f(&instance->to_world, surface->position);
-    const float own = surface->offset - AUR_LEAST_OFFSET +
-                      instance_rounding(instance, surface->position, surface->geometric_normal);
+    const float local_offset = surface->offset - AUR_LEAST_OFFSET +
+                               instance_rounding(instance, surface->position, surface->geometric_normal);
     const aur_vector normal = aur_transform_normal_f(&instance->to_local, surface->geometric_normal);
     surface->geometric_normal = aur_vector_normalize(normal);
     surface->offset = aur_surface_offset(surface->position, surface->geometric_normal) +
-                      own / aur_larger(aur_vector_length(normal), 1e-30f);
+                      local_offset / aur_larger(aur_vector_length(normal), 1e-30f);
     surface->frame.z = aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->frame.z));
     surface->frame.x = aur_transform_direction_f(&instance->to_world, surface->frame.x);
     surface->frame.y = aur_transform_direction_f(&instance->to_world, surface->frame.y);

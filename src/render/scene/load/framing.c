@@ -169,8 +169,8 @@ static aur_result parse_lookat(aur_scene *scene, size_t count, const double *num
     return AUR_OK;
 }
 
-aur_result aur_stage_place_camera(aur_scene *scene, const char *text, double aspect, bool z_up,
-                                  aur_error *error) {
+aur_result aur_stage_set_camera(aur_scene *scene, const char *text, double aspect, bool z_up,
+                                aur_error *error) {
     double numbers[8];
     const bool flat = strcmp(scene->sensor.descriptor->row.name, "orthographic") == 0;
     if (scene->sensor.part_count > 0 || (!flat && !(scene->sensor.tangent > 0.0f)))

@@ -218,7 +218,7 @@ static aur_result set_camera(stage *self) {
                               ? self->options->aspect
                               : (double)scene->film.width / (double)scene->film.height;
     const aur_result result =
-        aur_stage_place_camera(scene, camera, aspect, self->model->z_up, self->nodes.error);
+        aur_stage_set_camera(scene, camera, aspect, self->model->z_up, self->nodes.error);
     if (result == AUR_OK && added)
         aur_warn_at(self->loader->warnings, self->model->location,
                     "this model has no camera: it is seen from (%.9g, %.9g, %.9g) (--camera)",

@@ -36,8 +36,8 @@ bool aur_stage_bounds(const aur_scene *scene, double lower[3], double upper[3]);
 /* Places the scene's sensor as specified by aur_scene_stage.camera. *turn: the camera's azimuth, in radians
  * from the front to the right; *rise: the elevation. `aspect`: of the image. Errors: ARGUMENT for a text that
  * is not a camera, or not applicable to the sensor. */
-aur_result aur_stage_place_camera(aur_scene *scene, const char *text, double aspect, bool z_up,
-                                  aur_error *error);
+aur_result aur_stage_set_camera(aur_scene *scene, const char *text, double aspect, bool z_up,
+                                aur_error *error);
 /* The axes from the sensor's position. */
 aur_stage_axes aur_stage_axes_of(const aur_scene *scene, bool z_up);
 

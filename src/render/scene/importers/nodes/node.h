@@ -145,7 +145,8 @@ const char *aur_node_variable(aur_nodes *nodes, const char *name, const char *ot
 
 /* Appends a step to the transforms of shapes, light sources and cameras, for `first` and all following
  * siblings. Errors: MEMORY. */
-void aur_nodes_place(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement, bool z_up);
+void aur_nodes_transform(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement,
+                         bool z_up);
 
 /* --- daylight */
 

@@ -67,7 +67,8 @@ static void move(aur_nodes *nodes, aur_xml_node *object, const motion *by) {
     aur_node_set_numbers(nodes, aur_node_add(nodes, to_world, "matrix"), "value", 16, by->m);
 }
 
-void aur_nodes_place(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement, bool z_up) {
+void aur_nodes_transform(aur_nodes *nodes, aur_xml_node *first, const aur_scene_placement *placement,
+                         bool z_up) {
     static const char *const placed[] = {"shape", "emitter", "sensor"};
     const motion by = motion_of(placement, z_up);
     for (aur_xml_node *node = first; node != NULL; node = node->next) {

@@ -441,8 +441,8 @@ static void place(reading *shared, size_t file, const aur_xml_node *last) {
     aur_nodes nodes = {.tree = tree, .error = shared->error};
     for (size_t i = 0; i < stage->placement_count; ++i)
         if (stage->placements[i].file == file && tree->root != NULL)
-            aur_nodes_place(&nodes, last != NULL ? last->next : tree->root->first_child,
-                            &stage->placements[i], aur_xml_is_z_up(shared->document, stage));
+            aur_nodes_transform(&nodes, last != NULL ? last->next : tree->root->first_child,
+                                &stage->placements[i], aur_xml_is_z_up(shared->document, stage));
 }
 
 /* Reads an additional file, as if the main file, `path`, included it at its end. */
