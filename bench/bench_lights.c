@@ -67,7 +67,7 @@ static aur_scene *load_room(size_t lights, bool rows, aur_error *error) {
 }
 
 /* Disables the tree: every light source has the same probability. */
-static bool choose_evenly(aur_scene *scene) {
+static bool choose_uniformly(aur_scene *scene) {
     const size_t count = scene->emitter_count;
     double *const ones = malloc(count * sizeof *ones);
     aur_light_choice_release(&scene->choice);
@@ -125,7 +125,7 @@ static bool compare(const bench_options *options, bool rows, aur_error *error) {
     static const char *const integrators[] = {"path:max_depth=2,hide_emitters=true",
                                               "path:max_depth=6,hide_emitters=true"};
     aur_scene *const tree = load_room(LIGHTS, rows, error), *const even = load_room(LIGHTS, rows, error);
-    bool good = tree != NULL && even != NULL && choose_evenly(even);
+    bool good = tree != NULL && even != NULL && choose_uniformly(even);
     for (size_t i = 0; i < sizeof integrators / sizeof integrators[0] && good; ++i) {
         lit_error by_tree, evenly;
         good = measure(tree, integrators[i], options->quick, &by_tree, error) &&

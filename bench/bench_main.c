@@ -109,7 +109,7 @@ static void print_machine(const bench_options *options) {
 }
 
 /* Restricts the instruction set of our kernels, of Embree's and of child processes. */
-static bool hold_isa(const char *name) {
+static bool restrict_isa(const char *name) {
     aur_error error;
     if (aur_isa_check(name, &error) != AUR_OK)
         return bench_fail("--isa: %s", error.message);
@@ -139,7 +139,7 @@ int main(int argc, char **argv) {
             return 0;
         }
         if (option == 'i') {
-            if (!hold_isa(optarg))
+            if (!restrict_isa(optarg))
                 return 2;
             continue;
         }

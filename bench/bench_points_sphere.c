@@ -24,7 +24,7 @@ static void make_points(void *data) {
 }
 
 /* Marques 2013 eq. 4, implemented directly. */
-static void make_points_obviously(void *data) {
+static void make_points_by_libm(void *data) {
     const points_context *const context = data;
     const double count = (double)context->count;
     for (size_t j = 0; j < context->count; ++j) {
@@ -95,7 +95,7 @@ static bool run_against_loop(const bench_options *options, const char *name, siz
     if (!open_points("spherical-fibonacci", AUR_DOMAIN_SPHERE, &context))
         return false;
     const bench_work fast = {make_points, &context, (double)count};
-    const bench_work obvious = {make_points_obviously, &context, (double)count};
+    const bench_work obvious = {make_points_by_libm, &context, (double)count};
     const bench_pair pair = bench_compare(options, &fast, &obvious);
     bench_print_pair(name, "libm's sin and cos", "Mpoint", 1e6, &pair);
     close_points(&context);

@@ -127,10 +127,10 @@ typedef struct ratios {
 } ratios;
 
 static bool run_room(uint64_t seed, aur_error_measure measure, double error, ratios *sum) {
-    static room made;
-    make_room(seed, &made);
+    static room generated;
+    make_room(seed, &generated);
     aur_scene *scene = NULL;
-    if (aur_scene_load_memory("room.xml", made.used, made.text, NULL, &scene, NULL) != AUR_OK)
+    if (aur_scene_load_memory("room.xml", generated.used, generated.text, NULL, &scene, NULL) != AUR_OK)
         return false;
     double best = INFINITY, chosen_seconds = INFINITY;
     char chosen[256], best_name[32] = "";

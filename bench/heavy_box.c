@@ -34,8 +34,8 @@ static const char scene_light[] =
 static bool write_scene(const char *path, const char *mesh) {
     static const char *const walls[][2] = {
         {"floor-and-ceiling", "white"}, {"back-wall", "white"}, {"red-wall", "red"}, {"green-wall", "green"}};
-    static const char *const places[] = {"x=\"180\" y=\"125.1\" z=\"170\"",
-                                         "x=\"375\" y=\"125.1\" z=\"370\""};
+    static const char *const positions[] = {"x=\"180\" y=\"125.1\" z=\"170\"",
+                                            "x=\"375\" y=\"125.1\" z=\"370\""};
     FILE *const file = fopen(path, "w");
     if (file == NULL)
         return false;
@@ -45,12 +45,12 @@ static bool write_scene(const char *path, const char *mesh) {
                 "<shape type=\"obj\"><string name=\"filename\" value=\"" AUR_SOURCE_DIR
                 "/scenes/cornell-box/meshes/%s.obj\"/><ref id=\"%s\"/></shape>\n",
                 walls[i][0], walls[i][1]);
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i)
+    for (size_t i = 0; i < sizeof positions / sizeof positions[0]; ++i)
         fprintf(file,
                 "<shape type=\"ply\"><string name=\"filename\" value=\"%s\"/><boolean "
                 "name=\"face_normals\" value=\"true\"/><transform name=\"to_world\"><translate %s/>"
                 "</transform><ref id=\"white\"/></shape>\n",
-                mesh, places[i]);
+                mesh, positions[i]);
     fputs(scene_light, file);
     return fclose(file) == 0;
 }

@@ -67,8 +67,8 @@ static void require_error(aur_result result, const aur_error *error) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     uint8_t *const bytes = fuzz_copy(data, size);
     const size_t head = head_size(bytes, size);
-    fuzz_mend_hash(bytes, head);
-    fuzz_mend_hash(bytes + head, size - head);
+    fuzz_correct_hash(bytes, head);
+    fuzz_correct_hash(bytes + head, size - head);
     const char *const path = path_of("kept");
     fuzz_write_file(path, bytes, size);
     free(bytes);

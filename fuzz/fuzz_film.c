@@ -5,7 +5,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     uint8_t *const bytes = fuzz_copy(data, size);
     if (size % 8 == 0)
-        fuzz_mend_hash(bytes, size);
+        fuzz_correct_hash(bytes, size);
     aur_film *film;
     aur_error error = {0};
     char path[64];

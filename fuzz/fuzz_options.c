@@ -13,7 +13,7 @@ int program_main(int argc, char **argv);
 enum { MOST_ARGUMENTS = 32 };
 
 /* Silences the messages about invalid command lines. */
-static int turn_off(int stream) {
+static int silence(int stream) {
     fflush(stderr);
     const int saved = dup(stream), null = open("/dev/null", O_WRONLY);
     fuzz_require(saved >= 0 && null >= 0, "no descriptor");
@@ -22,7 +22,7 @@ static int turn_off(int stream) {
     return saved;
 }
 
-static void turn_on(int stream, int saved) {
+static void restore(int stream, int saved) {
     fflush(stderr);
     dup2(saved, stream);
     close(saved);
@@ -30,7 +30,7 @@ static void turn_on(int stream, int saved) {
 
 /* Reading a limit applies it to the fuzzer itself, so these options are excluded. Options may be abbreviated:
  * --mem 8 is --memory-limit. */
-static bool may_limit(const char *command, const char *argument) {
+static bool is_limit(const char *command, const char *argument) {
     const size_t length = strcspn(argument, "=");
     if (length == strlen("--time") && strcmp(command, "render") == 0)
         return strncmp(argument, "--memory-limit", length) == 0;
@@ -54,13 +54,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const cli_command *const command = count > 0 ? find_command(arguments[0]) : NULL;
     bool limits = false;
     for (int i = 1; i < count; ++i)
-        limits = limits || may_limit(arguments[0], arguments[i]);
+        limits = limits || is_limit(arguments[0], arguments[i]);
     if (command != NULL && !limits) {
         cli_call call = {.commands = commands, .options = calloc(1, command->size + 1)};
         fuzz_require(call.options != NULL, "out of memory");
-        const int saved = turn_off(STDERR_FILENO);
+        const int saved = silence(STDERR_FILENO);
         const bool good = cli_read_options(command, count, arguments, &call);
-        turn_on(STDERR_FILENO, saved);
+        restore(STDERR_FILENO, saved);
         for (size_t i = 0; good && i < call.operand_count; ++i)
             fuzz_require(call.operands[i] != NULL, "an operand that is none");
         const cli_option *option;

@@ -17,7 +17,7 @@ static aur_scene *load_room(void) {
 }
 
 /* Looks up at the hit points of rays in all directions. */
-static void look_around(const aur_irradiance_map *map, const aur_scene *scene) {
+static void look_up_all(const aur_irradiance_map *map, const aur_scene *scene) {
     for (size_t i = 0; i < 64; ++i) {
         const float z = 1.0f - (float)(2 * i + 1) / 64.0f, r = sqrtf(1.0f - z * z);
         const float turn = 2.4f * (float)i;
@@ -39,7 +39,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_scene *const scene = load_room();
     aur_irradiance_map *const map = aur_irradiance_map_unpack(scene, size, data);
     if (map != NULL) {
-        look_around(map, scene);
+        look_up_all(map, scene);
         size_t packed;
         void *const bytes = aur_irradiance_map_pack(map, &packed);
         fuzz_require(packed == size && memcmp(bytes, data, size) == 0, "what is packed again is another map");

@@ -28,7 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_scene *const scene = load_room();
     uint8_t *const copy = fuzz_copy(data, size);
     if (size > MAGIC_LENGTH)
-        fuzz_mend_hash(copy + MAGIC_LENGTH, size - MAGIC_LENGTH);
+        fuzz_correct_hash(copy + MAGIC_LENGTH, size - MAGIC_LENGTH);
     fuzz_write_file(path_of("rad"), copy, size);
     free(copy);
     aur_radiosity *radiosity = NULL;

@@ -57,11 +57,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     aur_weight_table *table;
     aur_error error = {0};
-    const unsigned asked = size > 0 ? data[size - 1] % 8 : 0;
-    const aur_oswa_options expected = options_of(asked % 4);
+    const unsigned requested = size > 0 ? data[size - 1] % 8 : 0;
+    const aur_oswa_options expected = options_of(requested % 4);
     fuzz_write_file(input_path(), (const uint8_t *)text, size);
     const aur_result result =
-        aur_weight_table_load(input_path(), asked < 4 ? &expected : NULL, &table, &error);
+        aur_weight_table_load(input_path(), requested < 4 ? &expected : NULL, &table, &error);
     unlink(input_path());
     if (result != AUR_OK) {
         fuzz_require(table == NULL, "a failed read left a table");

@@ -14,7 +14,7 @@ static inline uint64_t fuzz_word_at(const uint8_t *bytes) {
 
 /* Replaces the last word of bytes[size] by the hash of the words before it; an incomplete word is unchanged.
  */
-static inline void fuzz_mend_hash(uint8_t *bytes, size_t size) {
+static inline void fuzz_correct_hash(uint8_t *bytes, size_t size) {
     uint64_t hash = 0;
     size_t at = 0;
     for (; at + 16 <= size; at += 8)

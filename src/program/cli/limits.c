@@ -27,7 +27,7 @@ static aur_result limit_memory(const char *text, void *field, aur_error *error) 
 }
 
 /* A signal handler: only async-signal-safe functions are allowed. */
-static void end_of_time(int signal_number) {
+static void on_time_limit(int signal_number) {
     static const char words[] = "aureole: stopped by --time-limit\n";
     (void)signal_number;
     enum { STATUS = CLI_FAILURE };
@@ -44,7 +44,7 @@ static aur_result limit_time(const char *text, void *field, aur_error *error) {
         return result;
     struct sigaction action;
     memset(&action, 0, sizeof action);
-    action.sa_handler = end_of_time;
+    action.sa_handler = on_time_limit;
     sigaction(SIGALRM, &action, NULL);
     const double most = 1e9, least = 1e-3;
     const double span = fmin(fmax(seconds, least), most);
@@ -55,7 +55,7 @@ static aur_result limit_time(const char *text, void *field, aur_error *error) {
 }
 
 /* The libraries get the setting from the environment. */
-static aur_result leave_cache(const char *text, void *field, aur_error *error) {
+static aur_result disable_cache(const char *text, void *field, aur_error *error) {
     (void)text;
     (void)field;
     return setenv("AUREOLE_CACHE", "", 1) == 0 ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
@@ -63,7 +63,7 @@ static aur_result leave_cache(const char *text, void *field, aur_error *error) {
 
 const cli_option cli_cache_option[] = {
     {CLI_FLAG(cli_common, no_cache, "no-cache", "neither read nor write the cache folder"),
-     .parse = leave_cache},
+     .parse = disable_cache},
     {.key = {0}}};
 
 const cli_option cli_limits_option[] = {

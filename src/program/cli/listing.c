@@ -8,10 +8,10 @@
 enum { LINE_WIDTH = 80, WIDEST_NAME = 22 };
 
 /* The length of the next word, or of the part of a list without spaces that fits in a line. */
-static size_t word_length(const char *text, size_t room) {
+static size_t word_length(const char *text, size_t space) {
     const size_t length = strcspn(text, " \n");
     size_t fitting = length;
-    while (length > room && fitting > 0 && (fitting > room || text[fitting - 1] != ','))
+    while (length > space && fitting > 0 && (fitting > space || text[fitting - 1] != ','))
         --fitting;
     return fitting > 0 ? fitting : length;
 }

@@ -115,8 +115,9 @@ static bool is_texture(const char *name) {
 static void note_extra_textures(const json_value *gltf) {
     char names[400] = "";
     for (const json_value *item = first_of(gltf, "materials"); item != NULL; item = item->next)
-        for (const json_value *own = first_of(item, "extensions"); own != NULL; own = own->next)
-            for (const json_value *value = own->first; value != NULL; value = value->next) {
+        for (const json_value *extension_node = first_of(item, "extensions"); extension_node != NULL;
+             extension_node = extension_node->next)
+            for (const json_value *value = extension_node->first; value != NULL; value = value->next) {
                 const size_t length = strlen(names);
                 if (value->name == NULL || !is_texture(value->name) || is_read(value->name) ||
                     strstr(names, value->name) != NULL)

@@ -100,7 +100,7 @@ static bool is_group(writer *self, unsigned mesh) {
     return self->mesh_uses[mesh] > 1 && !writer_shines(self, self->scene->mMeshes[mesh]->mMaterialIndex);
 }
 
-static void place_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
+static void write_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
     if (self->mesh_file[index] == NO_FILE)
         return;
     if (!is_group(self, index)) {
@@ -161,7 +161,7 @@ static void put_spot(writer *self, triple origin, triple direction) {
     writer_close(self);
 }
 
-static void place_light(writer *self, const struct aiLight *light, const writer_matrix *to_world) {
+static void write_light(writer *self, const struct aiLight *light, const writer_matrix *to_world) {
     const triple origin = apply_vector(to_world, light->mPosition, 1.0);
     const triple direction = normalize(apply_vector(to_world, light->mDirection, 0.0));
     switch (light->mType) {
@@ -205,7 +205,7 @@ static double angle_across(const writer *self, const struct aiCamera *camera) {
 }
 
 /* Without an aspect ratio the angle is vertical. */
-static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
+static void write_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
     aur_import_camera *const view = &self->camera;
     if (view->is_there != 0) {
         ++self->further_cameras;
@@ -227,19 +227,19 @@ static void place_camera(writer *self, const struct aiCamera *camera, const writ
 /* --- the tree */
 
 /* Lights and cameras take the transform of the node with their name. */
-static void place_named(writer *self, const struct aiNode *node, const writer_matrix *to_world) {
+static void write_named(writer *self, const struct aiNode *node, const writer_matrix *to_world) {
     const struct aiScene *const scene = self->scene;
     for (unsigned i = 0; i < scene->mNumLights; ++i)
         if (strcmp(scene->mLights[i]->mName.data, node->mName.data) == 0)
-            place_light(self, scene->mLights[i], to_world);
+            write_light(self, scene->mLights[i], to_world);
     for (unsigned i = 0; i < scene->mNumCameras; ++i)
         if (strcmp(scene->mCameras[i]->mName.data, node->mName.data) == 0)
-            place_camera(self, scene->mCameras[i], to_world);
+            write_camera(self, scene->mCameras[i], to_world);
 }
 
 static const writer_matrix unmoved = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
-static void place_node(writer *self, const struct aiNode *node, const gltf_node *exact,
+static void write_node(writer *self, const struct aiNode *node, const gltf_node *exact,
                        const writer_matrix *outer) {
     const writer_matrix to_world = below(outer, node, exact);
     double(*copies)[16];
@@ -248,20 +248,20 @@ static void place_node(writer *self, const struct aiNode *node, const gltf_node 
         const writer_matrix copy_to_world = count > 0 ? multiply(&to_world, copies[k]) : to_world;
         for (unsigned i = 0; i < node->mNumMeshes; ++i) {
             const bool skinned = self->skinned && self->scene->mMeshes[node->mMeshes[i]]->mNumBones > 0;
-            place_mesh(self, node->mMeshes[i], skinned ? &unmoved : &copy_to_world);
+            write_mesh(self, node->mMeshes[i], skinned ? &unmoved : &copy_to_world);
         }
     }
     free(copies);
-    place_named(self, node, &to_world);
+    write_named(self, node, &to_world);
     for (unsigned i = 0; i < node->mNumChildren; ++i)
-        place_node(self, node->mChildren[i], gltf_child(self, exact, i), &to_world);
+        write_node(self, node->mChildren[i], gltf_child(self, exact, i), &to_world);
 }
 
 void writer_put_nodes(writer *self) {
     const gltf_node *const root = gltf_root(self, self->scene->mRootNode);
     count_uses(self, self->scene->mRootNode, root);
     put_groups(self);
-    place_node(self, self->scene->mRootNode, root, &unmoved);
+    write_node(self, self->scene->mRootNode, root, &unmoved);
     if (self->further_cameras > 0)
         writer_note("the first of %u cameras is used", self->further_cameras + 1);
 }

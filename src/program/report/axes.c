@@ -56,9 +56,9 @@ report_ruler report_make_ruler(const report_panel *panel, bool of_y, double from
         return r;
     if (!(r.low <= r.high))
         r.low = r.high = 0.0;
-    const double room = r.high > r.low ? 0.05 * (r.high - r.low) : r.log ? 0.1 : 0.05 * fabs(r.high) + 1e-9;
-    r.low -= room;
-    r.high += room;
+    const double margin = r.high > r.low ? 0.05 * (r.high - r.low) : r.log ? 0.1 : 0.05 * fabs(r.high) + 1e-9;
+    r.low -= margin;
+    r.high += margin;
     return r;
 }
 

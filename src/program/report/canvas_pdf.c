@@ -6,7 +6,7 @@
 #include "program/report/canvas.h"
 
 /* 100 pixels are an inch. */
-static double points_a_pixel(const report_canvas *c) {
+static double points_per_pixel(const report_canvas *c) {
     return 0.72 * (c->scale_by > 0.0 ? c->scale_by : 1.0);
 }
 
@@ -31,7 +31,7 @@ static void begin(report_canvas *c) {
     aur_print(c->to,
               "<< /Type /Page /Parent %d 0 R /MediaBox [0 0 %.2f %.2f] /Contents %d 0 R\n"
               "/Resources << /Font << /F %d 0 R >> >> >>\nendobj\n",
-              PAGES, points_a_pixel(c) * c->width, points_a_pixel(c) * c->height, CONTENTS, FONT);
+              PAGES, points_per_pixel(c) * c->width, points_per_pixel(c) * c->height, CONTENTS, FONT);
     begin_object(c, FONT);
     fprintf(c->to, "<< /Type /Font /Subtype /Type1 /BaseFont /%s /Encoding /WinAnsiEncoding >>\nendobj\n",
             c->font != NULL ? c->font : "Helvetica");
@@ -39,8 +39,8 @@ static void begin(report_canvas *c) {
     fprintf(c->to, "<< /Length %d 0 R >>\nstream\n", LENGTH);
     c->offsets[0] = position(c);
     /* Coordinates in pixels from the upper left corner. */
-    aur_print(c->to, "%g 0 0 %g 0 %.2f cm\n1 J 1 j\n", points_a_pixel(c), -points_a_pixel(c),
-              points_a_pixel(c) * c->height);
+    aur_print(c->to, "%g 0 0 %g 0 %.2f cm\n1 J 1 j\n", points_per_pixel(c), -points_per_pixel(c),
+              points_per_pixel(c) * c->height);
 }
 
 static void use(report_canvas *c, const report_pen *pen) {

@@ -59,12 +59,12 @@ aur_result report_load(const char *path, report_table **table, char **notes, aur
     size_t size, capacity = 0, number = 0;
     FILE *const comments = notes != NULL ? open_memstream(notes, &size) : NULL;
     char *line = NULL;
-    bool well = loaded != NULL && (comments != NULL || notes == NULL);
-    while (well && getline(&line, &capacity, file) >= 0) {
+    bool good = loaded != NULL && (comments != NULL || notes == NULL);
+    while (good && getline(&line, &capacity, file) >= 0) {
         ++number;
         line[strcspn(line, "\n")] = '\0';
         if (line[0] != '#')
-            well = add_line(loaded, line);
+            good = add_line(loaded, line);
         else if (comments != NULL)
             fprintf(comments, "%s\n", line + strspn(line, "# "));
     }
@@ -72,7 +72,7 @@ aur_result report_load(const char *path, report_table **table, char **notes, aur
     fclose(file);
     if (comments != NULL)
         fclose(comments);
-    if (well && report_columns(loaded) > 0) {
+    if (good && report_columns(loaded) > 0) {
         *table = loaded;
         return AUR_OK;
     }

@@ -197,7 +197,8 @@ static bool start(watch_display *display) {
     return started;
 }
 
-aur_result watch_display_create(const char *where, const char *name, watch_display **made, aur_error *error) {
+aur_result watch_display_create(const char *where, const char *name, watch_display **created,
+                                aur_error *error) {
     watch_endpoint endpoint = {.host = "127.0.0.1", .port = DEFAULT_PORT};
     int connection = -1;
     aur_result result = watch_endpoint_parse("display-server", where, &endpoint, error);
@@ -217,7 +218,7 @@ aur_result watch_display_create(const char *where, const char *name, watch_displ
         close(connection);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     }
-    *made = display;
+    *created = display;
     return AUR_OK;
 }
 

@@ -69,15 +69,15 @@ static aur_result open_socket(const char *option, const watch_endpoint *endpoint
                         status == EAI_SYSTEM ? strerror(errno) : gai_strerror(status));
     int result = -1, why = 0;
     for (const struct addrinfo *at = found; at != NULL && result < 0; at = at->ai_next) {
-        const int made = socket(at->ai_family, at->ai_socktype, at->ai_protocol);
-        if (made >= 0 && fcntl(made, F_SETFD, FD_CLOEXEC) == 0 &&
-            action(made, at->ai_addr, at->ai_addrlen) == 0) {
-            result = made;
+        const int opened = socket(at->ai_family, at->ai_socktype, at->ai_protocol);
+        if (opened >= 0 && fcntl(opened, F_SETFD, FD_CLOEXEC) == 0 &&
+            action(opened, at->ai_addr, at->ai_addrlen) == 0) {
+            result = opened;
             continue;
         }
         why = errno;
-        if (made >= 0)
-            close(made);
+        if (opened >= 0)
+            close(opened);
     }
     freeaddrinfo(found);
     if (result < 0)

@@ -16,7 +16,7 @@ typedef struct watch_options {
 } watch_options;
 
 /* Errors: ARGUMENT (invalid address), OPEN (cannot listen or connect), MEMORY. */
-aur_result watch_create(const watch_options *options, watch_session **made, aur_error *error);
+aur_result watch_create(const watch_options *options, watch_session **created, aur_error *error);
 /* A rotation of the camera by the page: degrees to the right and up, and a factor on the distance. */
 typedef struct watch_turn {
     double azimuth, elevation, distance;

@@ -85,12 +85,12 @@ static size_t processors(const schedule *plan) {
 static void announce(const schedule *plan, size_t index) {
     if (plan->command->common.quiet || plan->count == 1 || aur_ranks_rank() != 0)
         return;
-    char own[32], left[32];
+    char this_one[32], left[32];
     const double pace = plan->spent_expected > 0.0 ? plan->spent / plan->spent_expected : 1.0;
-    cli_lab_duration(pace * expected_of(plan, plan->experiments[index]), own);
+    cli_lab_duration(pace * expected_of(plan, plan->experiments[index]), this_one);
     cli_lab_duration(pace * (plan->expected - plan->spent_expected), left);
     fprintf(stderr, "aureole: [%zu/%zu] %s: about %s of processor time; all that remain: %s\n", index + 1,
-            plan->count, plan->experiments[index]->name, own, left);
+            plan->count, plan->experiments[index]->name, this_one, left);
 }
 
 static void summarize(schedule *plan, const lab_experiment *experiment, const lab_result *result,
@@ -202,9 +202,9 @@ static int check_set(const char *set) {
     aur_points_destroy(points);
     /* a file of this size is not required */
     const bool sized = cli_is_sized_file(set) && has_some_size(set);
-    const bool wrong =
+    const bool invalid =
         result == AUR_ERROR_NAME || result == AUR_ERROR_FORMAT || (result == AUR_ERROR_OPEN && !sized);
-    return wrong ? cli_fail(&error) : CLI_SUCCESS;
+    return invalid ? cli_fail(&error) : CLI_SUCCESS;
 }
 
 static void estimate(schedule *plan) {

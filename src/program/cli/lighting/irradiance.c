@@ -224,18 +224,18 @@ static void find_format(const cli_call *call, irradiance_command *given) {
 /* False, with a message, if options conflict. */
 static bool check(const cli_call *call) {
     const irradiance_command *const given = call->options;
-    const char *wrong = NULL;
+    const char *conflict = NULL;
     if (given->sensors == NULL && given->grid.target == NULL)
-        wrong = "irradiance: no sensors given: expected --sensors POINTS or --grid SURFACE:SPACING";
+        conflict = "irradiance: no sensors given: expected --sensors POINTS or --grid SURFACE:SPACING";
     else if (given->sensors != NULL && given->grid.target != NULL)
-        wrong = "irradiance: --sensors cannot be used with --grid";
+        conflict = "irradiance: --sensors cannot be used with --grid";
     else if (given->grid.margin > 0.0 && given->grid.target == NULL)
-        wrong = "irradiance: --margin needs --grid";
+        conflict = "irradiance: --margin needs --grid";
     else if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
-        wrong = "irradiance: --particles needs --reflected map or radiosity";
-    if (wrong != NULL)
-        cli_bad_usage("%s", wrong);
-    return wrong == NULL && cli_daylight_check(call) && cli_sky_check(call);
+        conflict = "irradiance: --particles needs --reflected map or radiosity";
+    if (conflict != NULL)
+        cli_bad_usage("%s", conflict);
+    return conflict == NULL && cli_daylight_check(call) && cli_sky_check(call);
 }
 
 /* Options of the scene loader. */
@@ -320,13 +320,13 @@ static void warn_of_positions(const irradiance_command *given, const aur_scene *
     }
     if (count == 0 || !(extent > 0.0) || warnings.function == NULL)
         return;
-    char text[AUR_ERROR_FILE_CAPACITY + 160], place[32] = "";
+    char text[AUR_ERROR_FILE_CAPACITY + 160], line_suffix[32] = "";
     if (sensors->lines != NULL)
-        aur_format(place, sizeof place, ":%zu", sensors->lines[first]);
+        aur_format(line_suffix, sizeof line_suffix, ":%zu", sensors->lines[first]);
     aur_format(text, sizeof text,
                "%s%s: %zu of %zu sensors are more than ten times the size of the scene away from it (the "
                "first is here): check the units",
-               sensors->file != NULL ? sensors->file : "sensors", place, count, sensors->count);
+               sensors->file != NULL ? sensors->file : "sensors", line_suffix, count, sensors->count);
     warnings.function(warnings.user, text);
 }
 

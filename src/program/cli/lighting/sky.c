@@ -6,7 +6,7 @@
 #include "program/cli/lighting/irradiance.h"
 
 /* Parses FILE@X,Y,Z[,AIMX,AIMY,AIMZ[,TURN]]; the field is the number of luminaires. */
-static aur_result parse_lamp(const char *text, void *field, aur_error *error) {
+static aur_result parse_luminaire(const char *text, void *field, aur_error *error) {
     cli_sky *const given = (cli_sky *)(void *)((char *)field - offsetof(cli_sky, lamp_count));
     char *const at = strrchr(text, '@');
     double n[7] = {0.0};
@@ -27,7 +27,7 @@ const cli_option cli_sky_options[] = {
     {CLI_TEXT(cli_sky, lamp_count, "lamp", "FILE@X,Y,Z[,AIM[,TURN]]", NULL,
               "add a luminaire from an IES or EULUMDAT file at a position; AIM is a direction X,Y,Z (down by "
               "default); may be repeated"),
-     .parse = parse_lamp},
+     .parse = parse_luminaire},
     {CLI_TEXT(cli_sky, sky.model, "sky", "MODEL", NULL,
               "add a sky: cie-overcast, cie-clear, cie:1 to cie:15, uniform, or perez:DNI,DHI (W/m2), which "
               "includes the sun")},

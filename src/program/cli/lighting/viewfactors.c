@@ -101,22 +101,22 @@ static bool is_radiosity(const cli_call *call) {
 static bool options_fit(const cli_call *call) {
     factor_command *const given = call->options;
     const bool radiosity = is_radiosity(call);
-    const char *wrong = NULL;
+    const char *conflict = NULL;
     if (given->matrix_free && !radiosity)
-        wrong = "--matrix-free needs --radiosity RHO or --surfaces";
+        conflict = "--matrix-free needs --radiosity RHO or --surfaces";
     else if (given->matrix_free && given->factors.error > 0.0)
-        wrong = "--error cannot be used with --matrix-free";
+        conflict = "--error cannot be used with --matrix-free";
     else if (given->script && cli_given(call, "radiosity") != NULL)
-        wrong = "--script-f cannot be used with --radiosity";
+        conflict = "--script-f cannot be used with --radiosity";
     else if (given->surfaces != NULL && cli_given(call, "radiosity") != NULL)
-        wrong = "--surfaces has the reflectances: --radiosity cannot be used";
+        conflict = "--surfaces has the reflectances: --radiosity cannot be used";
     else if (given->surfaces != NULL && cli_given(call, "emission") != NULL)
-        wrong = "--surfaces has the emissions: --emission cannot be used";
+        conflict = "--surfaces has the emissions: --emission cannot be used";
     else if (radiosity && given->format != NULL)
-        wrong = "--radiosity and --surfaces write CSV: --to cannot be used";
-    if (wrong != NULL)
-        cli_bad_usage("viewfactors: %s", wrong);
-    return wrong == NULL && (radiosity || find_format(given));
+        conflict = "--radiosity and --surfaces write CSV: --to cannot be used";
+    if (conflict != NULL)
+        cli_bad_usage("viewfactors: %s", conflict);
+    return conflict == NULL && (radiosity || find_format(given));
 }
 
 /* The light sources: the sky unless others are given. */

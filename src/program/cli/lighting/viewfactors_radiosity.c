@@ -76,14 +76,14 @@ int cli_viewfactors_radiosity(const aur_facets *facets, const aur_view_factors_o
     if (result == AUR_OK && !matrix_free)
         result = aur_view_factors_create(facets, options, &factors, &error);
     if (result == AUR_OK) {
-        aur_facets_radiosities wanted = {.size = sizeof wanted};
-        aur_facets_radiosities_init(&wanted, NULL);
-        wanted.sky = numbers + SKY * rows;
-        wanted.radiosity = numbers + RADIOSITY * rows;
-        wanted.half_widths = numbers + HALF_WIDTH * rows;
-        wanted.incoming = numbers + INCOMING * rows;
-        wanted.incoming_half_widths = numbers + INCOMING_HALF_WIDTH * rows;
-        result = aur_view_factors_solve(facets, factors, options, light, &wanted, &error);
+        aur_facets_radiosities outputs = {.size = sizeof outputs};
+        aur_facets_radiosities_init(&outputs, NULL);
+        outputs.sky = numbers + SKY * rows;
+        outputs.radiosity = numbers + RADIOSITY * rows;
+        outputs.half_widths = numbers + HALF_WIDTH * rows;
+        outputs.incoming = numbers + INCOMING * rows;
+        outputs.incoming_half_widths = numbers + INCOMING_HALF_WIDTH * rows;
+        result = aur_view_factors_solve(facets, factors, options, light, &outputs, &error);
     }
     cli_progress_clear();
     if (result == AUR_OK && is_named(output, "netsw.inp"))

@@ -226,12 +226,12 @@ static bool is_udales(const char *path, size_t *name) {
 static int read_udales(const char *path, size_t name, const aur_facets *facets, cli_surfaces *properties) {
     facet_types types = {.count = 0};
     facet_rows rows = {.types = &types, .count = aur_facets_rows(facets), .properties = properties};
-    char beside[1024];
-    const int length = snprintf(beside, sizeof beside, "%.*sfactypes.inp%s", (int)name, path,
+    char types_path[1024];
+    const int length = snprintf(types_path, sizeof types_path, "%.*sfactypes.inp%s", (int)name, path,
                                 path + name + sizeof UDALES - 1);
-    if (length >= (int)sizeof beside)
+    if (length >= (int)sizeof types_path)
         return cli_bad_usage("%s: the path is too long", path);
-    int status = read_lines(beside, ALBEDO + 1, use_type, &types);
+    int status = read_lines(types_path, ALBEDO + 1, use_type, &types);
     if (status == CLI_SUCCESS)
         status = read_lines(path, 1, use_facet, &rows);
     if (status == CLI_SUCCESS && rows.row != rows.count)

@@ -33,7 +33,7 @@ static size_t choose_views(const aur_points_view *points, view views[PANELS]) {
 }
 
 /* The points on the near or the far side of a panel. */
-static size_t place(const aur_points_view *points, const view *to, bool near, report_point *placed) {
+static size_t project(const aur_points_view *points, const view *to, bool near, report_point *projected) {
     const double radius = fmin(fmax(0.22 * (SIDE - MARGINS) / sqrt((double)points->count), 0.6), 4.0);
     size_t count = 0;
     for (size_t i = 0; i < points->count; ++i) {
@@ -41,9 +41,9 @@ static size_t place(const aur_points_view *points, const view *to, bool near, re
         const bool is_near = to->depth_sign == 0.0 || at[to->depth] * to->depth_sign >= 0.0;
         const double weight = points->weights != NULL ? points->weights[i] * (double)points->count : 1.0;
         if (is_near == near)
-            placed[count++] = (report_point){.x = at[to->across],
-                                             .y = points->dimension == 1 ? 0.5 : at[to->up],
-                                             .size = radius * fmin(sqrt(fmax(weight, 0.0)), 6.0)};
+            projected[count++] = (report_point){.x = at[to->across],
+                                                .y = points->dimension == 1 ? 0.5 : at[to->up],
+                                                .size = radius * fmin(sqrt(fmax(weight, 0.0)), 6.0)};
     }
     return count;
 }
@@ -57,13 +57,14 @@ aur_result cli_draw_points(const char *path, const char *format, const aur_point
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a plot shows at most %d points (found %zu): use --count",
                         POINT_LIMIT, points->count);
     const size_t panel_count = choose_views(points, views);
-    report_point *const placed = malloc((panel_count * points->count + 1) * sizeof *placed), *next = placed;
-    if (placed == NULL)
+    report_point *const projected = malloc((panel_count * points->count + 1) * sizeof *projected),
+                        *next = projected;
+    if (projected == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the image");
     for (size_t p = 0; p < panel_count; ++p) {
         const report_axis axis = {.low = views[p].round ? -1.0 : 0.0, .high = 1.0};
         for (size_t near = 0; near < 2; ++near) {
-            const size_t count = place(points, &views[p], near != 0, next);
+            const size_t count = project(points, &views[p], near != 0, next);
             series[p][near] = (report_series){.parts = REPORT_DOTS,
                                               .ink = near != 0 ? REPORT_INK_TEXT : REPORT_INK_PALE,
                                               .count = count,
@@ -82,6 +83,6 @@ aur_result cli_draw_points(const char *path, const char *format, const aur_point
     const report_figure figure = {
         .width = SIDE, .height = SIDE, .columns = panel_count, .panel_count = panel_count, .panels = panels};
     const aur_result result = report_figure_save(path, format, &figure, error);
-    free(placed);
+    free(projected);
     return result;
 }

@@ -58,7 +58,7 @@ static int find(const nearest_command *command, const aur_points_view *points,
 
 /* If only the coordinates of one file determine its domain, it gets the other's; the hemisphere is part of
  * the sphere. */
-static void agree(aur_points_view *a, aur_points_view *b) {
+static void match_domains(aur_points_view *a, aur_points_view *b) {
     aur_points_view *const views[] = {a, b};
     for (size_t i = 0; i < 2; ++i) {
         const aur_domain other = views[1 - i]->domain;
@@ -90,7 +90,7 @@ static int run(const cli_call *call) {
     if (result == AUR_OK)
         result = cli_load_points(source, &command->from, command->count, &points, &point_view, &error);
     if (result == AUR_OK)
-        agree(&point_view, &query_view);
+        match_domains(&point_view, &query_view);
     const int status = result == AUR_OK ? find(command, &point_view, &query_view) : cli_fail(&error);
     aur_points_destroy(points);
     aur_points_destroy(queries);

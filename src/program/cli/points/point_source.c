@@ -87,14 +87,14 @@ static aur_result load(const char *text, const cli_points *from, size_t count, a
     const aur_domain domain = from->options.domain;
     if (cli_is_file(text)) {
         const aur_result result = aur_points_read(text, from->domain_given ? &domain : NULL, points, error);
-        const size_t held = result == AUR_OK ? aur_points_get_view(*points)->count : count;
-        if (count == 0 || held == count)
+        const size_t available = result == AUR_OK ? aur_points_get_view(*points)->count : count;
+        if (count == 0 || available == count)
             return result;
         aur_points_destroy(*points);
         *points = NULL;
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "%s has %zu points, not %zu: omit -n, or use file:PATH to take the first ones", text,
-                        held, count);
+                        available, count);
     }
     aur_directions_options options = from->options;
     options.size = sizeof options;

@@ -80,7 +80,7 @@ static bool choose_format(points_command *command, bool format_given) {
 }
 
 /* Values that follow from the set and the file name unless they are given. */
-static bool complete(const cli_call *call) {
+static bool derive_options(const cli_call *call) {
     points_command *const command = call->options;
     bool domain_given = cli_given(call, "domain") != NULL;
     if (cli_given(call, "size") == NULL && !cli_has_size(call->operands[0])) {
@@ -148,20 +148,20 @@ static int change_points(const points_command *command, aur_points_view *points,
     *changed = malloc((from + 10) * count * sizeof **changed);
     if (*changed == NULL)
         return out_of_memory();
-    double *const kept = *changed + (command->matrices ? 9 * count : 0);
+    double *const copied = *changed + (command->matrices ? 9 * count : 0);
     double *const weights = points->weights != NULL ? *changed + (from + 9) * count : NULL;
     for (size_t i = 0; i < from * count; ++i)
-        kept[i] = points->coordinates[i / from * points->stride + i % from];
+        copied[i] = points->coordinates[i / from * points->stride + i % from];
     if (weights != NULL)
         memcpy(weights, points->weights, count * sizeof *weights);
     if (symmetry.given)
-        points->count = from == 3 ? aur_point_group_select(&symmetry.group, count, kept, weights)
-                                  : aur_symmetry_select(symmetry.crystal, count, kept);
+        points->count = from == 3 ? aur_point_group_select(&symmetry.group, count, copied, weights)
+                                  : aur_symmetry_select(symmetry.crystal, count, copied);
     if (points->count == 0)
         return cli_bad_usage("--symmetry: no point is in the fundamental region: take a larger -n");
     for (size_t i = 0; i < points->count && command->matrices; ++i) {
         aur_rotation rotation;
-        aur_rotation_from_quaternion(kept + 4 * i, &rotation);
+        aur_rotation_from_quaternion(copied + 4 * i, &rotation);
         memcpy(*changed + 9 * i, rotation.m, sizeof rotation.m);
     }
     points->coordinates = *changed;
@@ -212,7 +212,7 @@ static void warn_below(const points_command *command, const aur_points_view *vie
 static int run(const cli_call *call) {
     points_command *const command = call->options;
     const char *const set = call->operands[0];
-    if (!complete(call))
+    if (!derive_options(call))
         return CLI_BAD_INPUT;
     command->from.options.size = sizeof command->from.options;
     command->from.options.warnings = cli_warnings(command->common.quiet);

@@ -35,13 +35,13 @@ int cli_weights_plot(const cli_weights_arguments *arguments, const cli_weights_r
     const double reach = sqrt(1.0 - lowest);
     const report_axis axis = {.low = -1.05, .high = 1.05};
     for (size_t k = 0; k < result->lobe_count; ++k) {
-        report_point *const own = points + k * result->count;
-        project(result, k, reach, own);
+        report_point *const lobe_points = points + k * result->count;
+        project(result, k, reach, lobe_points);
         snprintf(titles[k], sizeof titles[k], "%s, %zu samples, weights for %s: %s",
                  cli_is_file(arguments->source) ? "file" : arguments->source, result->count,
                  k == 0 ? arguments->lobe_text : arguments->mirror_text, arguments->method_name);
         series[k] = (report_series){
-            .parts = REPORT_DOTS, .ink = REPORT_INK_SCALE, .count = result->count, .points = own};
+            .parts = REPORT_DOTS, .ink = REPORT_INK_SCALE, .count = result->count, .points = lobe_points};
         panels[k] = (report_panel){.title = titles[k],
                                    .x = axis,
                                    .y = axis,

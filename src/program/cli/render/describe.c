@@ -53,8 +53,7 @@ static int describe_scene(const cli_info_input *input, const cli_info_options *o
     return cli_finish(facts, options->common.format);
 }
 
-static int describe_picture(const cli_info_input *input, const char *format,
-                            const cli_info_options *options) {
+static int describe_image(const cli_info_input *input, const char *format, const cli_info_options *options) {
     aur_image *image;
     aur_error error;
     const aur_result read = input->data != NULL
@@ -90,7 +89,7 @@ bool cli_describe_rendered(const cli_info_input *input, size_t size, const char 
                            const cli_info_options *options, int *status) {
     const char *const format = aur_image_format_of(size, start);
     if (format != NULL)
-        *status = describe_picture(input, format, options);
+        *status = describe_image(input, format, options);
     else if (is_xml(size, start) || aur_scene_is_name(input->path))
         *status = describe_scene(input, options);
     else

@@ -73,9 +73,9 @@ static bool find_contours(const report_point *cells, double high, report_contour
         for (size_t i = 0; i < lines->across; ++i)
             values[j * lines->across + i] = cells[(lines->up - 1 - j) * lines->across + i].value;
     lines->values = values;
-    const bool well = values != NULL && report_find_contours(high, LONGEST, lines);
+    const bool good = values != NULL && report_find_contours(high, LONGEST, lines);
     free(values);
-    return well;
+    return good;
 }
 
 aur_result cli_image_map(const char *path, const aur_image *image, double scale, bool contours,

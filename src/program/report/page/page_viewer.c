@@ -84,8 +84,8 @@ aur_result report_put_image(FILE *page, const report_image *viewed, aur_error *e
     if (allocated)
         lay_out(viewed, channels, channel_count, bytes);
     const int level = viewed->quick ? Z_BEST_SPEED : Z_BEST_COMPRESSION;
-    const bool well = allocated && compress2(packed, &packed_size, bytes, size, level) == Z_OK;
-    if (well) {
+    const bool good = allocated && compress2(packed, &packed_size, bytes, size, level) == Z_OK;
+    if (good) {
         aur_json json = {.stream = page};
         aur_json_open(&json, '{', false);
         aur_json_name(&json, "width");
@@ -106,7 +106,7 @@ aur_result report_put_image(FILE *page, const report_image *viewed, aur_error *e
     }
     free(bytes);
     free(packed);
-    return well ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    return good ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
 }
 
 aur_result report_page_viewer(FILE *page, const char *title, double exposure, const char *unit, size_t count,
